@@ -1,0 +1,52 @@
+# Options, warnings and the helper that makes every library of the project the same way.
+
+option(BUILD_SHARED_LIBS "Build shared libraries" OFF)
+option(PARKING_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(PARKING_BUILD_BENCHMARKS "Build parking_plan, parking_benchmark and the micro-benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(PARKING_BUILD_EXAMPLES "Build the example programs" ${PROJECT_IS_TOP_LEVEL})
+option(PARKING_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+set(PARKING_SANITIZER "" CACHE STRING "Sanitizers to build with, for example address,undefined or thread")
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Projects that add this one as a subdirectory link the dependencies' targets, too: they must see them.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+# The target all_verify_interface_header_sets compiles every public header on its own; a style test builds it.
+set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
+
+# Private to the project: consumers of the installed package get none of these flags.
+add_library(parking_build_flags INTERFACE)
+target_compile_options(parking_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${PARKING_WARNINGS_AS_ERRORS}>:-Werror>)
+if(BUILD_SHARED_LIBS AND NOT PARKING_SANITIZER)
+  target_link_options(parking_build_flags INTERFACE -Wl,-z,defs)  # what a library lacks, its own build says
+endif()
+if(PARKING_SANITIZER)
+  target_compile_options(parking_build_flags INTERFACE -fsanitize=${PARKING_SANITIZER} -fno-omit-frame-pointer)
+  target_link_options(parking_build_flags INTERFACE -fsanitize=${PARKING_SANITIZER})
+endif()
+
+# Before 1.0 every minor version may change the binary interface.
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(PARKING_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+else()
+  set(PARKING_SOVERSION ${PROJECT_VERSION_MAJOR})
+endif()
+
+# parking_add_library(name): a library whose headers are included as <name/Header.h>, exported as
+# ompl_improved_astar::name. Sources are added with target_sources, headers as its FILE_SET HEADERS.
+function(parking_add_library name)
+  add_library(${name})
+  add_library(ompl_improved_astar::${name} ALIAS ${name})
+  target_compile_features(${name} PUBLIC cxx_std_17)
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:parking_build_flags>)
+  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PARKING_SOVERSION})
+  set_property(GLOBAL APPEND PROPERTY PARKING_LIBRARIES ${name})
+endfunction()
