@@ -1,0 +1,41 @@
+#pragma once
+
+#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/Vehicle.h"
+
+#include <functional>
+
+namespace parking
+{
+    /** \brief All that manoeuvres and smoothing ask about the world. Any of the callables may be left empty; with all
+        of them empty the world is free.
+
+        They must agree with each other, be safe to call at any finite pose and give the same answer every time. */
+    struct FootprintQueries
+    {
+        /** \brief Does the body at this pose keep clear of every obstacle? Exact. */
+        std::function<bool(const Pose &)> isFree;
+
+        /** \brief A lower bound, in metres, of the distance between the body at this pose and the nearest obstacle.
+
+            Every pose at which no point of the body has moved as far as this is free. 0 promises nothing: the body may
+            collide there or be too near to tell, and isFree decides (without isFree it counts as colliding). */
+        std::function<double(const Pose &)> clearance;
+
+        /** \brief Is the whole motion free, between the states as well? Between two states the car drives a circular
+            arc. Takes precedence over the other two where whole paths are checked. */
+        std::function<bool(const Path &)> isPathFree;
+    };
+
+    /** \brief Is every motion along \e path free?
+
+        Asks isPathFree when there is one. Otherwise, with clearance, the arcs between the states are covered by poses
+        whose clearances overlap, down to motions of 5 mm (below that the ends decide); with isFree alone only the
+        states are checked, so they should lie close together. */
+    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
+
+    /** \brief Distance from the midpoint of the rear axle to the farthest corner of the body, metres: a turn by an
+        angle moves no point of the body farther than this times the angle. */
+    double farthestCorner(const Vehicle &vehicle);
+}  // namespace parking

@@ -1,0 +1,108 @@
+#include "parking_geometry/ParkingSlot.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/Text.h"
+
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        /** Rounding of user input, not centimetres: what may stick out of a slot that is exactly as long as the car. */
+        constexpr double TOLERANCE = 1e-9;
+
+        std::string inCentimetres(double metres)
+        {
+            return formatNumber(std::ceil(metres * 1000.0 - 1e-6) / 10.0) + " cm";
+        }
+
+        void check(const char *field, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("slot: ") + field + " is " + formatNumber(value) + "; it must be " + right);
+        }
+
+        void checkFits(const char *dimension, double car, double slot)
+        {
+            if (car > slot + TOLERANCE)
+                throw Error("slot: " + std::string(dimension) + " is " + formatNumber(slot) + " m, " +
+                            inCentimetres(car - slot) + " less than that of the car (" + formatNumber(car) + " m)");
+        }
+    }  // namespace
+
+    std::vector<Pose> ParkingSlot::goals(const Vehicle &vehicle) const
+    {
+        validate();
+        const double spareLength = length - vehicle.length(), spareWidth = width - vehicle.width;
+        checkFits("length", vehicle.length(), length);
+        checkFits("width", vehicle.width, width);
+        const double gap = depth.value_or(0.5 * spareLength);
+        if (gap < -TOLERANCE || gap > spareLength + TOLERANCE)
+            throw Error("slot: depth is " + formatNumber(gap) + ", which puts the car " +
+                        inCentimetres(gap < 0.0 ? -gap : gap - spareLength) + " outside; it must be from 0 to " +
+                        formatNumber(spareLength));
+        if (std::abs(lateralOffset) > 0.5 * spareWidth + TOLERANCE)
+            throw Error("slot: lateral offset is " + formatNumber(lateralOffset) + ", which puts the car " +
+                        inCentimetres(std::abs(lateralOffset) - 0.5 * spareWidth) +
+                        " outside; its magnitude must be at most " + formatNumber(0.5 * spareWidth));
+        const double innerEnd = -0.5 * length + gap;
+        const Pose tailIn = compose(pose, {innerEnd + vehicle.rearOverhang, lateralOffset, 0.0});
+        if (kind == SlotKind::Parallel)
+            return {tailIn};
+        const Pose noseIn = compose(pose, {innerEnd + vehicle.frontOverhang + vehicle.wheelbase, lateralOffset, PI});
+        switch (entry)
+        {
+            case SlotEntry::Reverse:
+                return {tailIn};
+            case SlotEntry::Forward:
+                return {noseIn};
+            default:
+                return {tailIn, noseIn};
+        }
+    }
+
+    Polygon ParkingSlot::outline() const
+    {
+        Polygon corners;
+        for (const auto &[x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+        {
+            const Pose corner = compose(pose, {x * length, y * width, 0.0});
+            corners.emplace_back(corner.x, corner.y);
+        }
+        return corners;
+    }
+
+    void ParkingSlot::validate() const
+    {
+        check("pose x", pose.x, std::isfinite(pose.x), "a finite number of metres");
+        check("pose y", pose.y, std::isfinite(pose.y), "a finite number of metres");
+        check("pose yaw", pose.yaw, std::isfinite(pose.yaw), "a finite number of radians");
+        check("length", length, std::isfinite(length) && length > 0.0, "a positive number of metres");
+        check("width", width, std::isfinite(width) && width > 0.0, "a positive number of metres");
+        if (kind == SlotKind::Angled)
+            check("angle", angle, angle > 0.0 && angle <= 0.5 * PI + TOLERANCE,
+                  "in (0, 1.5708] radians, above 0 and up to 90 degrees");
+        if (depth)
+            check("depth", *depth, std::isfinite(*depth), "a finite number of metres");
+        check("lateral offset", lateralOffset, std::isfinite(lateralOffset), "a finite number of metres");
+    }
+
+    double ParkingSlot::aisleAngle() const
+    {
+        switch (kind)
+        {
+            case SlotKind::Parallel:
+                return 0.0;
+            case SlotKind::Perpendicular:
+                return 0.5 * PI;
+            default:
+                return angle;
+        }
+    }
+
+    double ParkingSlot::aisleYaw(SlotSide onSide) const
+    {
+        return wrapAngle(pose.yaw + (onSide == SlotSide::Left ? aisleAngle() : -aisleAngle()));
+    }
+}  // namespace parking

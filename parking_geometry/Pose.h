@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+
+namespace parking
+{
+    constexpr double PI = 3.14159265358979323846;
+
+    /** \brief An angle brought into [-pi, pi]. \param angle radians, finite. */
+    inline double wrapAngle(double angle)
+    {
+        return std::remainder(angle, 2.0 * PI);
+    }
+
+    /** \brief A pose of the car in the plane: the midpoint of its rear axle and its heading.
+
+        Metres and radians; yaw counter-clockwise from +x. Everything in this project that speaks of a pose of the car
+        means this point, never the centre of the body. */
+    struct Pose
+    {
+        double x{0.0};    ///< metres
+        double y{0.0};    ///< metres
+        double yaw{0.0};  ///< radians, counter-clockwise from +x
+    };
+
+    inline bool isFinite(const Pose &pose)
+    {
+        return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+    }
+
+    /** \brief The pose \e local, given in the frame \e frame, expressed in the frame that \e frame is given in. */
+    inline Pose compose(const Pose &frame, const Pose &local)
+    {
+        const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
+        return {frame.x + c * local.x - s * local.y, frame.y + s * local.x + c * local.y,
+                wrapAngle(frame.yaw + local.yaw)};
+    }
+
+    /** \brief The pose \e pose expressed in the frame \e frame (inverse of compose). */
+    inline Pose relativeTo(const Pose &frame, const Pose &pose)
+    {
+        const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
+        const double dx = pose.x - frame.x, dy = pose.y - frame.y;
+        return {c * dx + s * dy, -s * dx + c * dy, wrapAngle(pose.yaw - frame.yaw)};
+    }
+
+    /** \brief Where the car is after driving \e distance along a circular arc: exact, also for the straight line.
+
+        \param curvature 1/m, positive to the left
+        \param distance metres along the arc, negative in reverse
+        The yaw of the result is not wrapped, so that long arcs keep count of their turns. */
+    inline Pose advance(const Pose &pose, double curvature, double distance)
+    {
+        // Half-angle form: no cancellation for small curvature, one formula for arcs and lines.
+        const double half = 0.5 * curvature * distance;
+        const double chord =
+            std::abs(half) < 1e-6 ? distance * (1.0 - half * half / 6.0) : distance * std::sin(half) / half;
+        return {pose.x + chord * std::cos(pose.yaw + half), pose.y + chord * std::sin(pose.yaw + half),
+                pose.yaw + 2.0 * half};
+    }
+}  // namespace parking

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "parking_geometry/Pose.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief A car: its rectangle round the rear axle and the limits of its steering and drive.
+
+        Lengths in metres, angles in radians, SI units for the limits. The defaults are the car of the Trajectory
+        Planning Competition of Automated Parking (TPCAP). */
+    struct Vehicle
+    {
+        std::string name{"tpcap"};
+        double wheelbase{2.8};          ///< rear axle to front axle
+        double frontOverhang{0.96};     ///< front axle to front bumper
+        double rearOverhang{0.929};     ///< rear axle to rear bumper
+        double width{1.942};            ///< of the body
+        double maxSteeringAngle{0.75};  ///< mean angle of the front wheels
+        double maxSpeed{2.5};           ///< m/s, either direction
+        double maxAcceleration{1.0};    ///< m/s^2, either sign
+        double maxSteeringRate{0.5};    ///< rad/s
+
+        /** \brief Bumper to bumper. */
+        double length() const
+        {
+            return rearOverhang + wheelbase + frontOverhang;
+        }
+
+        /** \brief Of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle). */
+        double minTurningRadius() const;
+
+        /** \brief Curvature that a steering angle gives, tan(angle) / wheelbase. */
+        double curvature(double steeringAngle) const;
+
+        /** \brief Steering angle that a curvature needs. */
+        double steeringAngle(double curvature) const;
+
+        /** \brief Corners of the body at \e pose: rear right, front right, front left, rear left (counter-clockwise).
+         */
+        std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
+
+        /** \brief Throws parking::Error naming the first field that is not finite or out of its range. */
+        void validate() const;
+    };
+
+    /** \brief A car known by name (see vehicleNames()). Throws parking::Error listing the known names otherwise. */
+    Vehicle vehicleByName(const std::string &name);
+
+    /** \brief The names that vehicleByName() knows. */
+    std::vector<std::string> vehicleNames();
+}  // namespace parking

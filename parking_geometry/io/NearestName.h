@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief The name in \e known that \e name was most likely meant to be: the one with the fewest letters to change,
+        whatever their case, or one that \e name is a part of. Empty without names. */
+    std::string nearestName(const std::string &name, const std::vector<std::string> &known);
+
+    /** \brief Is \e name not in \e known, but at most two letters away from a name that is? */
+    bool isMisspelt(const std::string &name, const std::vector<std::string> &known);
+
+    /** \brief The one-line message for a name that nothing has, with the nearest and all known ones, for example
+        "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar".
+
+        \param what what the name was to be, for example "planner" */
+    std::string unknownName(const std::string &what, const std::string &name, const std::vector<std::string> &known);
+}  // namespace parking

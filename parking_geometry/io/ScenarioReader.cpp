@@ -1,0 +1,53 @@
+#include "parking_geometry/io/ScenarioReader.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ReadFile.h"
+#include "parking_geometry/io/ScenarioParts.h"
+#include "parking_geometry/io/Text.h"
+
+#include <filesystem>
+
+namespace parking
+{
+    namespace
+    {
+        /** The file's text without the mark that some Windows programs put in front of UTF-8. */
+        std::string readText(const std::string &file)
+        {
+            std::string text = readFile(file, TEXT_FILE_LIMIT);
+            if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+                text.erase(0, 3);
+            if (trimmed(text).empty())
+                throw Error(file + ": holds nothing but blanks");
+            return text;
+        }
+
+        /** A case begins with a number and a comma; YAML cannot, for its top is a mapping. A file that begins with
+            neither and has no "key:" at all is a damaged case when it is called one. */
+        bool looksLikeTpcap(const std::string &file, const std::string &text)
+        {
+            double ignored = 0.0;
+            const std::string_view first = trimmed(text).substr(0, trimmed(text).find_first_of(",\n"));
+            if (parseNumber(trimmed(first), ignored))
+                return true;
+            return text.find(':') == std::string::npos && std::filesystem::path(file).extension() == ".csv";
+        }
+    }  // namespace
+
+    Scenario readScenario(const std::string &file, const ReaderOptions &options)
+    {
+        const std::string text = readText(file);
+        return looksLikeTpcap(file, text) ? parseTpcapCase(file, text, options.vehicle)
+                                          : parseYamlScenario(file, text, options.vehicle);
+    }
+
+    Scenario readTpcapCase(const std::string &file, const ReaderOptions &options)
+    {
+        return parseTpcapCase(file, readText(file), options.vehicle);
+    }
+
+    Scenario readYamlScenario(const std::string &file, const ReaderOptions &options)
+    {
+        return parseYamlScenario(file, readText(file), options.vehicle);
+    }
+}  // namespace parking

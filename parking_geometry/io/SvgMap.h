@@ -1,0 +1,127 @@
+#pragma once
+
+#include "parking_geometry/Polygon.h"
+#include "parking_geometry/Scenario.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Colours that mean the same in every figure of the project. */
+    namespace svg_colour
+    {
+        constexpr const char *FORWARD = "#2563eb";
+        constexpr const char *REVERSE = "#ea580c";
+        constexpr const char *START = "#334155";
+        constexpr const char *GOAL = "#059669";
+        constexpr const char *OBSTACLE = "#b4bdca";
+        constexpr const char *OBSTACLE_EDGE = "#66717f";
+        constexpr const char *UNKNOWN = "#e1e6ed";
+        constexpr const char *DRIVEN = "#be185d";
+    }  // namespace svg_colour
+
+    /** \brief How a shape is drawn. Widths and dashes in pixels. */
+    struct SvgStyle
+    {
+        std::string fill{"none"};
+        std::string stroke{"none"};
+        double strokeWidth{1.0};
+        double fillOpacity{1.0};
+        double strokeOpacity{1.0};
+        std::string dash;  ///< for example "6 4"; empty: solid
+    };
+
+    /** \brief What lies above what on a map. */
+    enum class SvgLayer
+    {
+        Ground,
+        Obstacles,
+        Sweep,  ///< footprints along a path
+        Lines,
+        Cars,
+        Marks  ///< texts and symbols
+    };
+
+    /** \brief An entry of the legend: a sample of the style beside its meaning. */
+    struct SvgLegendEntry
+    {
+        std::string label;
+        SvgStyle style;
+        bool line{false};  ///< the sample is a stroke, otherwise a box
+    };
+
+    /** \brief The map panel of a figure: shapes in metres, y up, at equal scale.
+
+        Coordinates are local ones of a scenario. Shapes that lie outside of the view are left out. */
+    class SvgMap
+    {
+    public:
+        /** \brief A panel \e width pixels wide that shows at least \e view: the shorter side is widened until the panel
+            is neither a strip nor a tower.
+
+            Throws parking::Error when the view is empty or not finite. */
+        explicit SvgMap(const Bounds &view, double width = 912.0);
+
+        /** \brief What is shown, in metres. */
+        const Bounds &view() const
+        {
+            return view_;
+        }
+        double width() const
+        {
+            return width_;
+        }
+        double height() const
+        {
+            return height_;
+        }
+        /** \brief Pixels per metre. */
+        double scale() const
+        {
+            return scale_;
+        }
+
+        void drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style);
+
+        /** \brief An open line. */
+        void drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style);
+
+        /** \brief A disc. \param radius pixels */
+        void drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
+
+        /** \brief A text centred on a point, with a pale halo. */
+        void drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour);
+
+        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule). */
+        void drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);
+
+        /** \brief Explains a style in the figure's legend; the same label is listed once. */
+        void addLegend(const SvgLegendEntry &entry);
+        const std::vector<SvgLegendEntry> &legend() const
+        {
+            return legend_;
+        }
+
+        /** \brief The panel as an svg element whose upper left corner is at \e x, \e y pixels.
+
+            Its attributes data-left, data-top (metres, of the corner) and data-scale (pixels per metre) say where its
+            pixels lie, so that others can draw on it. */
+        std::string toSvg(double x, double y) const;
+
+    private:
+        Eigen::Vector2d toPixels(const Eigen::Vector2d &point) const;
+        bool isVisible(const std::vector<Eigen::Vector2d> &points) const;
+        std::string gridLines() const;
+        std::string scaleBar() const;
+        std::string &layerText(SvgLayer layer);
+
+        Bounds view_;
+        double width_;
+        double height_{0.0};
+        double scale_{1.0};
+        std::array<std::string, 6> layers_;
+        std::vector<SvgLegendEntry> legend_;
+    };
+}  // namespace parking

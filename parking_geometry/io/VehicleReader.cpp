@@ -1,0 +1,56 @@
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/NearestName.h"
+#include "parking_geometry/io/ReadFile.h"
+#include "parking_geometry/io/ScenarioParts.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/io/Text.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace parking
+{
+    namespace
+    {
+        bool isFileName(const std::string &text)
+        {
+            const std::string extension = std::filesystem::path(text).extension().string();
+            return extension == ".yaml" || extension == ".yml" || text.find('/') != std::string::npos;
+        }
+    }  // namespace
+
+    Vehicle vehicleFromYaml(const YamlMap &map)
+    {
+        map.allowOnly({"name", "wheelbase", "front_overhang", "rear_overhang", "width", "max_steering_angle",
+                       "max_speed", "max_acceleration", "max_steering_rate"});
+        Vehicle vehicle;
+        vehicle.name = map.has("name") ? map.text("name") : "custom";
+        vehicle.wheelbase = map.number("wheelbase");
+        vehicle.frontOverhang = map.number("front_overhang");
+        vehicle.rearOverhang = map.number("rear_overhang");
+        vehicle.width = map.number("width");
+        vehicle.maxSteeringAngle = map.number("max_steering_angle");
+        vehicle.maxSpeed = map.numberOr("max_speed", vehicle.maxSpeed);
+        vehicle.maxAcceleration = map.numberOr("max_acceleration", vehicle.maxAcceleration);
+        vehicle.maxSteeringRate = map.numberOr("max_steering_rate", vehicle.maxSteeringRate);
+        try
+        {
+            vehicle.validate();
+        }
+        catch (const Error &error)
+        {
+            throw Error(map.file() + ": " + error.what());
+        }
+        return vehicle;
+    }
+
+    Vehicle readVehicle(const std::string &nameOrFile)
+    {
+        const std::vector<std::string> names = vehicleNames();
+        if (std::find(names.begin(), names.end(), nameOrFile) != names.end())
+            return vehicleByName(nameOrFile);
+        if (!isFileName(nameOrFile))
+            throw Error(unknownName("vehicle", nameOrFile, names) + " (or the path of a .yaml file)");
+        return vehicleFromYaml(YamlMap(nameOrFile, readFile(nameOrFile, TEXT_FILE_LIMIT)));
+    }
+}  // namespace parking

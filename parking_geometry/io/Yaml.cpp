@@ -1,0 +1,191 @@
+#include "parking_geometry/io/Yaml.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/NearestName.h"
+#include "parking_geometry/io/Text.h"
+
+#include <algorithm>
+#include <set>
+
+namespace parking
+{
+    namespace
+    {
+        YAML::Node parse(const std::string &file, const std::string &text)
+        {
+            try
+            {
+                return YAML::Load(text);
+            }
+            catch (const YAML::Exception &error)
+            {
+                const std::string line = error.mark.is_null() ? "" : ':' + std::to_string(error.mark.line + 1);
+                throw Error(file + line + ": is not valid YAML: " + oneLine(error.msg));
+            }
+        }
+
+        bool known(const std::string &key, const std::vector<std::string> &names)
+        {
+            return std::find(names.begin(), names.end(), key) != names.end();
+        }
+
+        bool isNumber(const YAML::Node &node, double &value)
+        {
+            return node.IsScalar() && parseNumber(node.Scalar(), value);
+        }
+
+        std::string kindOf(const YAML::Node &node)
+        {
+            if (node.IsScalar())
+                return inQuotes(node.Scalar());
+            return node.IsMap() ? "a mapping" : node.IsSequence() ? "a list" : "nothing";
+        }
+    }  // namespace
+
+    YamlMap::YamlMap(const std::string &file, const std::string &text) : file_(file), node_(parse(file, text))
+    {
+        check();
+    }
+
+    YamlMap::YamlMap(const std::string &file, const YAML::Node &node, const std::string &what)
+      : file_(file),
+        what_(what),
+        node_(node)
+    {
+        check();
+    }
+
+    void YamlMap::check() const
+    {
+        if (!node_.IsMap())
+            fail(node_, (what_.empty() ? "the file" : what_) + " holds " + kindOf(node_) +
+                            "; it must be a mapping with lines such as 'key: value'");
+        std::set<std::string> seen;
+        for (const auto &entry : node_)
+        {
+            if (!entry.first.IsScalar())
+                fail(entry.first, "a key is " + kindOf(entry.first) + "; keys must be plain words");
+            if (!seen.insert(entry.first.Scalar()).second)
+                fail(entry.first, "key " + inQuotes(entry.first.Scalar()) + " is given twice");
+        }
+    }
+
+    void YamlMap::allowOnly(const std::vector<std::string> &names) const
+    {
+        for (const auto &entry : node_)
+            if (!known(entry.first.Scalar(), names))
+                fail(entry.first, unknownName(what_.empty() ? "key" : "key of " + what_, entry.first.Scalar(), names));
+    }
+
+    void YamlMap::refuseMisspelt(const std::vector<std::string> &names) const
+    {
+        for (const auto &entry : node_)
+        {
+            const std::string &key = entry.first.Scalar();
+            if (!known(key, names) && isMisspelt(key, names))
+                fail(entry.first, unknownName("key", key, names));
+        }
+    }
+
+    bool YamlMap::has(const std::string &key) const
+    {
+        return node_[key].IsDefined();
+    }
+
+    YAML::Node YamlMap::node(const std::string &key) const
+    {
+        const YAML::Node value = node_[key];
+        if (!value.IsDefined())
+            fail(node_, "key '" + key + "' is missing" + (what_.empty() ? "" : " in " + what_));
+        return value;
+    }
+
+    std::string YamlMap::text(const std::string &key) const
+    {
+        const YAML::Node value = node(key);
+        if (!value.IsScalar() || value.Scalar().empty())
+            fail(value, key + " is " + kindOf(value) + "; it must be a word");
+        return value.Scalar();
+    }
+
+    double YamlMap::number(const std::string &key) const
+    {
+        const YAML::Node value = node(key);
+        double result = 0.0;
+        if (!isNumber(value, result))
+            fail(value, key + " is " + kindOf(value) + "; it must be a finite number");
+        return result;
+    }
+
+    double YamlMap::numberOr(const std::string &key, double otherwise) const
+    {
+        return has(key) ? number(key) : otherwise;
+    }
+
+    bool YamlMap::flag(const std::string &key) const
+    {
+        const std::vector<std::string> yes = {"true", "True", "TRUE", "yes", "on", "1"};
+        const std::vector<std::string> no = {"false", "False", "FALSE", "no", "off", "0"};
+        const YAML::Node value = node(key);
+        if (value.IsScalar() && known(value.Scalar(), yes))
+            return true;
+        if (value.IsScalar() && known(value.Scalar(), no))
+            return false;
+        fail(value, key + " is " + kindOf(value) + "; it must be true or false");
+    }
+
+    Pose YamlMap::pose(const std::string &key) const
+    {
+        const std::vector<double> values = numbers(node(key), 3, key);
+        return {values[0], values[1], wrapAngle(values[2])};
+    }
+
+    YamlMap YamlMap::map(const std::string &key) const
+    {
+        return YamlMap(file_, node(key), key);
+    }
+
+    std::size_t YamlMap::choice(const std::string &key, const std::vector<std::string> &names) const
+    {
+        const std::string value = text(key);
+        const auto found = std::find(names.begin(), names.end(), value);
+        if (found == names.end())
+            failAt(key, unknownName(key, value, names));
+        return static_cast<std::size_t>(found - names.begin());
+    }
+
+    std::vector<double> YamlMap::numbers(const YAML::Node &sequence, std::size_t count, const std::string &what) const
+    {
+        const std::string right = "; it must be a list of " + std::to_string(count) + " numbers";
+        if (!sequence.IsSequence())
+            fail(sequence, what + " is " + kindOf(sequence) + right);
+        if (sequence.size() != count)
+            fail(sequence, what + " has " + std::to_string(sequence.size()) + " entries" + right);
+        std::vector<double> values;
+        for (const YAML::Node &entry : sequence)
+        {
+            values.push_back(0.0);
+            if (!isNumber(entry, values.back()))
+                fail(entry, what + " holds " + kindOf(entry) + right + ", all finite");
+        }
+        return values;
+    }
+
+    void YamlMap::fail(const YAML::Node &at, const std::string &message) const
+    {
+        throw Error(place(at) + ": " + message);
+    }
+
+    void YamlMap::failAt(const std::string &key, const std::string &message) const
+    {
+        fail(node_[key], message);
+    }
+
+    std::string YamlMap::place(const YAML::Node &at) const
+    {
+        if (!at.IsDefined())
+            return file_;
+        const YAML::Mark mark = at.Mark();
+        return mark.is_null() ? file_ : file_ + ':' + std::to_string(mark.line + 1);
+    }
+}  // namespace parking

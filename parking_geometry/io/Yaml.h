@@ -1,0 +1,69 @@
+#pragma once
+
+#include "parking_geometry/Pose.h"
+
+#include <string>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+namespace parking
+{
+    /** \brief A YAML mapping read strictly: every error names the file, the line and the key.
+
+        Keys that nobody knows, keys given twice and values of another kind than asked for are errors; numbers are
+        finite. */
+    class YamlMap
+    {
+    public:
+        /** \brief Parses a file's text. Throws when it is no YAML or its top is not a mapping. */
+        YamlMap(const std::string &file, const std::string &text);
+
+        /** \brief Views \e node. \param what how messages call it, for example "slot" */
+        YamlMap(const std::string &file, const YAML::Node &node, const std::string &what);
+
+        /** \brief Throws for the first key that is not in \e known, naming the nearest one. */
+        void allowOnly(const std::vector<std::string> &known) const;
+
+        /** \brief Throws for the first key that is not in \e known but is a letter or two away from one of them: for
+            files of other programs, where more keys may stand than are read here. */
+        void refuseMisspelt(const std::vector<std::string> &known) const;
+
+        bool has(const std::string &key) const;
+
+        // Each of these throws when the key is missing, and when its value is not of the kind.
+        YAML::Node node(const std::string &key) const;
+        std::string text(const std::string &key) const;
+        double number(const std::string &key) const;
+        bool flag(const std::string &key) const;
+        Pose pose(const std::string &key) const;
+        YamlMap map(const std::string &key) const;
+
+        double numberOr(const std::string &key, double otherwise) const;
+
+        /** \brief One of \e names, as its position among them. */
+        std::size_t choice(const std::string &key, const std::vector<std::string> &names) const;
+
+        /** \brief The numbers of a sequence of exactly \e count. \param what how messages call it */
+        std::vector<double> numbers(const YAML::Node &sequence, std::size_t count, const std::string &what) const;
+
+        /** \brief Throws parking::Error with the file, the line of \e at and \e message. */
+        [[noreturn]] void fail(const YAML::Node &at, const std::string &message) const;
+
+        /** \brief The same for the line on which the value of \e key stands. */
+        [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
+
+        const std::string &file() const
+        {
+            return file_;
+        }
+
+    private:
+        void check() const;
+        std::string place(const YAML::Node &at) const;
+
+        std::string file_;
+        std::string what_;
+        YAML::Node node_;
+    };
+}  // namespace parking

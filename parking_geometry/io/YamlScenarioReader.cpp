@@ -1,0 +1,167 @@
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ReadFile.h"
+#include "parking_geometry/io/ScenarioParts.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/io/Text.h"
+
+#include <cmath>
+#include <filesystem>
+
+namespace parking
+{
+    namespace
+    {
+        std::string besides(const std::string &file, const std::string &other)
+        {
+            return (std::filesystem::path(file).parent_path() / other).lexically_normal().string();
+        }
+
+        std::vector<Polygon> readPolygons(const YamlMap &map, const Eigen::Vector2d &offset)
+        {
+            const YAML::Node list = map.node("polygons");
+            if (!list.IsSequence() && !list.IsNull())
+                map.failAt("polygons", "polygons must be a list of polygons, each a list of [x, y]");
+            std::vector<Polygon> polygons;
+            for (const YAML::Node &outline : list)
+            {
+                const std::string which = "polygon " + std::to_string(polygons.size() + 1);
+                if (!outline.IsSequence())
+                    map.fail(outline, which + " must be a list of [x, y]");
+                if (outline.size() < 3)
+                    map.fail(outline,
+                             which + " has " + std::to_string(outline.size()) + " corners; a polygon needs at least 3");
+                Polygon polygon;
+                polygon.reserve(outline.size());
+                for (const YAML::Node &corner : outline)
+                {
+                    const std::vector<double> xy = map.numbers(corner, 2, "a corner of " + which);
+                    polygon.emplace_back(xy[0] - offset.x(), xy[1] - offset.y());
+                }
+                polygons.push_back(std::move(polygon));
+            }
+            return polygons;
+        }
+
+        /** A map_server map or a SurroundOcc file: told apart by their first bytes, as extensions are free. */
+        OccupancyGrid readGrid(const YamlMap &map)
+        {
+            const std::string name = map.text("map");
+            const std::string file = besides(map.file(), name);
+            const std::string extension = std::filesystem::path(name).extension().string();
+            if (extension == ".pgm" || extension == ".png")
+                map.failAt("map", "map is the image " + inQuotes(name) +
+                                      "; name the map's YAML file, which holds its resolution and origin");
+            return extension == ".npy" ? readSurroundOcc(file) : readRosMap(file);
+        }
+
+        void readWorld(Scenario &scenario, const YamlMap &map)
+        {
+            if (map.has("map") == map.has("polygons"))
+                map.fail(YAML::Node(), map.has("map") ? "both map and polygons are given; give one of them"
+                                                      : "neither map nor polygons is given; one of them must be");
+            if (map.has("polygons"))
+            {
+                scenario.polygons = readPolygons(map, scenario.worldOffset);
+                return;
+            }
+            // The polygons may also stand under the key map.
+            if (map.node("map").IsMap())
+            {
+                const YamlMap inner = map.map("map");
+                inner.allowOnly({"polygons"});
+                scenario.polygons = readPolygons(inner, scenario.worldOffset);
+                return;
+            }
+            scenario.grid = readGrid(map);
+            Pose origin = scenario.grid->origin();
+            origin.x -= scenario.worldOffset.x();
+            origin.y -= scenario.worldOffset.y();
+            scenario.grid->setOrigin(origin);
+        }
+
+        Pose toLocal(const Pose &world, const Eigen::Vector2d &offset)
+        {
+            return {world.x - offset.x(), world.y - offset.y(), world.yaw};
+        }
+
+        ParkingSlot readSlot(const YamlMap &map, const Eigen::Vector2d &offset)
+        {
+            map.allowOnly({"kind", "pose", "length", "width", "entry", "angle", "side", "depth", "lateral_offset"});
+            ParkingSlot slot;
+            slot.kind = static_cast<SlotKind>(map.choice("kind", {"perpendicular", "parallel", "angled"}));
+            slot.pose = toLocal(map.pose("pose"), offset);
+            slot.length = map.number("length");
+            slot.width = map.number("width");
+            if (map.has("entry"))
+                slot.entry = static_cast<SlotEntry>(map.choice("entry", {"reverse", "forward", "either"}));
+            slot.angle = map.numberOr("angle", slot.angle);
+            if (map.has("side"))
+                slot.side = static_cast<SlotSide>(map.choice("side", {"right", "left", "either"}));
+            if (map.has("depth"))
+                slot.depth = map.number("depth");
+            slot.lateralOffset = map.numberOr("lateral_offset", 0.0);
+            return slot;
+        }
+
+        void readGoals(Scenario &scenario, const YamlMap &map)
+        {
+            if (map.has("goal") == map.has("slot"))
+                map.fail(YAML::Node(), map.has("goal") ? "both goal and slot are given; give one of them"
+                                                       : "neither goal nor slot is given; one of them must be");
+            if (map.has("goal"))
+            {
+                scenario.goals = {toLocal(map.pose("goal"), scenario.worldOffset)};
+                return;
+            }
+            scenario.slot = readSlot(map.map("slot"), scenario.worldOffset);
+            try
+            {
+                scenario.slot->validate();
+                scenario.goals = scenario.slot->goals(scenario.vehicle);
+            }
+            catch (const Error &error)
+            {
+                map.failAt("slot", error.what());
+            }
+        }
+
+        Vehicle readVehicleOf(const YamlMap &map, const std::string &instead)
+        {
+            if (!instead.empty())
+                return readVehicle(instead);
+            if (!map.has("vehicle"))
+                return Vehicle();
+            if (map.node("vehicle").IsMap())
+                return vehicleFromYaml(map.map("vehicle"));
+            const std::string name = map.text("vehicle");
+            const std::string extension = std::filesystem::path(name).extension().string();
+            if (extension == ".yaml" || extension == ".yml")
+                return readVehicle(std::filesystem::absolute(besides(map.file(), name)).string());
+            try
+            {
+                return vehicleByName(name);
+            }
+            catch (const Error &error)
+            {
+                map.failAt("vehicle", error.what());
+            }
+        }
+    }  // namespace
+
+    Scenario parseYamlScenario(const std::string &file, const std::string &text, const std::string &vehicle)
+    {
+        const YamlMap map(file, text);
+        map.allowOnly({"name", "map", "polygons", "vehicle", "start", "goal", "slot", "unknown_is_occupied"});
+        Scenario scenario;
+        scenario.name = map.has("name") ? map.text("name") : scenarioName(file);
+        scenario.vehicle = readVehicleOf(map, vehicle);
+        const Pose start = map.pose("start");
+        scenario.worldOffset = {start.x, start.y};
+        scenario.start = {0.0, 0.0, start.yaw};
+        scenario.unknownIsOccupied = map.has("unknown_is_occupied") ? map.flag("unknown_is_occupied") : true;
+        readWorld(scenario, map);
+        readGoals(scenario, map);
+        completeScenario(scenario, file);
+        return scenario;
+    }
+}  // namespace parking

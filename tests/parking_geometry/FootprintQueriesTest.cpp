@@ -1,0 +1,166 @@
+#include "parking_geometry/FootprintQueries.h"
+
+#include "PolygonWorld.h"
+#include "RandomParking.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::PolygonWorld;
+using parking_test::RandomParking;
+
+namespace
+{
+    Polygon box(double x, double y, double halfSize)
+    {
+        return {{x - halfSize, y - halfSize},
+                {x + halfSize, y - halfSize},
+                {x + halfSize, y + halfSize},
+                {x - halfSize, y + halfSize}};
+    }
+}  // namespace
+
+TEST(FootprintQueries, AWorldWithoutCallablesIsFree)
+{
+    EXPECT_TRUE(isPathFree({}, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
+    EXPECT_TRUE(isPathFree({}, Vehicle(), {}));
+}
+
+TEST(FootprintQueries, ThePathCallableDecidesAlone)
+{
+    FootprintQueries queries;
+    queries.isFree = [](const Pose &)
+    {
+        return false;
+    };
+    queries.clearance = [](const Pose &)
+    {
+        return 0.0;
+    };
+    queries.isPathFree = [](const Path &)
+    {
+        return true;
+    };
+    EXPECT_TRUE(isPathFree(queries, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
+    queries.isPathFree = [](const Path &)
+    {
+        return false;
+    };
+    queries.isFree = [](const Pose &)
+    {
+        return true;
+    };
+    EXPECT_FALSE(isPathFree(queries, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
+}
+
+TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenTheStates)
+{
+    // A pin that the outer front corner hits between two states only.
+    Vehicle car;
+    const ArcPath path{{}, {{1.0 / car.minTurningRadius(), 2.0}}};
+    const Path states = path.sample(2.0);
+    ASSERT_EQ(states.size(), 2u);
+    const Pose middle = advance(path.start, path.segments[0].curvature, 1.0);
+    const Eigen::Vector2d corner = car.footprint(middle)[1];
+    const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.01)});
+    ASSERT_TRUE(world.isFree(states[0].pose) && world.isFree(states[1].pose) && !world.isFree(middle));
+    FootprintQueries queries = world.queries();
+    EXPECT_FALSE(isPathFree(queries, car, states));
+    queries.clearance = nullptr;
+    EXPECT_TRUE(isPathFree(queries, car, states)) << "without clearance only the states are asked about";
+}
+
+TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
+{
+    // Pins that the outer front corner hits half way along arcs of several lengths: the clearances at both ends add up
+    // to more than half of the motion for some, never to all of it.
+    const Vehicle car;
+    const double curvature = 1.0 / car.minTurningRadius();
+    int beyondHalf = 0;
+    for (double length = 0.2; length < 3.0; length += 0.1)
+    {
+        const ArcPath path{{}, {{curvature, length}}};
+        const Eigen::Vector2d corner = car.footprint(advance(path.start, curvature, 0.5 * length))[1];
+        const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.004)});
+        const double covered = world.clearance(path.start) + world.clearance(path.end());
+        const double moved = length * (1.0 + curvature * farthestCorner(car));
+        if (covered == 0.0)
+            continue;
+        EXPECT_LT(covered, moved);
+        beyondHalf += covered > 0.5 * moved;
+        EXPECT_FALSE(isPathFree(world.queries(), car, path.sample(length))) << length;
+    }
+    EXPECT_GT(beyondHalf, 0);
+}
+
+TEST(FootprintQueries, ZeroClearanceLeavesTheDecisionToIsFree)
+{
+    const Vehicle car;
+    // Along a wall that the body touches.
+    const double y = 0.5 * car.width;
+    const PolygonWorld world(car, {{{-5.0, y}, {15.0, y}, {15.0, y + 1.0}, {-5.0, y + 1.0}}});
+    const Path path = ArcPath{{}, {{0.0, 5.0}}}.sample(0.1);
+    FootprintQueries queries = world.queries();
+    ASSERT_EQ(queries.clearance(path[3].pose), 0.0);
+    EXPECT_TRUE(isPathFree(queries, car, path));
+    queries.isFree = nullptr;
+    EXPECT_FALSE(isPathFree(queries, car, path));
+}
+
+TEST(FootprintQueries, AgreesWithDenseSampling)
+{
+    RandomParking random(7);
+    int free = 0, blocked = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const ArcPath path = random.plannerPath(car, 1.0);
+        const Path coarse = path.sample(0.2), dense = path.sample(0.002);
+        std::vector<Polygon> obstacles;
+        for (int k = 0; k < 2; ++k)
+        {
+            const Pose near = dense[static_cast<std::size_t>(random.below(static_cast<int>(dense.size())))].pose;
+            const Pose spot = compose(
+                near, {random.uniform(-2.0, 5.0), (random.coin() ? 1.0 : -1.0) * random.uniform(1.0, 3.0), 0.0});
+            obstacles.push_back(box(spot.x, spot.y, random.uniform(0.01, 0.3)));
+        }
+        const PolygonWorld world(car, obstacles);
+        // Deeper than what a motion of 5 mm between two free poses may graze.
+        const PolygonWorld lenient(car, obstacles, 2e-3);
+        bool collides = false;
+        double least = 1e9;
+        for (const PathState &state : dense)
+        {
+            collides = collides || !lenient.isFree(state.pose);
+            least = std::min(least, world.clearance(state.pose));
+        }
+        const bool found = isPathFree(world.queries(), car, coarse);
+        if (collides)
+        {
+            EXPECT_FALSE(found) << i;
+        }
+        else if (least > 5e-3)
+        {
+            EXPECT_TRUE(found) << i << " although the distance is never below " << least;
+        }
+        ++(found ? free : blocked);
+    }
+    EXPECT_GT(free, 60);
+    EXPECT_GT(blocked, 60);
+}
+
+TEST(FootprintQueries, AsksSeldomWhereThereIsRoom)
+{
+    const Vehicle car;
+    int asked = 0;
+    FootprintQueries queries;
+    queries.clearance = [&](const Pose &)
+    {
+        ++asked;
+        return 5.0;
+    };
+    EXPECT_TRUE(isPathFree(queries, car, ArcPath{{}, {{0.0, 30.0}}}.sample(0.1)));
+    EXPECT_LE(asked, 8);
+}

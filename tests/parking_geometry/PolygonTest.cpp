@@ -1,0 +1,97 @@
+#include "parking_geometry/Polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+
+namespace
+{
+    Polygon reversed(Polygon polygon)
+    {
+        std::reverse(polygon.begin(), polygon.end());
+        return polygon;
+    }
+
+    Polygon moved(Polygon polygon, const Eigen::Vector2d &by)
+    {
+        for (Eigen::Vector2d &corner : polygon)
+            corner += by;
+        return polygon;
+    }
+
+    /** An L: a 4 x 4 square without its upper right quarter. */
+    const Polygon ELL = {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
+}  // namespace
+
+TEST(Polygon, AreaIsSignedByOrientation)
+{
+    EXPECT_DOUBLE_EQ(signedArea(ELL), 12.0);
+    EXPECT_DOUBLE_EQ(signedArea(reversed(ELL)), -12.0);
+    EXPECT_EQ(signedArea({}), 0.0);
+    EXPECT_EQ(signedArea({{1, 1}, {2, 2}}), 0.0);
+    EXPECT_DOUBLE_EQ(signedArea({{0, 0}, {1, 1}, {2, 2}}), 0.0);
+}
+
+TEST(Polygon, AreaKeepsItsPrecisionFarFromTheOrigin)
+{
+    // Coordinates of this size are whole micrometres; the shoelace formula on them would err by hundreds.
+    EXPECT_NEAR(signedArea(moved(ELL, {4.5e9, -5.5e9})), 12.0, 1e-5);
+}
+
+TEST(Polygon, ContainsPointsOfANonConvexPolygonInEitherOrientation)
+{
+    for (const Polygon &polygon : {ELL, reversed(ELL)})
+    {
+        EXPECT_TRUE(contains(polygon, {1.0, 1.0}));
+        EXPECT_TRUE(contains(polygon, {3.0, 1.0}));
+        EXPECT_TRUE(contains(polygon, {1.0, 3.0}));
+        EXPECT_TRUE(contains(polygon, {1.9999, 3.0}));
+        EXPECT_FALSE(contains(polygon, {2.0001, 3.0}));
+        EXPECT_FALSE(contains(polygon, {3.0, 3.0}));
+        EXPECT_FALSE(contains(polygon, {-0.001, 1.0}));
+        EXPECT_FALSE(contains(polygon, {4.001, 1.0}));
+        EXPECT_FALSE(contains(polygon, {1.0, -0.001}));
+        // On the height of corners, where a careless count takes an edge twice.
+        EXPECT_TRUE(contains(polygon, {1.0, 2.0}));
+        EXPECT_FALSE(contains(polygon, {-1.0, 2.0}));
+        EXPECT_FALSE(contains(polygon, {5.0, 2.0}));
+    }
+    EXPECT_FALSE(contains({}, {0.0, 0.0}));
+}
+
+TEST(Polygon, ContainsAgreesWithTheWindingAngle)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    int inside = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+        // Star-shaped about the origin, so simple whatever the radii.
+        Polygon polygon;
+        const int corners = 3 + static_cast<int>(uniform(random) * 9.0);
+        for (int k = 0; k < corners; ++k)
+        {
+            const double angle = 2.0 * 3.14159265358979 * k / corners, radius = 0.3 + 2.0 * uniform(random);
+            polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+        }
+        for (int k = 0; k < 50; ++k)
+        {
+            const Eigen::Vector2d point(5.0 * uniform(random) - 2.5, 5.0 * uniform(random) - 2.5);
+            double turned = 0.0;
+            for (std::size_t j = 0; j < polygon.size(); ++j)
+            {
+                const Eigen::Vector2d a = polygon[j] - point, b = polygon[(j + 1) % polygon.size()] - point;
+                turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+            }
+            const bool expected = std::abs(turned) > 3.0;
+            EXPECT_EQ(contains(polygon, point), expected);
+            EXPECT_EQ(contains(moved(polygon, {1e6, -1e6}), point + Eigen::Vector2d(1e6, -1e6)), expected);
+            inside += expected;
+        }
+    }
+    EXPECT_GT(inside, 1000);
+}

@@ -1,0 +1,225 @@
+#include "parking_geometry/Vehicle.h"
+
+#include "ExpectError.h"
+#include "TemporaryFolder.h"
+#include "parking_geometry/Polygon.h"
+#include "parking_geometry/io/ScenarioReader.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::expectError;
+
+namespace
+{
+    constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    struct Field
+    {
+        const char *name;
+        double Vehicle::*member;
+        bool zeroAllowed;
+    };
+
+    const Field FIELDS[] = {
+        {"wheelbase", &Vehicle::wheelbase, false},
+        {"front_overhang", &Vehicle::frontOverhang, true},
+        {"rear_overhang", &Vehicle::rearOverhang, true},
+        {"width", &Vehicle::width, false},
+        {"max_steering_angle", &Vehicle::maxSteeringAngle, false},
+        {"max_speed", &Vehicle::maxSpeed, false},
+        {"max_acceleration", &Vehicle::maxAcceleration, false},
+        {"max_steering_rate", &Vehicle::maxSteeringRate, false},
+    };
+}  // namespace
+
+TEST(Vehicle, DefaultsAreTpcapsCarAndValid)
+{
+    const Vehicle car;
+    EXPECT_NO_THROW(car.validate());
+    EXPECT_EQ(car.wheelbase, 2.8);
+    EXPECT_EQ(car.frontOverhang, 0.96);
+    EXPECT_EQ(car.rearOverhang, 0.929);
+    EXPECT_EQ(car.width, 1.942);
+    EXPECT_EQ(car.maxSteeringAngle, 0.75);
+    EXPECT_NEAR(car.minTurningRadius(), 3.006, 5e-4);
+}
+
+TEST(Vehicle, EveryBadFieldIsNamedWithItsValue)
+{
+    for (const Field &field : FIELDS)
+    {
+        for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE, -0.5})
+        {
+            Vehicle car;
+            car.*field.member = bad;
+            const char *value = std::isnan(bad) ? "nan" : bad == INFINITE ? "inf" : bad == -INFINITE ? "-inf" : "-0.5";
+            expectError([&car] { car.validate(); }, {field.name, std::string("is ") + value, "must be"});
+        }
+        Vehicle car;
+        car.*field.member = 0.0;
+        if (field.zeroAllowed)
+            EXPECT_NO_THROW(car.validate()) << field.name;
+        else
+            expectError([&car] { car.validate(); }, {field.name, "is 0"});
+        car.*field.member = 1e-6;
+        EXPECT_NO_THROW(car.validate()) << field.name;
+    }
+}
+
+TEST(Vehicle, SteeringMustStayBelowNinetyDegrees)
+{
+    Vehicle car;
+    car.maxSteeringAngle = 0.5 * PI;
+    expectError([&car] { car.validate(); }, {"max_steering_angle", "90 degrees"});
+    car.maxSteeringAngle = std::nextafter(0.5 * PI, 0.0);
+    EXPECT_NO_THROW(car.validate());
+}
+
+TEST(Vehicle, MillimetresAreNotMetres)
+{
+    Vehicle car;
+    car.wheelbase = 2800.0;
+    expectError([&car] { car.validate(); }, {"wheelbase", "2800", "50"});
+    car.wheelbase = 50.1;
+    expectError([&car] { car.validate(); }, {"wheelbase", "50.1"});
+    car.wheelbase = 50.0;
+    EXPECT_NO_THROW(car.validate());
+}
+
+TEST(Vehicle, CurvatureAndSteeringAreInverse)
+{
+    const Vehicle car;
+    for (double angle = -0.75; angle <= 0.75; angle += 0.01)
+        EXPECT_NEAR(car.steeringAngle(car.curvature(angle)), angle, 1e-12);
+    EXPECT_NEAR(car.curvature(car.maxSteeringAngle), 1.0 / car.minTurningRadius(), 1e-12);
+    EXPECT_LT(car.curvature(-0.1), 0.0);
+}
+
+TEST(Vehicle, FootprintHasItsCornersInOrder)
+{
+    Vehicle car;
+    car.wheelbase = 3.0;
+    car.frontOverhang = 1.0;
+    car.rearOverhang = 0.5;
+    car.width = 2.0;
+    const std::array<Eigen::Vector2d, 4> body = car.footprint({10.0, 20.0, 0.0});
+    EXPECT_TRUE(body[0].isApprox(Eigen::Vector2d(9.5, 19.0)));   // rear right
+    EXPECT_TRUE(body[1].isApprox(Eigen::Vector2d(14.0, 19.0)));  // front right
+    EXPECT_TRUE(body[2].isApprox(Eigen::Vector2d(14.0, 21.0)));  // front left
+    EXPECT_TRUE(body[3].isApprox(Eigen::Vector2d(9.5, 21.0)));   // rear left
+    const std::array<Eigen::Vector2d, 4> turned = car.footprint({0.0, 0.0, 0.5 * PI});
+    EXPECT_TRUE(turned[1].isApprox(Eigen::Vector2d(1.0, 4.0)));
+}
+
+TEST(Vehicle, FootprintMovesRigidlyWithItsPose)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-100.0, 100.0);
+    const Vehicle car;
+    const std::array<Eigen::Vector2d, 4> home = car.footprint({});
+    for (int i = 0; i < 1000; ++i)
+    {
+        const Pose pose{uniform(random), uniform(random), uniform(random)};
+        const std::array<Eigen::Vector2d, 4> body = car.footprint(pose);
+        for (std::size_t k = 0; k < 4; ++k)
+        {
+            const Pose expected = compose(pose, {home[k].x(), home[k].y(), 0.0});
+            EXPECT_NEAR(body[k].x(), expected.x, 1e-9);
+            EXPECT_NEAR(body[k].y(), expected.y, 1e-9);
+        }
+        EXPECT_NEAR(signedArea({body.begin(), body.end()}), car.length() * car.width, 1e-8);
+    }
+}
+
+TEST(VehicleCatalogue, HoldsTenRealCarsOfPlausibleSizes)
+{
+    const std::vector<std::string> names = vehicleNames();
+    EXPECT_GE(names.size(), 11u);
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+    for (const std::string &name : names)
+    {
+        const Vehicle car = vehicleByName(name);
+        EXPECT_EQ(car.name, name);
+        EXPECT_NO_THROW(car.validate());
+        EXPECT_GT(car.length(), 2.5) << name;
+        EXPECT_LT(car.length(), 5.5) << name;
+        EXPECT_GT(car.width, 1.6) << name;
+        EXPECT_LT(car.width, 2.2) << name;
+        EXPECT_GT(car.frontOverhang, 0.35) << name;
+        EXPECT_GT(car.rearOverhang, 0.4) << name;
+        // Between a London taxi and a large saloon with sluggish steering.
+        EXPECT_GT(car.minTurningRadius(), 2.0) << name;
+        EXPECT_LT(car.minTurningRadius(), 5.2) << name;
+    }
+}
+
+TEST(VehicleCatalogue, PublishedNumbersAreKept)
+{
+    const Vehicle tpcap = vehicleByName("tpcap");
+    EXPECT_EQ(tpcap.rearOverhang, 0.929);
+    EXPECT_EQ(tpcap.maxSteeringAngle, 0.75);
+
+    const Vehicle golf = vehicleByName("vw_golf8");
+    EXPECT_NEAR(golf.length(), 4.284, 1e-12);
+    EXPECT_EQ(golf.width, 1.789);
+    EXPECT_EQ(golf.wheelbase, 2.636);
+    // The outer front tyre draws the published circle of 10.9 m.
+    const double outer = std::hypot(golf.wheelbase, golf.minTurningRadius() + 0.43 * golf.width);
+    EXPECT_NEAR(2.0 * outer, 10.9, 1e-9);
+
+    const Vehicle lincoln = vehicleByName("lincoln_mkz");
+    EXPECT_NEAR(lincoln.rearOverhang, 1.043, 1e-9);
+    EXPECT_NEAR(lincoln.minTurningRadius(), 5.054, 2e-3);
+}
+
+TEST(VehicleCatalogue, UnknownNameListsTheKnownOnesAndTheNearest)
+{
+    expectError([] { vehicleByName("golf"); }, {"'golf'", "did you mean 'vw_golf8'", "tpcap", "tesla_model3"});
+    expectError([] { vehicleByName("telsa_model3"); }, {"did you mean 'tesla_model3'"});
+    expectError([] { vehicleByName(""); }, {"unknown vehicle ''"});
+    expectError([] { vehicleByName(std::string(5000, 'x') + "\n\x01"); }, {"unknown vehicle"});
+}
+
+TEST(VehicleReader, ReadsNamesAndFiles)
+{
+    const parking_test::TemporaryFolder folder;
+    EXPECT_EQ(readVehicle("bmw_3_g20").wheelbase, 2.851);
+    const std::string file = folder.write("van.yaml",
+                                          "name: van\nwheelbase: 3.4\nfront_overhang: 1.0\nrear_overhang: 1.1\n"
+                                          "width: 2.02\nmax_steering_angle: 0.6\nmax_speed: 3\n");
+    const Vehicle van = readVehicle(file);
+    EXPECT_EQ(van.name, "van");
+    EXPECT_EQ(van.wheelbase, 3.4);
+    EXPECT_EQ(van.maxSpeed, 3.0);
+    EXPECT_EQ(van.maxAcceleration, Vehicle().maxAcceleration);
+}
+
+TEST(VehicleReader, NamesWhatIsWrongInAFile)
+{
+    const parking_test::TemporaryFolder folder;
+    const std::string good =
+        "wheelbase: 2.8\nfront_overhang: 1\nrear_overhang: 1\nwidth: 1.9\nmax_steering_angle: 0.6\n";
+    const auto read = [&folder](const std::string &text)
+    {
+        return [file = folder.write("car.yaml", text)]
+        {
+            readVehicle(file);
+        };
+    };
+    EXPECT_NO_THROW(read(good)());
+    expectError(read("wheelbase: 2.8\n"), {"car.yaml:1", "'front_overhang' is missing"});
+    expectError(read(good + "wheel_base: 2.8\n"), {"car.yaml:6", "'wheel_base'", "did you mean 'wheelbase'"});
+    expectError(read(good + "max_speed: fast\n"), {"car.yaml:6", "max_speed is 'fast'"});
+    expectError(read(good + "max_speed: -1\n"), {"car.yaml", "max_speed is -1"});
+    expectError(read(good + "max_speed: .nan\n"), {"car.yaml:6", "max_speed"});
+    expectError(read("[1, 2]\n"), {"car.yaml:1", "mapping"});
+    expectError([&folder] { readVehicle(folder.path("none.yaml")); }, {"none.yaml", "cannot be opened"});
+    expectError([] { readVehicle("glf8"); }, {"'glf8'", "'vw_golf8'", "path of a .yaml file"});
+}
