@@ -1,0 +1,68 @@
+#pragma once
+
+#include "parking_geometry/Vehicle.h"
+#include "state_validity/DistanceField.h"
+#include "state_validity/EdgeIndex.h"
+#include "state_validity/ObstacleSet.h"
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/StateValidityChecker.h>
+
+namespace parking
+{
+    /** \anchor CircleValidityChecker
+        \brief The paper's model of the car (section "Introducing Vehicle Volume"): a circle round it, whatever its
+        heading.
+
+        A state is valid when it lies within the bounds of the space and every obstacle is farther from its position
+       than the radius. The position stands for the middle of the body here, not for its rear axle: a circle has no
+       heading that could tell the one from the other, and round the middle it is smallest. So paths found with this
+       checker are paths of the car's middle.
+
+        Exact on occupancy grids and among polygons alike: the distance field decides where it can, the distance to the
+        obstacles' edges elsewhere. Const members may be called from several threads at once. */
+    class CircleValidityChecker : public ompl::base::StateValidityChecker
+    {
+    public:
+        /** \brief Radius of the circle round the body, with room on all sides to open the doors.
+
+            \param doorMargin metres, not negative; otherwise ompl::Exception */
+        static double radiusAround(const Vehicle &vehicle, double doorMargin = 0.0);
+
+        /** \brief \param radius metres, positive
+
+            Throws ompl::Exception naming the value that is wrong, and for spaces that hold no positions in the plane
+           with a heading. */
+        CircleValidityChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles, double radius);
+
+        using ompl::base::StateValidityChecker::clearance;
+        using ompl::base::StateValidityChecker::isValid;
+        bool isValid(const ompl::base::State *state) const override;
+
+        /** \brief The distance between the circle and the nearest obstacle; 0 when they touch. Exact up to a metre, a
+            lower bound beyond. */
+        double clearance(const ompl::base::State *state) const override;
+
+        double radius() const
+        {
+            return radius_;
+        }
+
+        const ObstacleSet &obstacles() const
+        {
+            return obstacles_;
+        }
+
+        /** \brief Is the circle round (x, y), in the coordinates of the obstacle set, free? False where x or y is not
+            finite. */
+        bool isFree(double x, double y) const;
+
+    private:
+        double distance(double x, double y) const;
+
+        ObstacleSet obstacles_;
+        double radius_;
+        DistanceField field_;
+        EdgeIndex edges_;
+    };
+}  // namespace parking

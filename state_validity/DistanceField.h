@@ -1,0 +1,122 @@
+#pragma once
+
+#include "state_validity/ObstacleSet.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief Distances to the nearest obstacle on a grid of cells, with bounds that hold for every point.
+
+        Each cell stores the exact Euclidean distance between its centre and the nearest centre of a blocked cell
+        (P. Felzenszwalb and D. Huttenlocher, "Distance transforms of sampled functions", 2012: linear time). A cell is
+        blocked when an obstacle touches it. For a point q in a cell whose centre is c, and the nearest obstacle point w
+        in a blocked cell whose centre is b:
+
+            | |q - w| - |c - b| | <= |q - c| + |w - b| <= side * sqrt(2),
+
+        both terms being at most half a diagonal. So
+
+            value - side * sqrt(2)  <=  distance(q, obstacles)  <=  value + side * sqrt(2),
+
+        the upper bound since a blocked cell holds at least one obstacle point. Cells that lie entirely inside of an
+        obstacle are marked, so that a point deep inside of a large obstacle is known to be blocked. The outside of the
+        bounds is an obstacle; points there have distance zero.
+
+        Immutable after construction, so const calls from several threads are safe. */
+    class DistanceField
+    {
+    public:
+        /** \brief The field of \e obstacles.
+
+            \param resolution side of a cell in metres for polygon worlds; 0 chooses one. Grid worlds use their own
+           cells. Throws parking::Error when the resolution is negative, not finite, or would need more than 2^28 cells.
+         */
+        explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
+
+        /** \brief The field of the non-zero entries of \e blocked, row by row: the transform itself. */
+        DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
+                      double resolution);
+
+        double resolution() const
+        {
+            return resolution_;
+        }
+        std::size_t columns() const
+        {
+            return columns_;
+        }
+        std::size_t rows() const
+        {
+            return rows_;
+        }
+
+        /** \brief How far lowerBound() and upperBound() are from the value of the cell, in metres. */
+        double errorBound() const
+        {
+            return error_;
+        }
+
+        /** \brief Never more than the distance from the local point to the nearest obstacle; 0 when it may be blocked.
+            Points that are not finite give 0. */
+        double lowerBound(double x, double y) const
+        {
+            const double value = valueAt(x, y) * (1.0 - ROUNDING) - error_;
+            return value > 0.0 ? value : 0.0;
+        }
+
+        /** \brief Never less than the distance from the local point to the nearest obstacle; 0 when it is surely inside
+            of one. Infinite where there is no obstacle at all. */
+        double upperBound(double x, double y) const
+        {
+            const double value = valueAt(x, y);
+            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
+        }
+
+        /** \brief Is the local point surely inside of an obstacle, or outside of the bounds? */
+        bool isInside(double x, double y) const
+        {
+            return valueAt(x, y) < 0.0;
+        }
+
+        /** \brief Does no obstacle touch the cell of the local point? */
+        bool isOutside(double x, double y) const
+        {
+            return valueAt(x, y) > 0.0;
+        }
+
+        /** \brief The stored distance of the cell, negative for a cell that lies inside of an obstacle. */
+        float at(std::size_t column, std::size_t row) const
+        {
+            return values_[row * columns_ + column];
+        }
+
+    private:
+        /** Relative error of a float, twice over. */
+        static constexpr double ROUNDING = 1.2e-7;
+
+        double valueAt(double x, double y) const
+        {
+            const double u = (x - origin_.x()) * inverse_, v = (y - origin_.y()) * inverse_;
+            // Written so that NaN takes the branch.
+            if (!(u >= 0.0 && v >= 0.0 && u < static_cast<double>(columns_) && v < static_cast<double>(rows_)))
+                return -1.0;
+            return values_[static_cast<std::size_t>(v) * columns_ + static_cast<std::size_t>(u)];
+        }
+
+        void transform(const std::vector<std::uint8_t> &blocked);
+
+        std::size_t columns_{0};
+        std::size_t rows_{0};
+        double resolution_{1.0};
+        double inverse_{1.0};
+        double error_{0.0};
+        Eigen::Vector2d origin_{0.0, 0.0};
+        std::vector<float> values_;
+    };
+}  // namespace parking

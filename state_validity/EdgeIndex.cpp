@@ -1,0 +1,386 @@
+#include "state_validity/EdgeIndex.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double BUCKET_SIZE = 1.0;    // metres
+        constexpr double MAX_BUCKETS = 4.0e6;  // larger worlds get larger buckets
+        constexpr std::size_t BLOCK_SIZE = 8;
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        // Rounding of rotated coordinates within a few kilometres of the frame, with room to spare.
+        constexpr double ROUNDING = 1e-10;
+
+        using Eight = Eigen::Array<double, BLOCK_SIZE, 1>;
+
+        double squaredDistanceToSegment(double px, double py, double ax, double ay, double bx, double by)
+        {
+            const double dx = bx - ax, dy = by - ay;
+            const double square = dx * dx + dy * dy;
+            const double t = square > 0.0 ? std::clamp(((px - ax) * dx + (py - ay) * dy) / square, 0.0, 1.0) : 0.0;
+            const double ex = px - ax - t * dx, ey = py - ay - t * dy;
+            return ex * ex + ey * ey;
+        }
+
+        double squaredDistanceToBox(double px, double py, double hx, double hy)
+        {
+            const double dx = std::max(0.0, std::abs(px) - hx), dy = std::max(0.0, std::abs(py) - hy);
+            return dx * dx + dy * dy;
+        }
+
+        std::size_t clampTo(double value, std::size_t count)
+        {
+            return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count - 1)));
+        }
+
+        /** Cuts off what lies outside of a square round (x, y); false when nothing is left. */
+        bool clip(Edge &edge, double x, double y, double half)
+        {
+            const Eigen::Vector2d from = edge.from, along = edge.to - edge.from, centre(x, y);
+            double begin = 0.0, end = 1.0;
+            for (int axis = 0; axis < 2; ++axis)
+            {
+                const double low = centre[axis] - half - from[axis], high = centre[axis] + half - from[axis];
+                if (along[axis] == 0.0)
+                {
+                    if (low > 0.0 || high < 0.0)
+                        return false;
+                    continue;
+                }
+                const double t0 = low / along[axis], t1 = high / along[axis];
+                begin = std::max(begin, std::min(t0, t1));
+                end = std::min(end, std::max(t0, t1));
+            }
+            if (begin > end)
+                return false;
+            if (begin > 0.0)
+                edge.from = from + begin * along;
+            if (end < 1.0)
+                edge.to = from + end * along;
+            return true;
+        }
+
+        /** Position along a Z-shaped curve through a square of 256 x 256 places: near ones have near numbers. */
+        std::uint32_t zOrder(double u, double v)
+        {
+            const auto spread = [](double value)
+            {
+                auto bits = static_cast<std::uint32_t>(std::clamp(value * 256.0, 0.0, 255.0));
+                bits = (bits | (bits << 4)) & 0x0f0fU;
+                bits = (bits | (bits << 2)) & 0x3333U;
+                return (bits | (bits << 1)) & 0x5555U;
+            };
+            return spread(u) | (spread(v) << 1);
+        }
+    }  // namespace
+
+    /** Eight edges that lie together; when there are fewer, the last one is repeated. */
+    struct EdgeIndex::Block
+    {
+        Eight ax, ay, bx, by;
+        Eight nx, ny;         // unit normals
+        double x, y, ex, ey;  // the box round them: middle and half lengths
+        std::size_t edges;    // distinct ones
+        std::size_t points;   // distinct ends
+        std::array<double, 2 * BLOCK_SIZE> px, py;
+
+        /** How far the oriented box is from the block's box at least, along the axes of the former. */
+        double gap(const OrientedBox &box) const
+        {
+            const double c = box.cosine, s = box.sine;
+            const double dx = x - box.x, dy = y - box.y;
+            const double ac = std::abs(c), as = std::abs(s);
+            const double gapX = std::abs(c * dx + s * dy) - (ac * ex + as * ey) - box.halfLength;
+            const double gapY = std::abs(c * dy - s * dx) - (ac * ey + as * ex) - box.halfWidth;
+            return std::max(gapX, gapY) - ROUNDING;
+        }
+
+        /** The smallest separation of the box and the eight edges. */
+        double separation(const OrientedBox &box) const
+        {
+            const double c = box.cosine, s = box.sine;
+            const Eight dax = ax - box.x, day = ay - box.y, dbx = bx - box.x, dby = by - box.y;
+            const Eight lax = c * dax + s * day, lay = c * day - s * dax;
+            const Eight lbx = c * dbx + s * dby, lby = c * dby - s * dbx;
+            const Eight gapX = lax.min(lbx).max(-lax.max(lbx)) - box.halfLength;
+            const Eight gapY = lay.min(lby).max(-lay.max(lby)) - box.halfWidth;
+            const Eight gapN = (nx * dax + ny * day).abs() - box.halfLength * (c * nx + s * ny).abs() -
+                               box.halfWidth * (c * ny - s * nx).abs();
+            return gapX.max(gapY).max(gapN).minCoeff();
+        }
+    };
+
+    struct EdgeIndex::List
+    {
+        std::vector<Block> blocks;
+    };
+
+    EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Rectangle &bounds, double reach)
+      : reach_(reach),
+        origin_(bounds.min)
+    {
+        const Eigen::Vector2d size = bounds.max - bounds.min;
+        bucketSize_ = std::max(BUCKET_SIZE, std::sqrt(size.x() * size.y() / MAX_BUCKETS));
+        inverseBucketSize_ = 1.0 / bucketSize_;
+        columns_ = static_cast<std::size_t>(std::ceil(size.x() / bucketSize_)) + 1;
+        rows_ = static_cast<std::size_t>(std::ceil(size.y() / bucketSize_)) + 1;
+        buckets_ = std::vector<std::atomic<List *>>(columns_ * rows_);
+        for (const Edge &edge : edges)
+            if ((edge.to - edge.from).squaredNorm() > 0.0)
+                edges_.push_back(edge);
+
+        // Base cells: counting sort of the edges by the cells that their boxes overlap. Long diagonal edges are few.
+        baseSize_ = 2.0 * bucketSize_;
+        baseColumns_ = columns_ / 2 + 1;
+        baseRows_ = rows_ / 2 + 1;
+        const auto forEachCell = [&](const Edge &edge, auto &&visit)
+        {
+            const Eigen::Vector2d low = (edge.from.cwiseMin(edge.to) - origin_) / baseSize_;
+            const Eigen::Vector2d high = (edge.from.cwiseMax(edge.to) - origin_) / baseSize_;
+            for (std::size_t row = clampTo(low.y(), baseRows_); row <= clampTo(high.y(), baseRows_); ++row)
+                for (std::size_t column = clampTo(low.x(), baseColumns_); column <= clampTo(high.x(), baseColumns_);
+                     ++column)
+                    visit(row * baseColumns_ + column);
+        };
+        first_.assign(baseColumns_ * baseRows_ + 1, 0);
+        for (const Edge &edge : edges_)
+            forEachCell(edge, [&](std::size_t cell) { ++first_[cell + 1]; });
+        for (std::size_t cell = 1; cell < first_.size(); ++cell)
+            first_[cell] += first_[cell - 1];
+        base_.resize(first_.back());
+        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t i = 0; i < edges_.size(); ++i)
+            forEachCell(edges_[i], [&](std::size_t cell) { base_[next[cell]++] = i; });
+    }
+
+    EdgeIndex::~EdgeIndex()
+    {
+        for (std::atomic<List *> &bucket : buckets_)
+            delete bucket.load(std::memory_order_relaxed);
+    }
+
+    std::unique_ptr<EdgeIndex::List> EdgeIndex::gather(std::size_t column, std::size_t row) const
+    {
+        const double half = 0.5 * bucketSize_, around = reach_ + half;
+        const double x = origin_.x() + static_cast<double>(column) * bucketSize_ + half;
+        const double y = origin_.y() + static_cast<double>(row) * bucketSize_ + half;
+        std::vector<std::size_t> found;
+        for (std::size_t r = clampTo((y - around - origin_.y()) / baseSize_, baseRows_);
+             r <= clampTo((y + around - origin_.y()) / baseSize_, baseRows_); ++r)
+        {
+            const std::size_t begin = r * baseColumns_ + clampTo((x - around - origin_.x()) / baseSize_, baseColumns_);
+            const std::size_t end = r * baseColumns_ + clampTo((x + around - origin_.x()) / baseSize_, baseColumns_);
+            found.insert(found.end(), base_.begin() + static_cast<long>(first_[begin]),
+                         base_.begin() + static_cast<long>(first_[end + 1]));
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+
+        // What lies farther off than any query looks is cut away, so that long edges do not swell their blocks.
+        struct Piece
+        {
+            std::uint32_t key;
+            Edge edge;
+            Eigen::Vector2d normal;
+        };
+        const double farthest = reach_ + half * std::sqrt(2.0);
+        std::vector<Piece> pieces;
+        for (const std::size_t i : found)
+        {
+            Edge edge = edges_[i];
+            if (squaredDistanceToSegment(x, y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y()) >
+                    farthest * farthest ||
+                !clip(edge, x, y, farthest))
+                continue;
+            const Eigen::Vector2d along = (edges_[i].to - edges_[i].from).normalized();
+            const Eigen::Vector2d middle = 0.5 * (edge.from + edge.to);
+            pieces.push_back({zOrder(0.5 + 0.5 * (middle.x() - x) / farthest, 0.5 + 0.5 * (middle.y() - y) / farthest),
+                              edge,
+                              {-along.y(), along.x()}});
+        }
+        std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.key < b.key; });
+
+        auto list = std::make_unique<List>();
+        list->blocks.resize((pieces.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
+        for (std::size_t k = 0; k < list->blocks.size(); ++k)
+        {
+            Block &block = list->blocks[k];
+            block.edges = std::min(BLOCK_SIZE, pieces.size() - k * BLOCK_SIZE);
+            block.points = 0;
+            Eigen::Vector2d low(INFINITE, INFINITE), high(-INFINITE, -INFINITE);
+            for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
+            {
+                const Piece &piece = pieces[k * BLOCK_SIZE + std::min(i, block.edges - 1)];
+                const Eigen::Vector2d &a = piece.edge.from, &b = piece.edge.to;
+                const auto at = static_cast<Eigen::Index>(i);
+                block.ax[at] = a.x();
+                block.ay[at] = a.y();
+                block.bx[at] = b.x();
+                block.by[at] = b.y();
+                block.nx[at] = piece.normal.x();
+                block.ny[at] = piece.normal.y();
+                low = low.cwiseMin(a.cwiseMin(b));
+                high = high.cwiseMax(a.cwiseMax(b));
+                for (const Eigen::Vector2d *point : {&a, &b})
+                {
+                    bool known = false;
+                    for (std::size_t j = 0; j < block.points && !known; ++j)
+                        known = block.px[j] == point->x() && block.py[j] == point->y();
+                    if (known)
+                        continue;
+                    block.px[block.points] = point->x();
+                    block.py[block.points++] = point->y();
+                }
+            }
+            block.x = 0.5 * (low.x() + high.x());
+            block.y = 0.5 * (low.y() + high.y());
+            block.ex = 0.5 * (high.x() - low.x()) + ROUNDING;
+            block.ey = 0.5 * (high.y() - low.y()) + ROUNDING;
+        }
+        return list;
+    }
+
+    const EdgeIndex::List &EdgeIndex::near(double x, double y) const
+    {
+        const auto index = [](double value, std::size_t count)
+        {
+            return value > 0.0 ? std::min(static_cast<std::size_t>(value), count - 1) : std::size_t{0};
+        };
+        const std::size_t column = index((x - origin_.x()) * inverseBucketSize_, columns_);
+        const std::size_t row = index((y - origin_.y()) * inverseBucketSize_, rows_);
+        std::atomic<List *> &bucket = buckets_[row * columns_ + column];
+        List *list = bucket.load(std::memory_order_acquire);
+        if (list == nullptr)
+        {
+            // Several threads may gather the same list; the first to finish wins.
+            std::unique_ptr<List> fresh = gather(column, row);
+            if (bucket.compare_exchange_strong(list, fresh.get(), std::memory_order_acq_rel))
+                list = fresh.release();
+        }
+        return *list;
+    }
+
+    double EdgeIndex::separation(const OrientedBox &box, double ignored) const
+    {
+        double smallest = ignored;
+        for (const Block &block : near(box.x, box.y).blocks)
+            if (block.gap(box) < smallest)
+                smallest = std::min(smallest, block.separation(box));
+        return smallest;
+    }
+
+    double EdgeIndex::separation(const OrientedBox &box) const
+    {
+        return separation(box, INFINITE);
+    }
+
+    int EdgeIndex::side(const OrientedBox &box, double band) const
+    {
+        double smallest = INFINITE;
+        for (const Block &block : near(box.x, box.y).blocks)
+            if (block.gap(box) <= band)
+            {
+                smallest = std::min(smallest, block.separation(box));
+                if (smallest < -band)
+                    return -1;
+            }
+        return smallest > band ? 1 : 0;
+    }
+
+    double EdgeIndex::firstContact(const OrientedBox &box, const BoxSweep &sweep) const
+    {
+        const double half = 0.5 * std::abs(sweep.curvature) * sweep.length;
+        return firstContact(box, sweep, std::cos(half), std::sin(half));
+    }
+
+    double EdgeIndex::firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
+                                   double middleSine) const
+    {
+        const List &list = near(box.x, box.y);
+        if (SweepFront::applies(sweep))
+        {
+            SweepFront front(box, sweep, middleCosine, middleSine);
+            for (const Block &block : list.blocks)
+            {
+                if (!front.mayMeet(block.x, block.y, block.ex, block.ey))
+                    continue;
+                for (std::size_t i = 0; i < block.points; ++i)
+                    front.meetPoint(block.px[i], block.py[i]);
+                for (std::size_t i = 0; i < block.edges; ++i)
+                {
+                    const auto k = static_cast<Eigen::Index>(i);
+                    front.meetEdge(block.ax[k], block.ay[k], block.bx[k], block.by[k], block.nx[k], block.ny[k]);
+                }
+            }
+            return front.contact();
+        }
+
+        // No point of the box gets farther from where it is than this.
+        const double farthest = std::hypot(std::abs(sweep.axle) + sweep.halfLength, sweep.halfWidth);
+        const double moved = (sweep.length + OVERRUN) * (1.0 + std::abs(sweep.curvature) * farthest) + ROUNDING;
+        OrientedBox enlarged = box;
+        enlarged.halfLength = sweep.halfLength + moved;
+        enlarged.halfWidth = sweep.halfWidth + moved;
+        double first = INFINITE;
+        BoxSweep left = sweep;
+        left.length += OVERRUN;
+        const double c = box.cosine, s = box.sine;
+        for (const Block &block : list.blocks)
+        {
+            if (block.gap(enlarged) > 0.0)
+                continue;
+            for (std::size_t i = 0; i < block.edges; ++i)
+            {
+                const auto k = static_cast<Eigen::Index>(i);
+                const double ax = block.ax[k] - box.x, ay = block.ay[k] - box.y;
+                const double bx = block.bx[k] - box.x, by = block.by[k] - box.y;
+                const double contact =
+                    parking::firstContact(left, c * ax + s * ay, c * ay - s * ax, c * bx + s * by, c * by - s * bx);
+                if (contact < first)
+                {
+                    first = contact;
+                    left.length = contact;
+                }
+            }
+        }
+        return first;
+    }
+
+    double EdgeIndex::distance(const OrientedBox &box) const
+    {
+        const double c = box.cosine, s = box.sine, hx = box.halfLength, hy = box.halfWidth;
+        double smallest = INFINITE;
+        for (const Block &block : near(box.x, box.y).blocks)
+        {
+            if (block.gap(box) >= smallest)
+                continue;
+            for (std::size_t i = 0; i < block.edges; ++i)
+            {
+                const auto k = static_cast<Eigen::Index>(i);
+                const double dax = block.ax[k] - box.x, day = block.ay[k] - box.y;
+                const double dbx = block.bx[k] - box.x, dby = block.by[k] - box.y;
+                const double ax = c * dax + s * day, ay = c * day - s * dax;
+                const double bx = c * dbx + s * dby, by = c * dby - s * dbx;
+                const double nx = c * block.nx[k] + s * block.ny[k], ny = c * block.ny[k] - s * block.nx[k];
+                const double gapX = std::max(std::min(ax, bx), -std::max(ax, bx)) - hx;
+                const double gapY = std::max(std::min(ay, by), -std::max(ay, by)) - hy;
+                const double gapN = std::abs(nx * ax + ny * ay) - hx * std::abs(nx) - hy * std::abs(ny);
+                if (std::max(std::max(gapX, gapY), gapN) <= 0.0)
+                    return 0.0;
+                // Apart: the distance is between a corner of the one and the other as a whole.
+                double square = std::min(squaredDistanceToBox(ax, ay, hx, hy), squaredDistanceToBox(bx, by, hx, hy));
+                for (const double cx : {-hx, hx})
+                    for (const double cy : {-hy, hy})
+                        square = std::min(square, squaredDistanceToSegment(cx, cy, ax, ay, bx, by));
+                smallest = std::min(smallest, std::sqrt(square));
+            }
+        }
+        return smallest;
+    }
+}  // namespace parking

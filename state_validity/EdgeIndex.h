@@ -1,0 +1,85 @@
+#pragma once
+
+#include "state_validity/ObstacleSet.h"
+#include "state_validity/OrientedBox.h"
+#include "state_validity/SweepFront.h"
+#include "state_validity/SweptBox.h"
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace parking
+{
+    /** \brief The edges of all obstacles, found quickly near a point, and how far an oriented box is from them.
+
+        The world is cut into square buckets. The list of a bucket holds every edge within \e reach of any of its
+       points, so one list answers a query whole. Lists are gathered when first asked for: their cost grows with the
+       area that is searched, not with the map. Within a list, edges that lie together form blocks of eight with a box
+       round them: most blocks are passed over whole. Safe for const calls from several threads. */
+    class EdgeIndex
+    {
+    public:
+        /** \brief \param reach metres, positive: how far from the queried point edges matter. */
+        EdgeIndex(const std::vector<Edge> &edges, const Rectangle &bounds, double reach);
+        ~EdgeIndex();
+        EdgeIndex(const EdgeIndex &) = delete;
+        EdgeIndex &operator=(const EdgeIndex &) = delete;
+
+        double reach() const
+        {
+            return reach_;
+        }
+
+        /** \brief The smallest separation of the box and the edges within reach of its centre.
+
+            Per edge this is the largest gap along the axes of the box and the edge's normal (separating axes): positive
+            when apart, and then never more than their distance (equal to it unless corner faces corner); negative when
+            they cross, by how much they would have to be moved along the best of those axes. Infinite without edges.
+
+            \param ignored separations of at least this need not be told apart: when all are, the result is some number
+           that is at least this */
+        double separation(const OrientedBox &box, double ignored) const;
+
+        /** \brief The same, told apart however large. */
+        double separation(const OrientedBox &box) const;
+
+        /** \brief Whether the smallest separation is above \e band (1), below minus \e band (-1), or between (0). */
+        int side(const OrientedBox &box, double band) const;
+
+        /** \brief The exact distance between the box's outline or interior and the nearest edge; 0 when they cross.
+            Infinite when no edge is within reach. */
+        double distance(const OrientedBox &box) const;
+
+        /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.
+
+            \param sweep the motion; its half lengths take the place of those of \e box
+            The centre of the box must not move farther than \e slack from where it is, and all of \e sweep's box must
+           fit within reach() - slack of its centre. The box must not touch an edge at the beginning. */
+        double firstContact(const OrientedBox &box, const BoxSweep &sweep) const;
+
+        /** \brief The same for a caller who has the cosine and sine of half the angle turned through at hand. */
+        double firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
+                            double middleSine) const;
+
+    private:
+        struct Block;
+        struct List;
+
+        const List &near(double x, double y) const;
+        std::unique_ptr<List> gather(std::size_t column, std::size_t row) const;
+
+        double reach_;
+        double bucketSize_, inverseBucketSize_;
+        Eigen::Vector2d origin_;
+        std::size_t columns_, rows_;
+        std::vector<Edge> edges_;
+        /** Edges by the base cells that their boxes overlap, in one array: base cell k owns base_[first_[k]...]. */
+        std::size_t baseColumns_, baseRows_;
+        double baseSize_;
+        std::vector<std::size_t> first_;
+        std::vector<std::size_t> base_;
+        mutable std::vector<std::atomic<List *>> buckets_;
+    };
+}  // namespace parking

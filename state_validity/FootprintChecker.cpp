@@ -1,0 +1,318 @@
+#include "state_validity/FootprintChecker.h"
+
+#include "parking_geometry/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        // Edges this far from the body still enter clearances.
+        constexpr double CLEARANCE_REACH = 1.0;
+        constexpr std::size_t COVERING_CIRCLES = 6;
+        constexpr double MAX_TURN = 1.0;  // radians swept at a time
+        // A body enlarged on all sides reaches out up to sqrt(2) times as far at its corners, and along the normals of
+        // edges there; with room to spare.
+        constexpr double CORNER = 1.5;
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        // Rounding of rotated coordinates within a few kilometres of the frame.
+        constexpr double ROUNDING = 1e-11;
+
+        double circumradiusOf(const Vehicle &vehicle, double margin)
+        {
+            return std::hypot(0.5 * vehicle.length() + margin, 0.5 * vehicle.width + margin);
+        }
+
+        double checked(const Vehicle &vehicle, double margin)
+        {
+            vehicle.validate();
+            if (!(margin >= 0.0) || !std::isfinite(margin))
+                throw Error("safety margin must be a number of metres of at least 0, not " + std::to_string(margin));
+            return margin;
+        }
+    }  // namespace
+
+    CheckCounts &CheckCounts::operator+=(const CheckCounts &other)
+    {
+        states += other.states;
+        byField += other.byField;
+        byCircles += other.byCircles;
+        byEdges += other.byEdges;
+        byFcl += other.byFcl;
+        return *this;
+    }
+
+    FootprintChecker::FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin,
+                                       double fieldResolution, CheckMode mode)
+      : obstacles_(std::move(obstacles)),
+        vehicle_(vehicle),
+        margin_(checked(vehicle, margin)),
+        mode_(mode),
+        centreOffset_(0.5 * vehicle.length() - vehicle.rearOverhang),
+        halfLength_(0.5 * vehicle.length() + margin),
+        halfWidth_(0.5 * vehicle.width + margin),
+        circumradius_(circumradiusOf(vehicle, margin) + ROUNDING),
+        inradius_(std::min(halfLength_, halfWidth_) - ROUNDING),
+        farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
+                             halfWidth_)),
+        field_(obstacles_, fieldResolution),
+        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH)
+    {
+        const Eigen::Vector2d world = obstacles_.bounds().max - obstacles_.bounds().min;
+        if (2.0 * halfWidth_ > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
+            throw Error("the car of " + std::to_string(vehicle.length()) + " m x " + std::to_string(vehicle.width) +
+                        " m with a safety margin of " + std::to_string(margin) + " m does not fit into the world of " +
+                        std::to_string(world.x()) + " m x " + std::to_string(world.y()) + " m");
+
+        const double half = halfLength_ / static_cast<double>(COVERING_CIRCLES);
+        for (std::size_t i = 0; i < COVERING_CIRCLES; ++i)
+        {
+            const double offset = -halfLength_ + half * static_cast<double>(2 * i + 1);
+            covering_.push_back({offset, std::hypot(half, halfWidth_) + ROUNDING});
+            // Near the bumpers the nearest side of the body is the bumper.
+            inscribed_.push_back({offset, std::min(halfWidth_, halfLength_ - std::abs(offset)) - ROUNDING});
+        }
+        if (mode_ == CheckMode::PlainFcl)
+            fcl();
+    }
+
+    OrientedBox FootprintChecker::boxAt(const Pose &local) const
+    {
+        const double c = std::cos(local.yaw), s = std::sin(local.yaw);
+        return {local.x + c * centreOffset_, local.y + s * centreOffset_, c, s, halfLength_, halfWidth_};
+    }
+
+    const FclWorld &FootprintChecker::fcl() const
+    {
+        std::call_once(fclOnce_, [this] { fcl_ = std::make_unique<FclWorld>(obstacles_, halfLength_, halfWidth_); });
+        return *fcl_;
+    }
+
+    bool FootprintChecker::isFreeByFcl(const Pose &pose) const
+    {
+        return isFinite(pose) && !fcl().collides(boxAt(obstacles_.toLocal(pose)));
+    }
+
+    bool FootprintChecker::isFree(const Pose &pose) const
+    {
+        CheckCounts counts;
+        return isFree(pose, counts);
+    }
+
+    bool FootprintChecker::isFree(const Pose &pose, CheckCounts &counts) const
+    {
+        ++counts.states;
+        if (!isFinite(pose))
+            return false;
+        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
+        if (mode_ == CheckMode::PlainFcl)
+        {
+            ++counts.byFcl;
+            return !fcl().collides(box);
+        }
+        if (field_.lowerBound(box.x, box.y) > circumradius_)
+        {
+            ++counts.byField;
+            return true;
+        }
+        if (field_.upperBound(box.x, box.y) < inradius_)
+        {
+            ++counts.byField;
+            return false;
+        }
+        bool covered = true;
+        for (std::size_t i = 0; i < covering_.size(); ++i)
+        {
+            const double x = box.x + box.cosine * covering_[i].offset, y = box.y + box.sine * covering_[i].offset;
+            if (field_.upperBound(x, y) < inscribed_[i].radius)
+            {
+                ++counts.byCircles;
+                return false;
+            }
+            covered = covered && field_.lowerBound(x, y) > covering_[i].radius;
+        }
+        if (covered)
+        {
+            ++counts.byCircles;
+            return true;
+        }
+        const int side = edges_.side(box, CONTACT_BAND);
+        if (side != 0)
+        {
+            ++counts.byEdges;
+            return side > 0 && !isInsideObstacle(box);
+        }
+        ++counts.byFcl;
+        return !fcl().collides(box);
+    }
+
+    /** For a body that no outline crosses: does it lie inside of an obstacle? Then its centre does. */
+    bool FootprintChecker::isInsideObstacle(const OrientedBox &box) const
+    {
+        if (field_.isOutside(box.x, box.y))
+            return false;
+        if (field_.isInside(box.x, box.y))
+            return true;
+        // An outline touches the centre's cell; that can be only when cells are as large as the body. The centre itself
+        // is far from all outlines.
+        return obstacles_.covers(box.x, box.y);
+    }
+
+    double FootprintChecker::clearance(const Pose &pose) const
+    {
+        CheckCounts counts;
+        return clearance(pose, INFINITE, counts);
+    }
+
+    double FootprintChecker::clearance(const Pose &pose, double enough, CheckCounts &counts) const
+    {
+        ++counts.states;
+        if (!isFinite(pose))
+            return 0.0;
+        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
+        double bound = field_.lowerBound(box.x, box.y) - circumradius_;
+        if (bound >= enough)
+        {
+            ++counts.byField;
+            return bound;
+        }
+        double circles = INFINITE;
+        for (const Circle &circle : covering_)
+            circles = std::min(circles,
+                               field_.lowerBound(box.x + box.cosine * circle.offset, box.y + box.sine * circle.offset) -
+                                   circle.radius);
+        bound = std::max(bound, circles);
+        if (bound >= std::min(enough, CLEARANCE_REACH))
+        {
+            ++counts.byCircles;
+            return bound;
+        }
+        ++counts.byEdges;
+        const double separation = edges_.separation(box, CLEARANCE_REACH + ROUNDING) - ROUNDING;
+        // As in isFree(): no outline is crossed, so the centre tells on which side of them the body lies.
+        return separation <= 0.0 || isInsideObstacle(box) ? 0.0 : std::max(bound, separation);
+    }
+
+    double FootprintChecker::exactClearance(const Pose &pose) const
+    {
+        if (!isFree(pose))
+            return 0.0;
+        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
+        const double near = edges_.distance(box);
+        if (near <= CLEARANCE_REACH)
+            return near;
+        const Eigen::Vector2d size = obstacles_.bounds().max - obstacles_.bounds().min;
+        // One list of all edges: reach beyond the farthest corner of the world.
+        const EdgeIndex everything(obstacles_.edges(), obstacles_.bounds(), 2.0 * size.norm() + circumradius_);
+        return everything.distance(box);
+    }
+
+    double FootprintChecker::speedFactor(double curvature) const
+    {
+        // The farthest corner from the centre of rotation is one of the outer two.
+        const double lateral = 1.0 + std::abs(curvature) * halfWidth_;
+        const double reach = std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_));
+        return std::sqrt(lateral * lateral + curvature * reach * curvature * reach);
+    }
+
+    double FootprintChecker::freeLength(const Pose &from, double curvature, double length) const
+    {
+        CheckCounts counts;
+        return freeLength(from, curvature, length, 1e-3, counts);
+    }
+
+    double FootprintChecker::freeLength(const Pose &from, double curvature, double length, double tolerance,
+                                        CheckCounts &counts) const
+    {
+        return freeLength(sweepStart(from, tolerance, counts), curvature, length, counts);
+    }
+
+    FootprintChecker::SweepStart FootprintChecker::sweepStart(const Pose &from, double tolerance,
+                                                              CheckCounts &counts) const
+    {
+        ++counts.states;
+        if (!isFinite(from))
+            return {{}, tolerance, -1.0};
+        SweepStart start{boxAt(obstacles_.toLocal(from)), tolerance, tolerance};
+        const OrientedBox &box = start.box;
+        if (field_.lowerBound(box.x, box.y) > circumradius_ + CORNER * tolerance)
+        {
+            ++counts.byField;
+            return start;
+        }
+        ++counts.byEdges;
+        const double separation = edges_.separation(box, 2.0 * tolerance);
+        start.enlargement =
+            separation <= CONTACT_BAND || isInsideObstacle(box) ? -1.0 : std::min(tolerance, separation / CORNER);
+        return start;
+    }
+
+    double FootprintChecker::freeLength(const SweepStart &start, double curvature, double length,
+                                        CheckCounts &counts) const
+    {
+        if (start.enlargement < 0.0 || !std::isfinite(curvature) || !std::isfinite(length))
+            return 0.0;
+        const double wanted = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
+        const double turn = std::abs(curvature);
+        const double speed = speedFactor(curvature) * (1.0 + 1e-9);
+        const double longest = std::min((CLEARANCE_REACH - 2.0 * start.enlargement) /
+                                            std::sqrt(1.0 + curvature * centreOffset_ * curvature * centreOffset_),
+                                        MAX_TURN / (turn + 1e-12));
+        OrientedBox box = start.box;
+        double driven = 0.0;
+        for (;;)
+        {
+            ++counts.states;
+            const double left = wanted - driven;
+            double stride = std::min(left, longest);
+            // Far from everything the field alone allows a long stride. Corners of the enlarged body reach farther out
+            // than its sides.
+            const double bound = field_.lowerBound(box.x, box.y) - circumradius_ - CORNER * start.tolerance;
+            if (bound >= left * speed)
+            {
+                ++counts.byField;
+                return wanted;
+            }
+            const bool far = bound > stride * speed;
+            if (far)
+                stride = std::min(bound / speed, 2.0 / (turn + 1e-12));
+            const double half = 0.5 * turn * stride;
+            const double cosine = curvature == 0.0 ? 1.0 : std::cos(half),
+                         sine = curvature == 0.0 ? 0.0 : std::sin(half);
+            if (far)
+                ++counts.byField;
+            else
+            {
+                ++counts.byEdges;
+                const BoxSweep sweep{halfLength_ + start.enlargement,
+                                     halfWidth_ + start.enlargement,
+                                     -centreOffset_,
+                                     curvature,
+                                     direction,
+                                     stride};
+                const double contact = edges_.firstContact(box, sweep, cosine, sine);
+                if (contact <= stride || (contact < INFINITE && stride < left))
+                    return std::clamp(driven + contact - start.tolerance, 0.0, wanted);
+            }
+            driven += stride;
+            if (!(driven < wanted))
+                return wanted;
+            // Half of the turn to the chord's direction, the other half to the new heading.
+            const double way = direction * (half < 1e-6 ? stride : stride * sine / half);
+            const double turned = curvature * direction < 0.0 ? -sine : sine;
+            const double middleX = box.cosine * cosine - box.sine * turned;
+            const double middleY = box.sine * cosine + box.cosine * turned;
+            const double axleX = box.x - box.cosine * centreOffset_ + way * middleX;
+            const double axleY = box.y - box.sine * centreOffset_ + way * middleY;
+            box.cosine = middleX * cosine - middleY * turned;
+            box.sine = middleY * cosine + middleX * turned;
+            box.x = axleX + box.cosine * centreOffset_;
+            box.y = axleY + box.sine * centreOffset_;
+        }
+    }
+}  // namespace parking

@@ -1,0 +1,169 @@
+#pragma once
+
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/Vehicle.h"
+#include "state_validity/DistanceField.h"
+#include "state_validity/EdgeIndex.h"
+#include "state_validity/FclWorld.h"
+#include "state_validity/ObstacleSet.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Which tier decided how many poses. */
+    struct CheckCounts
+    {
+        std::uint64_t states{0};     ///< poses asked about
+        std::uint64_t byField{0};    ///< decided by one look at the distance field
+        std::uint64_t byCircles{0};  ///< decided by the covering or inscribed circles
+        std::uint64_t byEdges{0};    ///< decided by the separation from the obstacles' edges
+        std::uint64_t byFcl{0};      ///< decided by FCL
+
+        CheckCounts &operator+=(const CheckCounts &other);
+    };
+
+    /** \brief How FootprintChecker answers; the answers are the same but for poses within CONTACT_BAND of contact. */
+    enum class CheckMode
+    {
+        Tiered,   ///< shortcuts first, FCL for what remains
+        PlainFcl  ///< FCL for every pose inside of the world
+    };
+
+    /** \brief Does the car's rectangle touch an obstacle, and how far is it from them?
+
+        Three tiers, each sure of its answer or silent:
+        1. The distance field at the centre of the body, against the body's circumscribed and inscribed circle, then at
+           the centres of circles that cover the body (all clear: free) and of circles inscribed in it (one hit:
+           collision).
+        2. The separation of the body from the edges of the obstacles near it (separating axes). A positive one means
+       that no outline is crossed, so that the body lies wholly outside or wholly inside of every obstacle, and the
+       field at its centre tells which.
+        3. FCL, for bodies within CONTACT_BAND of touching, where rounding decides, and whatever else is left.
+
+        Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. This class knows
+        nothing of OMPL; FclFootprintChecker is its face there. */
+    class FootprintChecker
+    {
+    public:
+        /** \brief Half width in metres of the band round contact inside of which FCL's answer is final. */
+        static constexpr double CONTACT_BAND = 1e-9;
+
+        /** \brief \param margin metres by which the body is enlarged on each of its four sides, not negative.
+
+            Throws parking::Error for an invalid vehicle, margin or field resolution, and when the enlarged body is
+           larger than the world. */
+        FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
+                         double fieldResolution = 0.0, CheckMode mode = CheckMode::Tiered);
+
+        const Vehicle &vehicle() const
+        {
+            return vehicle_;
+        }
+        double margin() const
+        {
+            return margin_;
+        }
+        const ObstacleSet &obstacles() const
+        {
+            return obstacles_;
+        }
+        const DistanceField &field() const
+        {
+            return field_;
+        }
+        CheckMode mode() const
+        {
+            return mode_;
+        }
+
+        /** \brief Is the body free of obstacles? False for poses that are not finite. */
+        bool isFree(const Pose &pose) const;
+
+        /** \brief As isFree(), counting in \e counts which tier decided. */
+        bool isFree(const Pose &pose, CheckCounts &counts) const;
+
+        /** \brief A lower bound of the distance between the body and the obstacles in metres; 0 when they may touch.
+
+            Within reach (one metre) it is exact but where a corner of the body faces a corner of an obstacle, and then
+           at least 0.7 of the distance; beyond it may be lower by the error of the field. */
+        double clearance(const Pose &pose) const;
+
+        /** \brief As clearance(), but content with less: stops at the first bound that is at least \e enough. */
+        double clearance(const Pose &pose, double enough, CheckCounts &counts) const;
+
+        /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
+           reports: it looks at every edge when none is within a metre. */
+        double exactClearance(const Pose &pose) const;
+
+        /** \brief How far the car can drive along an arc, proven free in between (conservative advancement).
+
+            At each pose the car may move until its fastest point has moved as far as the clearance; so no obstacle is
+            missed between poses. The proof gives up, conservatively, when it would need more than a few steps nearer
+            than \e tolerance to an obstacle: motions that stay closer than that may be rejected, but a motion that
+           touches an obstacle is never accepted.
+
+            \param length signed metres
+            \return between 0 and |length|: the length that is proven free; |length| itself when all of it is */
+        double freeLength(const Pose &from, double curvature, double length, double tolerance,
+                          CheckCounts &counts) const;
+
+        /** \brief As freeLength() with the default tolerance of one millimetre. */
+        double freeLength(const Pose &from, double curvature, double length) const;
+
+        /** \brief A pose prepared for freeLength(), for callers who try several arcs from the same one. */
+        struct SweepStart
+        {
+            OrientedBox box;   ///< the body, local
+            double tolerance;  ///< metres
+            double
+                enlargement;  ///< metres by which the body is enlarged on the way; negative when the pose is not free
+        };
+
+        /** \brief Prepares a pose. \param tolerance metres, positive */
+        SweepStart sweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
+
+        /** \brief freeLength() from a prepared pose: the same result, without looking at the pose again. */
+        double freeLength(const SweepStart &start, double curvature, double length, CheckCounts &counts) const;
+
+        /** \brief Metres that the fastest point of the body moves per metre of the rear axle on such an arc. */
+        double speedFactor(double curvature) const;
+
+        /** \brief Largest distance of a point of the body from the rear axle's midpoint. */
+        double farthestPoint() const
+        {
+            return farthest_;
+        }
+
+        /** \brief FCL's own answer to whether the body is free, for comparison. */
+        bool isFreeByFcl(const Pose &pose) const;
+
+    private:
+        OrientedBox boxAt(const Pose &local) const;
+        bool isInsideObstacle(const OrientedBox &box) const;
+        const FclWorld &fcl() const;
+
+        struct Circle
+        {
+            double offset;  // of its centre along the body from the body's centre
+            double radius;
+        };
+
+        ObstacleSet obstacles_;
+        Vehicle vehicle_;
+        double margin_;
+        CheckMode mode_;
+        double centreOffset_;  // of the body's centre ahead of the rear axle
+        double halfLength_, halfWidth_;
+        double circumradius_, inradius_, farthest_;
+        std::vector<Circle> covering_, inscribed_;
+        DistanceField field_;
+        EdgeIndex edges_;
+        mutable std::once_flag fclOnce_;
+        mutable std::unique_ptr<FclWorld> fcl_;
+    };
+}  // namespace parking

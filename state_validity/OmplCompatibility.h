@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What differs between the releases 1.5 to 2.0 of OMPL, as far as this library meets it.
+
+        Overloads choose by what a type offers, never by a version number: packagers patch releases. */
+    namespace ompl_compatibility
+    {
+        // The shortest curve of a space is reedsShepp(from, to) or dubins(from, to) up to 1.6, later getPath(from, to).
+        template <class Space, class State>
+        auto reedsSheppPath(const Space &space, const State *from, const State *to, int /*preferred*/)
+            -> decltype(space.reedsShepp(from, to))
+        {
+            return space.reedsShepp(from, to);
+        }
+
+        template <class Space, class State>
+        auto reedsSheppPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
+            -> decltype(space.getPath(from, to))
+        {
+            return space.getPath(from, to);
+        }
+
+        template <class Space, class State>
+        auto dubinsPath(const Space &space, const State *from, const State *to, int /*preferred*/)
+            -> decltype(space.dubins(from, to))
+        {
+            return space.dubins(from, to);
+        }
+
+        template <class Space, class State>
+        auto dubinsPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
+            -> decltype(space.getPath(from, to))
+        {
+            return space.getPath(from, to);
+        }
+
+        // The kinds of a curve's pieces: a pointer to the first one, later a pointer to a vector of them.
+        template <class Kind>
+        Kind pieceKind(const Kind *kinds, std::size_t index)
+        {
+            return kinds[index];
+        }
+
+        template <class Kind>
+        Kind pieceKind(const std::vector<Kind> *kinds, std::size_t index)
+        {
+            return (*kinds)[index];
+        }
+
+        /** \brief Counts one up. OMPL's counters of checked motions are plain integers that several threads write. */
+        inline void countUp(unsigned int &counter)
+        {
+            __atomic_fetch_add(&counter, 1U, __ATOMIC_RELAXED);
+        }
+
+        template <class Integer>
+        void countUp(std::atomic<Integer> &counter)
+        {
+            counter.fetch_add(1, std::memory_order_relaxed);
+        }
+    }  // namespace ompl_compatibility
+}  // namespace parking

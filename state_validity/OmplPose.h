@@ -1,0 +1,39 @@
+#pragma once
+
+#include "parking_geometry/Pose.h"
+
+#include <ompl/base/State.h>
+#include <ompl/base/StateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/util/Exception.h>
+
+namespace parking
+{
+    /** \brief The pose that a state of an SE2, Dubins or Reeds-Shepp space stands for: all three share one type of
+     * state.
+     */
+    inline Pose poseOf(const ompl::base::State *state)
+    {
+        const auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
+        return {se2->getX(), se2->getY(), se2->getYaw()};
+    }
+
+    /** \brief Makes \e state stand for \e pose; the yaw is wrapped into [-pi, pi), which is the range that OMPL allows.
+     */
+    inline void setPose(ompl::base::State *state, const Pose &pose)
+    {
+        auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
+        se2->setXY(pose.x, pose.y);
+        const double yaw = wrapAngle(pose.yaw);
+        se2->setYaw(yaw < PI ? yaw : -PI);
+    }
+
+    /** \brief Throws ompl::Exception unless the states of \e space are poses: an SE2 space or one derived from it. */
+    inline void requirePlanarSpace(const ompl::base::StateSpace &space)
+    {
+        if (dynamic_cast<const ompl::base::SE2StateSpace *>(&space) == nullptr)
+            throw ompl::Exception(
+                "space '" + space.getName() +
+                "' holds no poses of a car: it must be an SE2, a Reeds-Shepp or a Dubins state space");
+    }
+}  // namespace parking

@@ -1,0 +1,208 @@
+#include "state_validity/DistanceField.h"
+
+#include "parking_geometry/Error.h"
+#include "tests/state_validity/RandomWorlds.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using namespace parking_test;
+
+namespace
+{
+    using Cells = std::vector<std::uint8_t>;
+
+    /** The definition: distances between the centres of cells, each against each. */
+    double nearestByDefinition(const Cells &blocked, std::size_t columns, std::size_t column, std::size_t row)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < blocked.size(); ++i)
+            if (blocked[i])
+                least = std::min(least, std::hypot(static_cast<double>(column) - static_cast<double>(i % columns),
+                                                   static_cast<double>(row) - static_cast<double>(i / columns)));
+        return least;
+    }
+
+    double distanceToSegment(const Eigen::Vector2d &point, const Edge &edge)
+    {
+        const Eigen::Vector2d along = edge.to - edge.from;
+        const double t = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        return (point - edge.from - t * along).norm();
+    }
+
+    /** The distance from a local point to the nearest obstacle; negative inside of one. */
+    double signedDistance(const ObstacleSet &obstacles, const Eigen::Vector2d &point)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Edge &edge : obstacles.edges())
+            least = std::min(least, distanceToSegment(point, edge));
+        bool inside = (point.array() <= obstacles.bounds().min.array()).any() ||
+                      (point.array() >= obstacles.bounds().max.array()).any();
+        for (const Polygon &polygon : obstacles.polygons())
+            inside = inside || contains(polygon, point);
+        for (const Rectangle &rectangle : obstacles.rectangles())
+            inside = inside ||
+                     ((point.array() > rectangle.min.array()).all() && (point.array() < rectangle.max.array()).all());
+        return inside ? -least : least;
+    }
+
+    void expectBounds(const ObstacleSet &obstacles, const DistanceField &field, std::uint64_t seed)
+    {
+        Random random(seed);
+        const Eigen::Vector2d low = obstacles.bounds().min, high = obstacles.bounds().max;
+        for (int i = 0; i < 5000; ++i)
+        {
+            const Eigen::Vector2d point(random.between(low.x() - 1.0, high.x() + 1.0),
+                                        random.between(low.y() - 1.0, high.y() + 1.0));
+            const double distance = signedDistance(obstacles, point);
+            ASSERT_LE(field.lowerBound(point.x(), point.y()), std::max(0.0, distance) + 1e-12) << point.transpose();
+            ASSERT_GE(field.upperBound(point.x(), point.y()), std::max(0.0, distance) - 1e-12) << point.transpose();
+            ASSERT_FALSE(field.isInside(point.x(), point.y()) && distance > 1e-12) << point.transpose();
+            ASSERT_FALSE(field.isOutside(point.x(), point.y()) && distance <= 0.0) << point.transpose();
+        }
+    }
+}  // namespace
+
+TEST(DistanceField, IsTheExactDistanceBetweenCentresOfCells)
+{
+    Random random(1);
+    for (int i = 0; i < 60; ++i)
+    {
+        const std::size_t columns = 1 + random.index(40), rows = 1 + random.index(40);
+        const double density = std::exp(random.between(std::log(0.002), std::log(0.7)));
+        Cells blocked(columns * rows);
+        for (std::uint8_t &cell : blocked)
+            cell = random.chance(density);
+        const double resolution = random.between(0.05, 1.0);
+        const DistanceField field(blocked, columns, rows, resolution);
+        for (std::size_t row = 0; row < rows; ++row)
+            for (std::size_t column = 0; column < columns; ++column)
+            {
+                const double expected = resolution * nearestByDefinition(blocked, columns, column, row);
+                const float value = field.at(column, row);
+                if (blocked[row * columns + column])
+                {
+                    ASSERT_EQ(value, -1.0f);
+                }
+                else if (std::isinf(expected))
+                {
+                    ASSERT_EQ(value, std::numeric_limits<float>::infinity());
+                }
+                else
+                {
+                    ASSERT_NEAR(value, expected, 6e-8 * expected) << columns << "x" << rows;
+                }
+            }
+    }
+}
+
+TEST(DistanceField, BoundsHoldInGridWorlds)
+{
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = randomGridWorld(seed);
+        expectBounds(world.obstacles, DistanceField(world.obstacles), seed);
+    }
+}
+
+TEST(DistanceField, BoundsHoldInPolygonWorldsAtEveryResolution)
+{
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = randomPolygonWorld(seed);
+        for (const double resolution : {0.0, 0.037, 0.3, 2.0})
+            expectBounds(world.obstacles, DistanceField(world.obstacles, resolution), seed);
+    }
+}
+
+/** The lower bound is reached: cells diagonal to each other, corner to corner. A bound any smaller would be wrong. */
+TEST(DistanceField, LowerBoundIsTight)
+{
+    const double side = 0.25;
+    OccupancyGrid grid(64, 64, side);
+    grid.set(40, 40, Cell::Occupied);
+    const DistanceField field(ObstacleSet::fromGrid(grid));
+    for (std::size_t steps = 2; steps < 14; ++steps)
+    {
+        // The upper right corner of a cell on the diagonal; the blocked cell's lower left corner is at 40 sides.
+        const double at = side * static_cast<double>(40 - steps + 1) - 1e-9;
+        const double distance = std::sqrt(2.0) * (40.0 * side - at);
+        EXPECT_LE(field.lowerBound(at, at), distance);
+        EXPECT_GT(field.lowerBound(at, at), distance - 1e-4 * field.errorBound() - 1e-6);
+    }
+}
+
+/** So is the upper bound: a post in the far corner of its cell, seen from the far corner of a cell. */
+TEST(DistanceField, UpperBoundIsTight)
+{
+    const double side = 0.25;
+    const Bounds bounds{{0.0, 0.0}, {16.0, 16.0}};
+    const double far = 40.0 * side + side - 2e-6;
+    const Polygon post{{far - 1e-6, far - 1e-6}, {far + 1e-6, far - 1e-6}, {far + 1e-6, far + 1e-6}};
+    const ObstacleSet obstacles = ObstacleSet::fromPolygons({post}, bounds);
+    const DistanceField field(obstacles, side);
+    for (std::size_t steps = 2; steps < 12; ++steps)
+    {
+        const double at = side * static_cast<double>(40 - steps) + 1e-9;
+        const Pose local = obstacles.toLocal({at, at, 0.0});
+        const double distance = signedDistance(obstacles, {local.x, local.y});
+        EXPECT_GE(field.upperBound(local.x, local.y), distance);
+        EXPECT_LT(field.upperBound(local.x, local.y), distance + 1e-4 * field.errorBound() + 1e-5);
+    }
+}
+
+TEST(DistanceField, ThinObstaclesBlockEveryCellThatTheyTouch)
+{
+    // A wall of 0.1 mm that runs askew through cells of half a metre, and a post of a millimetre.
+    const Bounds bounds{{-10.0, -10.0}, {10.0, 10.0}};
+    const Polygon wall = rectangle(12.0, 1e-4, {0.3, -0.2, 0.7});
+    const Polygon post = rectangle(1e-3, 1e-3, {-7.123, 6.456, 0.2});
+    const ObstacleSet obstacles = ObstacleSet::fromPolygons({wall, post}, bounds);
+    const DistanceField field(obstacles, 0.5);
+    for (double t = 0.0; t <= 1.0; t += 1e-3)
+    {
+        const Eigen::Vector2d at = wall[0] + t * (wall[1] - wall[0]);
+        EXPECT_FALSE(field.isOutside(at.x(), at.y())) << t;
+        EXPECT_EQ(field.lowerBound(at.x(), at.y()), 0.0);
+    }
+    EXPECT_FALSE(field.isOutside(-7.123, 6.456));
+}
+
+TEST(DistanceField, EverythingOutsideOfTheBoundsIsAnObstacle)
+{
+    const DistanceField field(ObstacleSet::fromGrid(OccupancyGrid(10, 10, 0.5)));
+    for (const double beyond : {5.0 + 1e-9, 5.4, 7.0, 1e9, std::numeric_limits<double>::infinity()})
+    {
+        EXPECT_TRUE(field.isInside(beyond, 1.0));
+        EXPECT_TRUE(field.isInside(1.0, beyond));
+        EXPECT_EQ(field.lowerBound(-beyond + 5.0, 1.0), 0.0);
+        EXPECT_EQ(field.upperBound(beyond, 1.0), 0.0);
+    }
+    EXPECT_FALSE(field.isInside(5.0 - 1e-9, 1.0));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(field.lowerBound(nan, 1.0), 0.0);
+    EXPECT_EQ(field.lowerBound(1.0, nan), 0.0);
+}
+
+TEST(DistanceField, WithoutObstaclesDistancesAreInfinite)
+{
+    const DistanceField field(Cells(12, 0), 4, 3, 0.5);
+    EXPECT_TRUE(std::isinf(field.lowerBound(1.0, 0.7)));
+    EXPECT_TRUE(std::isinf(field.upperBound(1.0, 0.7)));
+}
+
+TEST(DistanceField, RefusesBadInput)
+{
+    for (const double resolution :
+         {0.0, -0.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(DistanceField(Cells(4, 0), 2, 2, resolution), Error) << resolution;
+    EXPECT_THROW(DistanceField(Cells(), 0, 0, 0.1), Error);
+    EXPECT_THROW(DistanceField(Cells(5, 0), 2, 2, 0.1), Error);
+    const ObstacleSet empty = ObstacleSet::fromPolygons({}, {{0.0, 0.0}, {100.0, 100.0}});
+    EXPECT_THROW(DistanceField(empty, -0.1), Error);
+    EXPECT_THROW(DistanceField(empty, std::numeric_limits<double>::quiet_NaN()), Error);
+    EXPECT_THROW(DistanceField(empty, 1e-3), Error) << "1e10 cells";
+}

@@ -1,0 +1,316 @@
+#include "state_validity/FootprintChecker.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "tests/state_validity/RandomWorlds.h"
+
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using namespace parking_test;
+
+namespace
+{
+    const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    const double INFINITE = std::numeric_limits<double>::infinity();
+    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+
+    ObstacleSet box(const std::vector<Polygon> &polygons = {})
+    {
+        return ObstacleSet::fromPolygons(polygons, BOX);
+    }
+}  // namespace
+
+TEST(FootprintChecker, ClearanceIsALowerBoundAndNearlyTheDistance)
+{
+    int exact = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = randomPolygonWorld(seed);
+        const Vehicle vehicle;
+        const FootprintChecker checker(world.obstacles, vehicle);
+        Random random(seed);
+        for (int i = 0; i < 4000; ++i)
+        {
+            const Pose pose =
+                i % 2 ? world.anywhere(random) : world.touching(random, vehicle, std::abs(random.magnitude(1e-4, 2.0)));
+            const double distance = world.oracle.clearance(pose, vehicle);
+            const double clearance = checker.clearance(pose);
+            ASSERT_LE(clearance, distance + 1e-12);
+            ASSERT_NEAR(checker.exactClearance(pose), distance, 1e-9);
+            if (distance < 1.0)
+            {
+                ASSERT_GE(clearance, 0.7 * distance - 1e-10);
+                exact += clearance > 0.0 && clearance > distance - 1e-9;
+            }
+            else
+            {
+                ASSERT_GE(clearance, 0.7);
+            }
+            // Content with less: at least that much when there is, and still a lower bound.
+            CheckCounts counts;
+            const double enough = random.between(0.0, 1.5);
+            const double some = checker.clearance(pose, enough, counts);
+            ASSERT_LE(some, distance + 1e-12);
+            ASSERT_GE(some, std::min(enough, clearance) - 1e-9);
+        }
+    }
+    EXPECT_GT(exact, 5000);
+}
+
+TEST(FootprintChecker, ClearanceOnGridsIsALowerBound)
+{
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = randomGridWorld(seed);
+        const Vehicle vehicle;
+        const FootprintChecker checker(world.obstacles, vehicle);
+        Random random(seed);
+        for (int i = 0; i < 2000; ++i)
+        {
+            const Pose pose = world.anywhere(random);
+            const double clearance = checker.clearance(pose);
+            ASSERT_TRUE(clearance == 0.0 || world.oracle.isFree(pose, vehicle, std::sqrt(0.5) * clearance - 1e-9));
+            const double exact = checker.exactClearance(pose);
+            ASSERT_GE(exact, clearance - 1e-12);
+            ASSERT_EQ(exact > 0.0, checker.isFree(pose));
+        }
+    }
+}
+
+/** The lower bound of a circle that covers part of the body is tight for an obstacle on the diagonal. An obstacle that
+   pokes into the body by a thousandth of the radius must be seen: with a radius or an error bound 1 % smaller it is
+   not. */
+TEST(FootprintChecker, CirclesRoundTheBodyAreNotTooSmall)
+{
+    const double side = 0.05;
+    Vehicle vehicle;
+    const double half = vehicle.length() / 12.0;  // of the stretch that each of the six circles covers
+    const double middle = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    int checked = 0;
+    for (const double reach : {0.0, 1.0})
+        for (int circle = 0; circle < 6; ++circle)
+        {
+            // The circle's centre along the body, and a corner of what it covers: the circle round the whole body when
+            // `reach` is 1, seen at the body's front left corner.
+            const double offset = reach > 0.0 ? 0.0 : -0.5 * vehicle.length() + half * (2 * circle + 1);
+            const double along = reach > 0.0 ? 0.5 * vehicle.length() : half;
+            const double radius = std::hypot(along, 0.5 * vehicle.width);
+            // Turned so that the corner lies on the diagonal, the centre in the far corner of a cell.
+            const double yaw = 0.25 * PI - std::atan2(0.5 * vehicle.width, along);
+            OccupancyGrid grid(600, 600, side);
+            grid.set(400, 400, Cell::Occupied);
+            const double corner = 400.0 * side;
+            for (int cells = 10; cells < 60; cells += 6)
+            {
+                // The centre where the cell's upper right corner is as far from the obstacle as the radius, almost.
+                const double distance = std::sqrt(2.0) * side * cells;
+                Vehicle scaled = vehicle;
+                const double scale = distance * (1.0 + 1e-3) / radius;
+                scaled.wheelbase *= scale;
+                scaled.frontOverhang *= scale;
+                scaled.rearOverhang *= scale;
+                scaled.width *= scale;
+                const double at = corner - side * cells - 1e-7;
+                const Pose pose = compose({at, at, yaw}, {-(middle + offset) * scale, 0.0, 0.0});
+                const FootprintChecker checker(ObstacleSet::fromGrid(grid), scaled);
+                ASSERT_FALSE(PolygonOracle(grid).isFree(pose, scaled)) << circle << " " << cells;
+                EXPECT_FALSE(checker.isFree(pose)) << circle << " " << cells;
+                ++checked;
+            }
+        }
+    EXPECT_EQ(checked, 108);
+}
+
+/** The same for the circles inside of the body: a post just beside the body is no collision. */
+TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
+{
+    const double side = 0.05;
+    const Vehicle vehicle;
+    const double middle = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    const double half = vehicle.length() / 12.0;
+    const Bounds bounds{{0.0, 0.0}, {30.0, 30.0}};
+    int checked = 0;
+    for (int circle = 0; circle < 7; ++circle)
+    {
+        // Near the bumpers the inscribed circle touches the bumper, elsewhere the flank. The seventh is that of the
+        // middle.
+        const double offset = circle == 6 ? 0.0 : -0.5 * vehicle.length() + half * (2 * circle + 1);
+        const double toBumper = 0.5 * vehicle.length() - std::abs(offset);
+        const bool bumper = toBumper < 0.5 * vehicle.width;
+        const double radius = bumper ? toBumper : 0.5 * vehicle.width;
+        // The nearest place of the body's outline lies on the diagonal.
+        const double yaw = 0.25 * PI - (bumper ? (offset > 0.0 ? 0.0 : PI) : 0.5 * PI);
+        const double far = 400.0 * side + side - 3e-7;  // upper right corner of a cell, of the field's raster too
+        const Polygon post{{far - 1e-7, far - 1e-7}, {far + 1e-7, far - 1e-7}, {far, far + 1e-7}};
+        for (int cells = 8; cells < 40; ++cells)
+        {
+            const double at = side * (400.0 - cells) + 1e-7;
+            const double distance = std::sqrt(2.0) * (far - 1e-7 - at);
+            Vehicle scaled = vehicle;
+            const double scale = distance * (1.0 - 1e-3) / radius;
+            if (scale > 2.5)
+                break;
+            scaled.wheelbase *= scale;
+            scaled.frontOverhang *= scale;
+            scaled.rearOverhang *= scale;
+            scaled.width *= scale;
+            const Pose pose = compose({at, at, yaw}, {-(middle + offset) * scale, 0.0, 0.0});
+            const FootprintChecker checker(ObstacleSet::fromPolygons({post}, bounds), scaled, 0.0, side);
+            ASSERT_TRUE(PolygonOracle({post}, bounds).isFree(pose, scaled)) << circle << " " << cells;
+            EXPECT_TRUE(checker.isFree(pose)) << circle << " " << cells;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 100);
+}
+
+TEST(FootprintChecker, SeesEveryThinObstacle)
+{
+    // A line of a tenth of a millimetre, a post of a centimetre and a single cell, wherever under the body they are.
+    const Vehicle vehicle;
+    Random random(5);
+    for (int i = 0; i < 300; ++i)
+    {
+        const Pose pose{random.between(-8.0, 8.0), random.between(-8.0, 8.0), random.between(-PI, PI)};
+        const Pose under =
+            compose(pose, {random.between(-0.9, 3.7), random.between(-0.95, 0.95), random.between(0.0, 6.0)});
+        const Polygon line = rectangle(3.0, 1e-4, under), post = rectangle(0.01, 0.01, under);
+        for (const Polygon &obstacle : {line, post})
+        {
+            EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle).isFree(pose));
+            EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle, 0.0, 0.0, CheckMode::PlainFcl).isFree(pose));
+        }
+        OccupancyGrid grid(400, 400, 0.1, {-20.0, -20.0, 0.0});
+        grid.set(static_cast<std::size_t>((under.x + 20.0) / 0.1), static_cast<std::size_t>((under.y + 20.0) / 0.1),
+                 Cell::Occupied);
+        EXPECT_FALSE(FootprintChecker(ObstacleSet::fromGrid(grid), vehicle).isFree(pose));
+    }
+}
+
+TEST(FootprintChecker, KnowsTheInsideOfLargeObstacles)
+{
+    // No outline is anywhere near a car in the middle of a block of 30 m.
+    const FootprintChecker checker(box({rectangle(30.0, 30.0, {0.0, 0.0, 0.3})}), {});
+    EXPECT_FALSE(checker.isFree({0.0, 0.0, 1.0}));
+    EXPECT_EQ(checker.clearance({0.0, 0.0, 1.0}), 0.0);
+    EXPECT_EQ(checker.freeLength({0.0, 0.0, 1.0}, 0.0, 1.0), 0.0);
+    EXPECT_FALSE(checker.isFree({100.0, 0.0, 1.0})) << "outside of the world";
+    EXPECT_EQ(checker.clearance({100.0, 0.0, 1.0}), 0.0);
+    EXPECT_EQ(checker.freeLength({100.0, 0.0, 1.0}, 0.0, 1.0), 0.0);
+}
+
+TEST(FootprintChecker, PlainFclModeAsksFclOnly)
+{
+    const World world = randomPolygonWorld(7);
+    const FootprintChecker plain(world.obstacles, {}, 0.0, 0.0, CheckMode::PlainFcl);
+    EXPECT_EQ(plain.mode(), CheckMode::PlainFcl);
+    CheckCounts counts;
+    Random random(7);
+    for (int i = 0; i < 1000; ++i)
+    {
+        const Pose pose = world.anywhere(random);
+        ASSERT_EQ(plain.isFree(pose, counts), plain.isFreeByFcl(pose));
+    }
+    EXPECT_EQ(counts.states, 1000u);
+    EXPECT_EQ(counts.byFcl, 1000u);
+}
+
+TEST(FootprintChecker, PosesThatAreNotFiniteAreNotFree)
+{
+    const FootprintChecker checker(box(), {});
+    for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE})
+        for (const Pose &pose : {Pose{bad, 0.0, 0.0}, Pose{0.0, bad, 0.0}, Pose{0.0, 0.0, bad}})
+        {
+            EXPECT_FALSE(checker.isFree(pose));
+            EXPECT_FALSE(checker.isFreeByFcl(pose));
+            EXPECT_EQ(checker.clearance(pose), 0.0);
+            EXPECT_EQ(checker.exactClearance(pose), 0.0);
+            EXPECT_EQ(checker.freeLength(pose, 0.1, 1.0), 0.0);
+        }
+    for (const double bad : {NOT_A_NUMBER, INFINITE})
+    {
+        EXPECT_EQ(checker.freeLength({}, bad, 1.0), 0.0);
+        EXPECT_EQ(checker.freeLength({}, 0.1, bad), 0.0);
+    }
+}
+
+TEST(FootprintChecker, RefusesBadInput)
+{
+    const auto message = [](auto &&build) -> std::string
+    {
+        try
+        {
+            build();
+        }
+        catch (const Error &error)
+        {
+            return error.what();
+        }
+        return "no error";
+    };
+    const auto expect = [&message](auto &&build, const std::string &part)
+    {
+        EXPECT_NE(message(build).find(part), std::string::npos) << message(build);
+    };
+    expect([] { FootprintChecker(box(), {}, -0.1); }, "-0.1");
+    expect([] { FootprintChecker(box(), {}, NOT_A_NUMBER); }, "margin");
+    expect([] { FootprintChecker(box(), {}, INFINITE); }, "margin");
+    expect([] { FootprintChecker(box(), {}, 0.0, -1.0); }, "resolution");
+    Vehicle vehicle;
+    vehicle.width = 0.0;
+    expect([&vehicle] { FootprintChecker(box(), vehicle); }, "width");
+    // A body or margin that fits nowhere, upright or lying.
+    expect([] { FootprintChecker(box(), {}, 19.1); }, "does not fit");
+    EXPECT_EQ(message([] { FootprintChecker(box(), {}, 17.0); }), "no error");
+    expect([] { FootprintChecker(ObstacleSet::fromPolygons({}, {{0.0, 0.0}, {1.9, 100.0}}), {}); }, "does not fit");
+    EXPECT_EQ(message(
+                  [] {
+                      FootprintChecker(ObstacleSet::fromPolygons({}, {{0.0, 0.0}, {2.0, 100.0}}), {});
+                  }),
+              "no error");
+}
+
+TEST(FootprintChecker, MovesWithTheMargin)
+{
+    // A wall 0.5 m ahead of the front bumper.
+    const Vehicle vehicle;
+    const double front = vehicle.wheelbase + vehicle.frontOverhang;
+    const ObstacleSet obstacles = box({rectangle(0.2, 6.0, {front + 0.6, 0.0, 0.0})});
+    EXPECT_NEAR(FootprintChecker(obstacles, vehicle).clearance({}), 0.5, 1e-9);
+    EXPECT_NEAR(FootprintChecker(obstacles, vehicle, 0.2).clearance({}), 0.3, 1e-9);
+    EXPECT_TRUE(FootprintChecker(obstacles, vehicle, 0.4999).isFree({}));
+    EXPECT_FALSE(FootprintChecker(obstacles, vehicle, 0.5001).isFree({}));
+    EXPECT_NEAR(FootprintChecker(obstacles, vehicle, 0.2).freeLength({}, 0.0, 2.0), 0.3, 2.1e-3);
+}
+
+TEST(FootprintChecker, HoldsTheCompetitionsCases)
+{
+    const std::string folder = std::string(PARKING_SHARED_DATA) + "/tpcap";
+    if (!std::filesystem::is_directory(folder))
+        GTEST_SKIP() << "no cases at " << folder;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+    {
+        if (entry.path().extension() != ".csv")
+            continue;
+        const Scenario scenario = readTpcapCase(entry.path().string());
+        const FootprintChecker checker(ObstacleSet::fromScenario(scenario), scenario.vehicle);
+        const PolygonOracle oracle(scenario);
+        EXPECT_TRUE(checker.isFree(scenario.start)) << entry.path();
+        EXPECT_TRUE(checker.isFreeByFcl(scenario.start)) << entry.path();
+        EXPECT_NEAR(checker.exactClearance(scenario.start), oracle.clearance(scenario.start, scenario.vehicle), 1e-9);
+        Random random(1);
+        for (int i = 0; i < 3000; ++i)
+        {
+            const Pose around{scenario.goals[0].x + random.between(-8.0, 8.0),
+                              scenario.goals[0].y + random.between(-8.0, 8.0), random.between(-PI, PI)};
+            if (oracle.isFree(around, scenario.vehicle, 1e-9) != oracle.isFree(around, scenario.vehicle, -1e-9))
+                continue;
+            ASSERT_EQ(checker.isFree(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
+            ASSERT_EQ(checker.isFreeByFcl(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
+        }
+    }
+}
