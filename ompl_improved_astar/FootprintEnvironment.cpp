@@ -1,0 +1,107 @@
+#include "ompl_improved_astar/FootprintEnvironment.h"
+
+#include "state_validity/SweptBox.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
+        constexpr double RADIANS_AT_A_TIME = 1.0;
+
+        bool isInside(const Bounds &bounds, const Pose &pose)
+        {
+            return pose.x >= bounds.min.x() && pose.x <= bounds.max.x() && pose.y >= bounds.min.y() &&
+                   pose.y <= bounds.max.y();
+        }
+    }  // namespace
+
+    FootprintEnvironment::FootprintEnvironment(const FootprintChecker &checker, const Bounds &bounds, double tolerance,
+                                               search::MotionEnvironment *judge)
+      : checker_(checker),
+        bounds_(bounds),
+        tolerance_(tolerance),
+        judge_(judge)
+    {
+        // The body stays in the checker's world; where that lies inside of the bounds, so does the rear axle.
+        const Rectangle &world = checker.obstacles().bounds();
+        const Pose &frame = checker.obstacles().frame();
+        boundsMatter_ = frame.yaw != 0.0 || frame.x + world.min.x() < bounds.min.x() ||
+                        frame.y + world.min.y() < bounds.min.y() || frame.x + world.max.x() > bounds.max.x() ||
+                        frame.y + world.max.y() > bounds.max.y();
+    }
+
+    bool FootprintEnvironment::isFree(const Pose &pose)
+    {
+        return (!boundsMatter_ || isInside(bounds_, pose)) && checker_.isFree(pose, counts_);
+    }
+
+    double FootprintEnvironment::clearance(const Pose &pose)
+    {
+        return checker_.clearance(pose, CLEARANCE_OF_INTEREST, counts_);
+    }
+
+    double FootprintEnvironment::freeLength(const Pose &from, double curvature, double length)
+    {
+        if (boundsMatter_)
+        {
+            const double inside = lengthInside(from, curvature, length);
+            if (inside < std::abs(length))
+                return std::min(
+                    inside, checker_.freeLength(from, curvature, std::copysign(inside, length), tolerance_, counts_));
+        }
+        return checker_.freeLength(from, curvature, length, tolerance_, counts_);
+    }
+
+    double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const
+    {
+        // The rear axle as a box of no size, the bounds as four walls in its frame.
+        const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
+        if (!isInside(bounds_, from))
+            return 0.0;
+        double driven = 0.0;
+        while (driven < whole)
+        {
+            const Pose pose = advance(from, curvature, direction * driven);
+            const double stride = std::min(whole - driven, RADIANS_AT_A_TIME / (std::abs(curvature) + 1e-9));
+            const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+            const Eigen::Vector2d low = bounds_.min, high = bounds_.max;
+            const Eigen::Vector2d corners[4] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+            double contact = stride;
+            bool leaves = false;
+            for (int i = 0; i < 4; ++i)
+            {
+                const Eigen::Vector2d a = corners[i] - Eigen::Vector2d(pose.x, pose.y);
+                const Eigen::Vector2d b = corners[(i + 1) % 4] - Eigen::Vector2d(pose.x, pose.y);
+                const BoxSweep sweep{0.0, 0.0, 0.0, curvature, direction, contact};
+                const double at = firstContact(sweep, c * a.x() + s * a.y(), c * a.y() - s * a.x(),
+                                               c * b.x() + s * b.y(), c * b.y() - s * b.x());
+                if (at <= contact)
+                {
+                    contact = at;
+                    leaves = true;
+                }
+            }
+            if (leaves)
+                return std::max(0.0, driven + contact - tolerance_);
+            driven += stride;
+        }
+        return whole;
+    }
+
+    double FootprintEnvironment::roomAt(double x, double y)
+    {
+        if (boundsMatter_ && !isInside(bounds_, {x, y, 0.0}))
+            return 0.0;
+        const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
+        return checker_.field().upperBound(local.x, local.y);
+    }
+
+    bool FootprintEnvironment::acceptPath(const ArcPath &path)
+    {
+        return judge_ == nullptr || judge_->acceptPath(path);
+    }
+}  // namespace parking

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "parking_geometry/Scenario.h"
+#include "state_validity/FootprintChecker.h"
+
+namespace parking
+{
+    /** \brief The world of the search when the validity checker is this project's own: motions are swept exactly.
+
+        Nothing of OMPL is in the way of the search here: no states, no interpolation. */
+    class FootprintEnvironment final : public search::MotionEnvironment
+    {
+    public:
+        /** \brief \param checker must outlive the environment
+            \param bounds of the rear axle's position, in addition to the checker's world
+            \param tolerance metres kept from obstacles along motions
+            \param judge has the last word on whole paths; may be nullptr */
+        FootprintEnvironment(const FootprintChecker &checker, const Bounds &bounds, double tolerance,
+                             search::MotionEnvironment *judge = nullptr);
+
+        bool isFree(const Pose &pose) override;
+        double clearance(const Pose &pose) override;
+        double freeLength(const Pose &from, double curvature, double length) override;
+        double roomAt(double x, double y) override;
+        bool acceptPath(const ArcPath &path) override;
+
+        /** \brief Which tier decided how many poses. */
+        const CheckCounts &counts() const
+        {
+            return counts_;
+        }
+
+    private:
+        double lengthInside(const Pose &from, double curvature, double length) const;
+
+        const FootprintChecker &checker_;
+        Bounds bounds_;
+        double tolerance_;
+        search::MotionEnvironment *judge_;
+        bool boundsMatter_;
+        CheckCounts counts_;
+    };
+}  // namespace parking

@@ -1,0 +1,109 @@
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
+
+#include "state_validity/OmplPose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ob = ompl::base;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr std::uint64_t STATES_BETWEEN_STOPS = 8;
+        // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
+        constexpr double RADIANS_PER_STATE = 0.8;
+    }  // namespace
+
+    Bounds spaceBounds(const ob::StateSpace &space)
+    {
+        const ob::RealVectorBounds &bounds = space.as<ob::SE2StateSpace>()->getBounds();
+        return {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}};
+    }
+
+    std::vector<Pose> pathStates(const ArcPath &path, double spacing)
+    {
+        std::vector<Pose> poses{path.start};
+        Pose pose = path.start;
+        for (const ArcSegment &segment : path.segments)
+        {
+            double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
+            if (spacing > 0.0)
+                pieces = std::max(pieces, std::ceil(std::abs(segment.length) / spacing));
+            pieces = std::max(pieces, 1.0);
+            for (double i = 1.0; i <= pieces; i += 1.0)
+            {
+                Pose next = advance(pose, segment.curvature, segment.length * i / pieces);
+                next.yaw = wrapAngle(next.yaw);
+                poses.push_back(next);
+            }
+            pose = advance(pose, segment.curvature, segment.length);
+        }
+        return poses;
+    }
+
+    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step, double stateSpacing,
+                                                 bool headingMatters)
+      : si_(si),
+        step_(step),
+        stateSpacing_(stateSpacing),
+        headingMatters_(headingMatters),
+        clearanceKnown_(si->getStateValidityChecker()->getSpecs().clearanceComputationType !=
+                        ob::StateValidityCheckerSpecs::NONE),
+        bounds_(spaceBounds(*si->getStateSpace())),
+        state_(si->getStateSpace()),
+        other_(si->getStateSpace())
+    {
+    }
+
+    bool StateSpaceEnvironment::isFree(const Pose &pose)
+    {
+        ++checkedStates_;
+        setPose(state_.get(), pose);
+        return si_->satisfiesBounds(state_.get()) && si_->isValid(state_.get());
+    }
+
+    double StateSpaceEnvironment::clearance(const Pose &pose)
+    {
+        if (!clearanceKnown_)
+            return 0.0;
+        setPose(state_.get(), pose);
+        return std::max(0.0, si_->getStateValidityChecker()->clearance(state_.get()));
+    }
+
+    double StateSpaceEnvironment::freeLength(const Pose &from, double curvature, double length)
+    {
+        const double whole = std::abs(length), pieces = std::max(1.0, std::ceil(whole / step_));
+        for (double i = 1.0; i <= pieces; i += 1.0)
+            if ((checkedStates_ % STATES_BETWEEN_STOPS == 0 && stop_ && stop_()) ||
+                !isFree(advance(from, curvature, length * i / pieces)))
+                return whole * (i - 1.0) / pieces;
+        return whole;
+    }
+
+    double StateSpaceEnvironment::roomAt(double x, double y)
+    {
+        // Nothing is known of obstacles but where the world ends.
+        const bool inside =
+            x >= bounds_.min.x() && x <= bounds_.max.x() && y >= bounds_.min.y() && y <= bounds_.max.y();
+        return inside ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+    }
+
+    bool StateSpaceEnvironment::isMotionFree(const Pose &from, const Pose &to)
+    {
+        setPose(state_.get(), from);
+        setPose(other_.get(), to);
+        return si_->checkMotion(state_.get(), other_.get());
+    }
+
+    bool StateSpaceEnvironment::acceptPath(const ArcPath &path)
+    {
+        const std::vector<Pose> poses = pathStates(path, stateSpacing_);
+        for (std::size_t i = 1; i < poses.size(); ++i)
+            if ((stop_ && stop_()) || !isMotionFree(poses[i - 1], poses[i]))
+                return false;
+        return true;
+    }
+}  // namespace parking

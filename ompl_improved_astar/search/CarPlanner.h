@@ -1,0 +1,111 @@
+#pragma once
+
+#include "ompl_improved_astar/search/CarSearch.h"
+#include "ompl_improved_astar/search/PathShortener.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Parameters of CarPlanner. */
+    struct CarPlannerParameters
+    {
+        CarParameters search;
+        bool shorten{true};   ///< replace parts of solutions by shorter curves
+        bool anytime{false};  ///< keep improving until stopped
+    };
+
+    /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall end.
+     */
+    using ImprovementFunction = std::function<bool(const ArcPath &, double)>;
+
+    /** \brief Plans drivable paths: the search, the shortening of what it finds, and the improvement until stopped.
+
+        Knows nothing of OMPL. One object may serve many queries and keeps its memory. */
+    class CarPlanner
+    {
+    public:
+        enum class Outcome
+        {
+            Solved,     ///< there is a solution, and it will not be improved further
+            Exhausted,  ///< there is none at the finest resolution, or no hope for one
+            Stopped     ///< stopped; there may be a solution
+        };
+
+        /** \brief Begins a new query in \e environment, which must outlive it. */
+        void begin(MotionEnvironment &environment, const CarPlannerParameters &parameters);
+
+        void addStart(const Pose &pose)
+        {
+            starts_.push_back(pose);
+            search_.addStart(pose);
+        }
+        void addGoal(const Pose &pose)
+        {
+            search_.addGoal(pose);
+        }
+
+        /** \brief Plans; may be called again to go on after Stopped or when roots were added. */
+        Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
+
+        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
+           axles.
+
+            Spends what is left of the time on a search of its own, unless there is none left: then what the trees have
+            seen has to do. \return false when there is no start */
+        bool approximate(const Pose &target, const StopFunction &stop, ArcPath &path);
+
+        bool hasSolution() const
+        {
+            return bestCost_ < std::numeric_limits<double>::infinity();
+        }
+        const ArcPath &bestPath() const
+        {
+            return bestPath_;
+        }
+        double bestCost() const
+        {
+            return bestCost_;
+        }
+
+        /** \brief Best cost over the lower bound of the cost in the discretised problem, at least 1; infinite without a
+            solution. */
+        double suboptimalityBound();
+
+        CarSearch &search()
+        {
+            return search_;
+        }
+        const CarSearch &search() const
+        {
+            return search_;
+        }
+
+        SearchStatistics statistics() const;
+
+    private:
+        bool take(const ArcPath &path, double cost);
+        bool shortenBest(double spacing, double offset);
+        bool isShortestPossible() const;
+        Outcome improve();
+
+        MotionEnvironment *environment_{nullptr};
+        CarPlannerParameters parameters_;
+        CarSearch search_;
+        std::unique_ptr<CarSearch> approach_;  // made when a goal cannot be reached
+        std::vector<Pose> starts_;
+        ArcPath bestPath_;
+        double bestCost_{std::numeric_limits<double>::infinity()};
+        double shortestCurve_{0.0};
+        std::uint64_t shortenerConnections_{0};
+        StopFunction stop_;
+        ImprovementFunction improved_;
+        bool goodEnough_{false};
+        std::uint64_t round_{0};
+        HeuristicWeights weights_;
+    };
+}  // namespace parking::search

@@ -1,0 +1,131 @@
+// Joining the two trees by curves, and reading paths off them.
+
+#include "ompl_improved_astar/search/CarSearch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        // Curves from a node that can move less than this part of their length hardly ever get away.
+        constexpr double CONFINED = 0.15;
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    }  // namespace
+
+    void CarSearch::connectAround(int side, std::uint32_t index)
+    {
+        const Node &node = trees_[side].nodes[index];
+        if (node.mobility < CONFINED * std::min<double>(node.h, 2.0 * reach_))
+            return;
+        const Tree &other = trees_[1 - side];
+        for (const std::uint32_t root : other.roots)
+            side == 0 ? connect(index, root, 0) : connect(root, index, 1);
+        if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.nodes[other.bestClosed].parent != NO_NODE)
+            side == 0 ? connect(index, other.bestClosed, 0) : connect(other.bestClosed, index, 1);
+    }
+
+    bool CarSearch::connect(std::uint32_t fromStart, std::uint32_t fromGoal, int checkedFrom)
+    {
+        const Node &a = trees_[0].nodes[fromStart], &b = trees_[1].nodes[fromGoal];
+        const double before = a.g + b.g;
+        if (before >= costBound_)
+            return false;
+        ++statistics_.connections;
+        curves_.candidates(a.pose, b.pose, candidates_, costBound_ - before);
+        const CostModel &cost = parameters_.cost;
+        order_.clear();
+        for (std::size_t i = 0; i < candidates_.size(); ++i)
+        {
+            const ReedsSheppCurve &curve = candidates_[i];
+            double sum = before + curveCost(cost, a.pose, curve, *environment_);
+            if (curve.count > 0 && a.parent != NO_NODE)
+                sum += cost.join({a.curvature, a.length}, curve.segments[0]);
+            if (curve.count > 0 && b.parent != NO_NODE)
+                sum += cost.join(curve.segments[curve.count - 1], {b.curvature, -b.length});
+            if (sum < costBound_)
+                order_.emplace_back(sum, i);
+        }
+        std::sort(order_.begin(), order_.end());
+        for (const auto &[sum, i] : order_)
+        {
+            if (!isCurveFree(candidates_[i], a.pose, b.pose, checkedFrom))
+                continue;
+            ArcPath path = pathFromStart(fromStart);
+            for (std::size_t k = 0; k < candidates_[i].count; ++k)
+                path.append(candidates_[i].segments[k]);
+            appendBranch(1, fromGoal, path);
+            if (!environment_->acceptPath(path))
+                continue;
+            bestPath_ = std::move(path);
+            bestCost_ = costBound_ = sum;
+            improved_ = true;
+            return true;
+        }
+        return false;
+    }
+
+    bool CarSearch::isCurveFree(const ReedsSheppCurve &curve, const Pose &from, const Pose &to, int checkedFrom)
+    {
+        // Checked from the end where a collision is more likely.
+        Pose pose = checkedFrom == 0 ? from : to;
+        for (std::size_t k = 0; k < curve.count; ++k)
+        {
+            const ArcSegment &segment = curve.segments[checkedFrom == 0 ? k : curve.count - 1 - k];
+            const double length = checkedFrom == 0 ? segment.length : -segment.length;
+            if (environment_->freeLength(pose, segment.curvature, length) < std::abs(length))
+                return false;
+            pose = advance(pose, segment.curvature, length);
+        }
+        return true;
+    }
+
+    void CarSearch::appendBranch(int side, std::uint32_t index, ArcPath &path) const
+    {
+        // From the node to its root, as the car drives on the goal's side.
+        const Tree &tree = trees_[side];
+        for (; tree.nodes[index].parent != NO_NODE; index = tree.nodes[index].parent)
+            path.append({tree.nodes[index].curvature, -tree.nodes[index].length});
+    }
+
+    ArcPath CarSearch::pathFromStart(std::uint32_t index) const
+    {
+        ArcPath outward{trees_[0].nodes[index].pose, {}};
+        appendBranch(0, index, outward);
+        std::uint32_t root = index;
+        while (trees_[0].nodes[root].parent != NO_NODE)
+            root = trees_[0].nodes[root].parent;
+        ArcPath path = outward.reversed();
+        path.start = trees_[0].nodes[root].pose;
+        return path;
+    }
+
+    double CarSearch::shortestCurve() const
+    {
+        double shortest = INFINITE;
+        for (const std::uint32_t root : trees_[0].roots)
+            shortest = std::min(shortest, curveHeuristics_[0].exact(trees_[0].nodes[root].pose));
+        return shortest;
+    }
+
+    bool CarSearch::nearestPath(const Pose &target, ArcPath &path) const
+    {
+        std::uint32_t best = NO_NODE;
+        double nearest = INFINITE;
+        for (std::uint32_t i = 0; i < trees_[0].nodes.size(); ++i)
+        {
+            const Pose &pose = trees_[0].nodes[i].pose;
+            const double distance = std::hypot(pose.x - target.x, pose.y - target.y);
+            if (distance < nearest)
+            {
+                nearest = distance;
+                best = i;
+            }
+        }
+        if (best == NO_NODE)
+            return false;
+        path = pathFromStart(best);
+        return true;
+    }
+}  // namespace parking::search

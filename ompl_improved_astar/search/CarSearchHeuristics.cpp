@@ -1,0 +1,182 @@
+// What the nodes of a search are worth, and what follows from it.
+
+#include "ompl_improved_astar/search/CarSearch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        // Side of a cell of the obstacle-aware heuristic in turning radii.
+        constexpr double HEURISTIC_CELL = 1.0 / 6.0;
+    }  // namespace
+
+    void CarSearch::prepareHeuristics()
+    {
+        if (hasTarget_)
+            aimAtTarget();
+        for (int side = 0; side < 2 && !hasTarget_; ++side)
+        {
+            const Tree &targets = trees_[1 - side];
+            aroundObstacles_[side] = false;
+            if (targets.roots.empty() || !parameters_.obstacleHeuristic)
+                continue;
+            const Pose &toward = trees_[side].roots.empty() ? targets.nodes[targets.roots.front()].pose
+                                                            : trees_[side].nodes[trees_[side].roots.front()].pose;
+            resetObstacleHeuristic(side, toward);
+            for (const std::uint32_t root : targets.roots)
+                obstacleHeuristics_[side].addTarget(targets.nodes[root].pose.x, targets.nodes[root].pose.y);
+        }
+        prepared_ = true;
+        provenUnreachable_ = isProvenUnreachable();
+        for (int side = 0; side < 2; ++side)
+            prepareNodes(side);
+    }
+
+    void CarSearch::resetObstacleHeuristic(int side, const Pose &toward)
+    {
+        ObstacleHeuristic &heuristic = obstacleHeuristics_[side];
+        aroundObstacles_[side] = true;
+        heuristic.reset(*environment_, HEURISTIC_CELL * parameters_.turningRadius, parameters_.inscribedRadius,
+                        Eigen::Vector2d(toward.x, toward.y));
+        if (!parameters_.eagerObstacles)
+            return;
+        const auto begin = std::chrono::steady_clock::now();
+        heuristic.load(parameters_.low, parameters_.high, stop_);
+        loadingTime_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+
+    void CarSearch::aimAtTarget()
+    {
+        const Tree &tree = trees_[0];
+        if (tree.roots.empty() || !parameters_.obstacleHeuristic)
+            return;
+        // Flooding from the starts finds the place to make for; the way there is then counted from that place.
+        resetObstacleHeuristic(1, target_);
+        for (const std::uint32_t root : tree.roots)
+            obstacleHeuristics_[1].addTarget(tree.nodes[root].pose.x, tree.nodes[root].pose.y);
+        const Eigen::Vector2d place = obstacleHeuristics_[1].nearestReachable({target_.x, target_.y}, stop_);
+        resetObstacleHeuristic(0, tree.nodes[tree.roots.front()].pose);
+        obstacleHeuristics_[0].addTarget(place.x(), place.y());
+    }
+
+    bool CarSearch::isProvenUnreachable()
+    {
+        // A disc inside of the car finds no way round the obstacles: neither will the car.
+        const Tree &tree = trees_[0];
+        if (!aroundObstacles_[0] || hasTarget_ || tree.roots.empty())
+            return false;
+        for (const std::uint32_t root : tree.roots)
+        {
+            const Pose &pose = tree.nodes[root].pose;
+            if (obstacleHeuristics_[0].distance(pose.x, pose.y, stop_) < INFINITE || (stop_ && stop_()))
+                return false;
+        }
+        return true;
+    }
+
+    void CarSearch::prepareNodes(int side)
+    {
+        Tree &tree = trees_[side];
+        // Roots added later change what the nodes of the other tree are worth.
+        if (tree.nodes.size() > tree.roots.size())
+        {
+            for (Node &node : tree.nodes)
+                node.h = static_cast<float>(heuristic(side, node.pose));
+            rekey(side);
+        }
+        for (const std::uint32_t root : tree.roots)
+        {
+            Node &node = tree.nodes[root];
+            if (node.queued)
+                continue;
+            node.queued = true;
+            node.h = static_cast<float>(heuristic(side, node.pose));
+            tree.cells.set(cellKey(node.pose, 0), root);
+            push(side, 0, root);
+            double mobility = 0.0;
+            for (const double steer : {-1.0, 0.0, 1.0})
+                for (const double gear : {-1.0, 1.0})
+                    mobility +=
+                        environment_->freeLength(node.pose, steer / parameters_.turningRadius, gear * steps_[0]);
+            tree.rootMobility = std::min(tree.rootMobility, mobility);
+        }
+    }
+
+    double CarSearch::heuristic(int side, const Pose &pose)
+    {
+        if (hasTarget_)
+        {
+            const double straight = std::hypot(pose.x - target_.x, pose.y - target_.y);
+            const double way = aroundObstacles_[0] ? obstacleHeuristics_[0].distance(pose.x, pose.y, stop_) : 0.0;
+            return way < INFINITE ? std::max(straight, way) : straight;
+        }
+        double h = curveHeuristics_[side].approximate(pose);
+        if (aroundObstacles_[side])
+        {
+            const double way = obstacleHeuristics_[side].distance(pose.x, pose.y, stop_);
+            if (way < INFINITE)
+                h = std::max(h, way - HEURISTIC_CELL * parameters_.turningRadius);
+        }
+        return h;
+    }
+
+    double CarSearch::admissibleHeuristic(int side, const Pose &pose)
+    {
+        double h = curveHeuristics_[side].exact(pose);
+        if (aroundObstacles_[side])
+            h = std::max(h, obstacleHeuristics_[side].lowerBound(pose.x, pose.y, stop_));
+        return h;
+    }
+
+    double CarSearch::priority(int side, const Node &node) const
+    {
+        if (hasTarget_)
+            return node.g + parameters_.weights.at(node.h) * node.h;
+        double nearest = INFINITE;
+        for (const Pose &target : curveHeuristics_[side].targets())
+            nearest = std::min(nearest, std::hypot(node.pose.x - target.x, node.pose.y - target.y));
+        return node.g + parameters_.weights.at(nearest) * node.h;
+    }
+
+    void CarSearch::rekey(int side)
+    {
+        for (OpenList &list : trees_[side].open)
+            list.rekey(
+                [this, side](OpenList::Entry &entry)
+                {
+                    const Node &node = trees_[side].nodes[entry.node];
+                    entry.f = priority(side, node);
+                    return node.g + node.h < costBound_;
+                });
+    }
+
+    void CarSearch::setWeights(const HeuristicWeights &weights)
+    {
+        parameters_.weights = weights;
+        for (int side = 0; side < 2; ++side)
+            rekey(side);
+    }
+
+    double CarSearch::lowerBound()
+    {
+        double bound = 0.0;
+        for (int side = 0; side < 2; ++side)
+        {
+            double smallest = INFINITE;
+            for (const OpenList &list : trees_[side].open)
+                for (const OpenList::Entry &entry : list.entries())
+                {
+                    const Node &node = trees_[side].nodes[entry.node];
+                    smallest = std::min(smallest, node.g + admissibleHeuristic(side, node.pose));
+                }
+            if (smallest < INFINITE)
+                bound = std::max(bound, smallest);
+        }
+        return std::min(bound, costBound_);
+    }
+}  // namespace parking::search

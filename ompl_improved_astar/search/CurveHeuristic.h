@@ -1,0 +1,53 @@
+#pragma once
+
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/ReedsShepp.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Length of the shortest curve of bounded curvature between a pose and the nearest of some targets, without
+        regard to obstacles.
+
+        Poses are rounded to cells, finer near the targets, and the length of each cell is computed once, when first
+       asked for: what a table made in advance would hold, without its seconds of preparation. The values are those of
+       the cells' centres and therefore not a bound; exact() is. */
+    class CurveHeuristic
+    {
+    public:
+        explicit CurveHeuristic(const ReedsShepp &curves);
+
+        /** \brief Forgets targets and values.
+            \param backwards false: curves from the asked pose to a target; true: from a target to the asked pose */
+        void reset(bool backwards);
+
+        void addTarget(const Pose &target);
+
+        /** \brief Length in metres, up to the rounding of the pose. */
+        double approximate(const Pose &pose);
+
+        /** \brief Length in metres, exactly: never more than the length of any drivable path. */
+        double exact(const Pose &pose) const;
+
+        const std::vector<Pose> &targets() const
+        {
+            return targets_;
+        }
+
+    private:
+        struct Slot
+        {
+            std::uint64_t key{0};
+            std::uint32_t generation{0};
+            float value{0.0f};
+        };
+
+        const ReedsShepp &curves_;
+        bool backwards_{false};
+        std::vector<Pose> targets_;
+        std::vector<Slot> slots_;
+        std::uint32_t generation_{1};
+    };
+}  // namespace parking::search

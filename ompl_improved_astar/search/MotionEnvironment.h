@@ -1,0 +1,38 @@
+#pragma once
+
+#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/Pose.h"
+
+namespace parking::search
+{
+    /** \brief What the search asks of the world. One search uses one environment from one thread.
+
+        Poses are of the rear axle's midpoint, in the coordinates of the problem. */
+    class MotionEnvironment
+    {
+    public:
+        virtual ~MotionEnvironment() = default;
+
+        /** \brief Is the car free of obstacles at \e pose? */
+        virtual bool isFree(const Pose &pose) = 0;
+
+        /** \brief A lower bound of the distance to the obstacles in metres; 0 when it is not known. */
+        virtual double clearance(const Pose &pose) = 0;
+
+        /** \brief How far the car can drive along an arc from a free pose, free in between.
+
+            \param length signed metres
+            \return between 0 and |length|; |length| itself when all of it is free */
+        virtual double freeLength(const Pose &from, double curvature, double length) = 0;
+
+        /** \brief An upper bound of the distance between the point (x, y) and the nearest obstacle, in metres; infinite
+            when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */
+        virtual double roomAt(double x, double y) = 0;
+
+        /** \brief A last word on a whole path whose pieces were all found free. */
+        virtual bool acceptPath(const ArcPath & /*path*/)
+        {
+            return true;
+        }
+    };
+}  // namespace parking::search

@@ -1,0 +1,123 @@
+#include "ompl_improved_astar/search/PathShortener.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
+    }
+
+    void PathShortener::cut(const ArcPath &path, double spacing, double offset)
+    {
+        pieces_.clear();
+        Pose pose = path.start;
+        const auto add = [&](const ArcSegment &segment)
+        {
+            pieces_.push_back({segment, pose});
+            pose = advance(pose, segment.curvature, segment.length);
+        };
+        for (const ArcSegment &segment : path.segments)
+        {
+            const double length = std::abs(segment.length), sign = segment.length < 0.0 ? -1.0 : 1.0;
+            double done = 0.0;
+            double next = std::min(length, offset > 0.0 ? offset : spacing);
+            while (done < length)
+            {
+                // No slivers at the end of a piece.
+                if (length - next < 0.2 * spacing)
+                    next = length;
+                add({segment.curvature, sign * (next - done)});
+                done = next;
+                next = std::min(length, next + spacing);
+            }
+        }
+        costBefore_.assign(pieces_.size() + 1, 0.0);
+        for (std::size_t k = 0; k < pieces_.size(); ++k)
+            costBefore_[k + 1] = costBefore_[k] + cost_.drive(pieces_[k].from, pieces_[k].segment, environment_) +
+                                 (k > 0 ? cost_.join(pieces_[k - 1].segment, pieces_[k].segment) : 0.0);
+        pieces_.push_back({{0.0, 0.0}, pose});
+    }
+
+    bool PathShortener::replace(std::size_t i, std::size_t j, ArcPath &path)
+    {
+        const std::size_t count = pieces_.size() - 1;
+        const ArcSegment *before = i > 0 ? &pieces_[i - 1].segment : nullptr;
+        const ArcSegment *after = j < count ? &pieces_[j].segment : nullptr;
+        // Cost of the pieces i ... j - 1 with the joins at both of their ends.
+        double now = costBefore_[j] - costBefore_[i];
+        if (after)
+            now += cost_.join(pieces_[j - 1].segment, *after);
+        ++connectionCount_;
+        curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
+        order_.clear();
+        for (std::size_t k = 0; k < candidates_.size(); ++k)
+        {
+            const ReedsSheppCurve &curve = candidates_[k];
+            if (curve.count == 0)
+                continue;
+            double sum = curveCost(cost_, pieces_[i].from, curve, environment_);
+            if (before)
+                sum += cost_.join(*before, curve.segments[0]);
+            if (after)
+                sum += cost_.join(curve.segments[curve.count - 1], *after);
+            if (sum < now - LEAST_GAIN)
+                order_.emplace_back(sum, k);
+        }
+        std::sort(order_.begin(), order_.end());
+        for (const auto &candidate : order_)
+        {
+            const ReedsSheppCurve &curve = candidates_[candidate.second];
+            Pose pose = pieces_[i].from;
+            bool free = true;
+            for (std::size_t m = 0; m < curve.count && free; ++m)
+            {
+                const ArcSegment &segment = curve.segments[m];
+                free = environment_.freeLength(pose, segment.curvature, segment.length) >= std::abs(segment.length);
+                pose = advance(pose, segment.curvature, segment.length);
+            }
+            if (!free)
+                continue;
+            ArcPath shorter{path.start, {}};
+            for (std::size_t k = 0; k < i; ++k)
+                shorter.append(pieces_[k].segment);
+            for (std::size_t m = 0; m < curve.count; ++m)
+                shorter.append(curve.segments[m]);
+            for (std::size_t k = j; k < count; ++k)
+                shorter.append(pieces_[k].segment);
+            if (!environment_.acceptPath(shorter))
+                continue;
+            path = std::move(shorter);
+            return true;
+        }
+        return false;
+    }
+
+    bool PathShortener::pass(ArcPath &path, double spacing, double offset, double widest, const StopFunction &stop)
+    {
+        bool improved = false;
+        cut(path, spacing, offset);
+        for (std::size_t span = pieces_.size() - 1; span >= 2; --span)
+            for (std::size_t i = 0; i + span < pieces_.size(); ++i)
+            {
+                if (stop && (connectionCount_ & 15u) == 0 && stop())
+                    return improved;
+                // A straight line bounds what any curve can gain.
+                const Pose &a = pieces_[i].from, &b = pieces_[i + span].from;
+                if (costBefore_[i + span] - costBefore_[i] > widest ||
+                    std::hypot(a.x - b.x, a.y - b.y) >= costBefore_[i + span] - costBefore_[i] - LEAST_GAIN)
+                    continue;
+                if (replace(i, i + span, path))
+                {
+                    improved = true;
+                    cut(path, spacing, offset);
+                    span = std::min(span, pieces_.size() - 1);
+                    if (span < 2)
+                        return improved;
+                }
+            }
+        return improved;
+    }
+}  // namespace parking::search

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/ReedsShepp.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Makes a drivable path cheaper by replacing parts of it with curves of bounded curvature.
+
+        The path is cut at knots; between two knots every word that is cheaper than the part it would replace is tried
+       in the order of its cost, and the first free one taken. The path stays free and drivable, keeps its ends and
+       never becomes more expensive. Deterministic. */
+    class PathShortener
+    {
+    public:
+        PathShortener(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost)
+          : environment_(environment),
+            curves_(curves),
+            cost_(cost)
+        {
+        }
+
+        /** \brief One pass over the pairs of knots, those farthest apart first.
+
+            \param spacing largest distance between knots in metres; ends of pieces are knots, too
+            \param offset metres to the first knot within each piece, so that passes can differ
+            \param widest pairs of knots farther apart than this along the path, in metres, are left out
+            \return whether the path became cheaper */
+        bool pass(ArcPath &path, double spacing, double offset, double widest, const StopFunction &stop);
+
+        std::uint64_t connections() const
+        {
+            return connectionCount_;
+        }
+
+    private:
+        struct Piece
+        {
+            ArcSegment segment;
+            Pose from;
+        };
+
+        void cut(const ArcPath &path, double spacing, double offset);
+        bool replace(std::size_t i, std::size_t j, ArcPath &path);
+
+        MotionEnvironment &environment_;
+        const ReedsShepp &curves_;
+        CostModel cost_;
+        std::vector<Piece> pieces_;
+        std::vector<double> costBefore_;
+        std::vector<ReedsSheppCurve> candidates_;
+        std::vector<std::pair<double, std::size_t>> order_;
+        std::uint64_t connectionCount_{0};
+    };
+}  // namespace parking::search
