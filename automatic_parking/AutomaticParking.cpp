@@ -1,0 +1,347 @@
+#include "automatic_parking/AutomaticParking.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double LOOK_BACK = 0.1;  // metres of path behind the car that still count as being before it
+
+        void checkPositive(const char *field, double value)
+        {
+            if (!(std::isfinite(value) && value > 0.0))
+                throw Error(std::string("parking: ") + field + " is " + formatNumber(value) +
+                            "; it must be a positive number");
+        }
+
+        std::string rounded(double value, double unit)
+        {
+            return formatNumber(std::round(value / unit) * unit);
+        }
+
+        double distance(const Pose &a, const Pose &b)
+        {
+            return std::hypot(a.x - b.x, a.y - b.y);
+        }
+
+        double yawBetween(const Pose &a, const Pose &b)
+        {
+            return std::abs(wrapAngle(a.yaw - b.yaw));
+        }
+
+        bool sameGoals(const Scenario &a, const Scenario &b)
+        {
+            return a.goals.size() == b.goals.size() &&
+                   std::equal(a.goals.begin(), a.goals.end(), b.goals.begin(),
+                              [](const Pose &one, const Pose &other)
+                              { return one.x == other.x && one.y == other.y && one.yaw == other.yaw; });
+        }
+    }  // namespace
+
+    void ParkingParameters::validate() const
+    {
+        planning.validate();
+        drive.validate();
+        checkPositive("replanCrossTrack", replanCrossTrack);
+        checkPositive("replanHeadingError", replanHeadingError);
+        checkPositive("goalTolerance", goalTolerance);
+        checkPositive("goalYawTolerance", goalYawTolerance);
+    }
+
+    /** One call of park(): the world as it is now, and what has been driven so far. */
+    class AutomaticParking::Session
+    {
+    public:
+        Session(const ParkingParameters &parameters, const MapUpdate &update, const TrackingController::Solve &solve,
+                const Scenario &scenario)
+          : parameters_(parameters),
+            update_(update),
+            solve_(solve),
+            scenario_((scenario.vehicle.validate(), scenario)),
+            world_(scenario)
+        {
+        }
+
+        ParkingResult park(const std::optional<Pose> &start)
+        {
+            // The car's own idea of where it stands may differ from the truth; both go on from drive to drive.
+            Pose truth = start.value_or(scenario_.start);
+            std::string reason = "first plan";
+            for (std::size_t count = 0;; ++count)
+            {
+                ParkingLeg leg;
+                leg.reason = reason;
+                leg.begin = time_;
+                leg.plan = ParkingPlanner(parameters_.planning).plan(scenario_, world_);
+                result_.planningTime += leg.plan.planningTime + leg.plan.smoothingTime;
+                note(reason + ": " + leg.plan.message);
+                if (!leg.plan.found)
+                {
+                    finish(leg.plan.failure, leg.plan.message);
+                    result_.legs.push_back(std::move(leg));
+                    break;
+                }
+                goal_ = leg.plan.goal;
+                const bool driven = drive(leg, truth, count);
+                result_.legs.push_back(std::move(leg));
+                if (!driven)
+                    break;
+                const DriveResult &drive = result_.legs.back().drive;
+                truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
+                scenario_.start = drive.log.back().control.estimate;
+                steering_ = drive.trajectory.back().steering;
+                if (judge(drive, reason))
+                    break;
+                if (count >= parameters_.maxReplans)
+                {
+                    finish(drive.arrived ? ParkingStatus::MissedGoal : ParkingStatus::Stopped,
+                           reason + ", and no replanning is left");
+                    break;
+                }
+            }
+            return close(truth);
+        }
+
+        ParkingResult follow(const Path &path)
+        {
+            ParkingLeg leg;
+            leg.reason = "given path";
+            leg.plan.found = true;
+            leg.plan.path = path;
+            leg.plan.message = "a path from elsewhere";
+            parameters_.replanCrossTrack = parameters_.replanHeadingError = std::numeric_limits<double>::infinity();
+            Pose truth = scenario_.start;
+            if (!path.empty())
+            {
+                truth = path.front().pose;
+                goal_ = leg.plan.goal = path.back().pose;
+                leg.plan.clearance = world_.clearance(path);
+            }
+            const bool driven = drive(leg, truth, 0);
+            result_.legs.push_back(std::move(leg));
+            if (driven)
+            {
+                const DriveResult &drive = result_.legs.back().drive;
+                truth = {drive.trajectory.back().x, drive.trajectory.back().y, drive.trajectory.back().yaw};
+                std::string reason;
+                if (!judge(drive, reason))
+                    finish(drive.arrived ? ParkingStatus::MissedGoal : ParkingStatus::Stopped, reason);
+            }
+            return close(truth);
+        }
+
+    private:
+        void note(const std::string &event)
+        {
+            result_.events.push_back(rounded(time_, 1e-3) + " s: " + event);
+        }
+
+        void finish(ParkingStatus status, const std::string &message)
+        {
+            result_.status = status;
+            result_.message = message;
+        }
+
+        /** Drives the plan of \e leg; false when it cannot be driven. */
+        bool drive(ParkingLeg &leg, const Pose &truth, std::size_t count)
+        {
+            ClosedLoopParameters parameters = parameters_.drive;
+            parameters.disturbances.seed += count;  // other noise on every drive
+            ClosedLoop loop(scenario_.vehicle, parameters);
+            loop.setClearance([this](const Pose &pose) { return world_.footprint().clearance(pose); });
+            loop.setValidity([this](const Pose &pose) { return world_.footprint().isFree(pose); });
+            loop.setSolve(solve_);
+            cause_.clear();
+            loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
+            try
+            {
+                leg.drive = loop.drive(leg.plan.path, truth, steering_);
+            }
+            catch (const Error &error)
+            {
+                finish(ParkingStatus::NotDrivable, error.what());
+                note(result_.message);
+                return false;
+            }
+            for (TrajectoryPoint point : leg.drive.trajectory)
+            {
+                // A drive begins where the one before has ended.
+                if (!result_.trajectory.empty() && point.t == 0.0)
+                    result_.trajectory.pop_back();
+                point.t += time_;
+                result_.trajectory.push_back(point);
+            }
+            for (const std::string &event : leg.drive.events)
+                result_.events.push_back((time_ > 0.0 ? rounded(time_, 1e-3) + " s + " : "") + event);
+            time_ = result_.trajectory.back().t;
+            if (leg.drive.arrived || cause_.empty())
+                note(leg.drive.message);
+            return true;
+        }
+
+        /** Looks at each period of a drive; false asks for a safe stop. */
+        bool watch(const ParkingLeg &leg, const DriveRecord &record)
+        {
+            if (!cause_.empty())
+                return true;  // stopping already
+            if (std::abs(record.control.crossTrack) > parameters_.replanCrossTrack)
+                cause_ =
+                    "the car is " + rounded(100.0 * std::abs(record.control.crossTrack), 1.0) + " cm beside the path";
+            else if (std::abs(record.control.headingError) > parameters_.replanHeadingError)
+                cause_ = "the heading is " + rounded(std::abs(record.control.headingError) * 180.0 / PI, 1.0) +
+                         " degrees off the path";
+            else if (update_)
+                if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
+                    takeOver(std::move(*changed), leg.plan.path, record.control.s);
+            return cause_.empty();
+        }
+
+        /** The world is another one from now on. */
+        void takeOver(Scenario changed, const Path &path, double s)
+        {
+            if (changed.worldOffset != scenario_.worldOffset)
+                throw Error("scenario " + changed.name + ": a changed map must have the worldOffset of the first one");
+            if (changed.goals.empty())
+                throw Error("scenario " + changed.name + ": it has no goal");
+            changed.start = scenario_.start;
+            changed.vehicle = scenario_.vehicle;
+            const bool moved = !sameGoals(changed, scenario_);
+            scenario_ = std::move(changed);
+            world_ = ParkingWorld(scenario_);
+            std::size_t first = 0;
+            while (first + 1 < path.size() && path[first + 1].arcLength < s - LOOK_BACK)
+                ++first;
+            if (moved)
+                cause_ = "the goal has changed";
+            else if (!world_.isFree(path, first))
+                cause_ = "the map has changed";
+        }
+
+        /** Is it over? Otherwise \e reason says why to plan anew. */
+        bool judge(const DriveResult &drive, std::string &reason)
+        {
+            if (drive.evaluation.collisions > 0)
+            {
+                finish(ParkingStatus::Collision, "the driven car touched an obstacle");
+                return true;
+            }
+            if (!drive.arrived)
+            {
+                reason = cause_.empty() ? drive.message : cause_;
+                if (!cause_.empty())
+                    return false;
+                // The controller stopped for a reason that another path would not mend.
+                finish(ParkingStatus::Stopped, drive.message);
+                return true;
+            }
+            const Pose stands = drive.log.back().control.estimate;
+            if (distance(stands, goal_) > parameters_.goalTolerance ||
+                yawBetween(stands, goal_) > parameters_.goalYawTolerance)
+            {
+                reason = "the car stands " + rounded(100.0 * distance(stands, goal_), 0.1) + " cm and " +
+                         rounded(yawBetween(stands, goal_) * 180.0 / PI, 0.1) + " degrees from the goal";
+                return false;
+            }
+            finish(ParkingStatus::Parked, "parked");
+            return true;
+        }
+
+        ParkingResult close(const Pose &truth)
+        {
+            std::vector<Evaluation> drives;
+            for (const ParkingLeg &leg : result_.legs)
+                if (!leg.drive.trajectory.empty())
+                    drives.push_back(leg.drive.evaluation);
+            result_.evaluation = combined(drives);
+            if (!drives.empty())
+            {
+                result_.evaluation.finalPositionError = distance(truth, goal_);
+                result_.evaluation.finalYawError = yawBetween(truth, goal_);
+            }
+            return std::move(result_);
+        }
+
+        ParkingParameters parameters_;
+        const MapUpdate &update_;
+        const TrackingController::Solve &solve_;
+        Scenario scenario_;
+        ParkingWorld world_;
+        Pose goal_;
+        double time_{0.0};
+        double steering_{0.0};
+        std::string cause_;  // why the drive under way was stopped by watch(); empty otherwise
+        ParkingResult result_;
+    };
+
+    AutomaticParking::AutomaticParking(const ParkingParameters &parameters)
+      : parameters_((parameters.validate(), parameters))
+    {
+    }
+
+    void AutomaticParking::setMapUpdate(MapUpdate update)
+    {
+        update_ = std::move(update);
+    }
+
+    void AutomaticParking::setSolve(TrackingController::Solve solve)
+    {
+        solve_ = std::move(solve);
+    }
+
+    ParkingResult AutomaticParking::park(const Scenario &scenario, const std::optional<Pose> &start) const
+    {
+        return Session(parameters_, update_, solve_, scenario).park(start);
+    }
+
+    ParkingResult AutomaticParking::drive(const Scenario &scenario, const Path &path) const
+    {
+        const MapUpdate none;
+        return Session(parameters_, none, solve_, scenario).follow(path);
+    }
+
+    Evaluation combined(const std::vector<Evaluation> &drives)
+    {
+        if (drives.empty())
+            return {};
+        Evaluation all = drives.front();
+        for (std::size_t i = 1; i < drives.size(); ++i)
+        {
+            const Evaluation &next = drives[i];
+            const double time = all.travelTime + next.travelTime;
+            const auto average = [&](double Evaluation::*field)
+            {
+                if (time > 0.0)
+                    all.*field = (all.*field * all.travelTime + next.*field * next.travelTime) / time;
+            };
+            average(&Evaluation::meanAbsAcceleration);
+            average(&Evaluation::meanAbsSteering);
+            average(&Evaluation::meanCrossTrack);
+            for (double Evaluation::*field : {&Evaluation::plannedLength, &Evaluation::drivenLength,
+                                              &Evaluation::plannedTime, &Evaluation::travelTime})
+                all.*field += next.*field;
+            for (double Evaluation::*field : {&Evaluation::maxCrossTrack, &Evaluation::maxPositionError,
+                                              &Evaluation::maxHeadingError, &Evaluation::cornerDeviation})
+                all.*field = std::max(all.*field, next.*field);
+            for (double Evaluation::*field :
+                 {&Evaluation::finalPositionError, &Evaluation::finalYawError, &Evaluation::finalReferenceError})
+                all.*field = next.*field;
+            all.minClearance = std::min(all.minClearance, next.minClearance);
+            for (std::size_t Evaluation::*field :
+                 {&Evaluation::collisions, &Evaluation::checkedPoses, &Evaluation::solves, &Evaluation::solverFailures})
+                all.*field += next.*field;
+            all.standstills += next.standstills + 1;  // the car stood between the drives, too
+            // Ranks of several sets cannot be had from theirs; the larger one errs on the safe side.
+            all.solveTime.median = std::max(all.solveTime.median, next.solveTime.median);
+            all.solveTime.p99 = std::max(all.solveTime.p99, next.solveTime.p99);
+            all.solveTime.max = std::max(all.solveTime.max, next.solveTime.max);
+        }
+        return all;
+    }
+}  // namespace parking

@@ -1,0 +1,112 @@
+#pragma once
+
+#include "automatic_parking/ParkingPlanner.h"
+#include "automatic_parking/ParkingStatus.h"
+#include "parking_geometry/Scenario.h"
+#include "path_tracking/ClosedLoop.h"
+#include "path_tracking/Evaluation.h"
+#include "path_tracking/Trajectory.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Everything that parking may be tuned with. */
+    struct ParkingParameters
+    {
+        PlanningParameters planning;
+        ClosedLoopParameters drive;
+
+        std::size_t maxReplans{3};        ///< plans after the first one
+        double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and plans anew
+        double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
+        double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
+        double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
+
+        /** \brief Throws parking::Error naming the first field out of its range. */
+        void validate() const;
+    };
+
+    /** \brief One plan and the drive along it. */
+    struct ParkingLeg
+    {
+        std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
+        double begin{0.0};   ///< seconds since the first command
+        ParkingPlan plan;
+        DriveResult drive;  ///< empty when there was nothing to drive
+    };
+
+    /** \brief What came of parking; every stage's output is kept. */
+    struct ParkingResult
+    {
+        ParkingStatus status{ParkingStatus::NoPath};
+        std::string message;           ///< one line
+        std::vector<ParkingLeg> legs;  ///< a plan each; more than one after replanning
+        Trajectory trajectory;         ///< of all drives, time running on; the car plans in no time
+        Evaluation evaluation;         ///< of all drives together, final errors against the goal
+        double planningTime{0.0};      ///< seconds, all plans
+
+        bool parked() const
+        {
+            return status == ParkingStatus::Parked;
+        }
+
+        /** \brief What happened on the way, with times; plans included. */
+        std::vector<std::string> events;
+    };
+
+    /** \brief The whole pipeline of the paper behind one call: map, car, start and slot in; plan, smooth, drive; result
+        out.
+
+        Parking again and again on the way: when the map changes so that the rest of the path is blocked, when the car
+        strays from the path, and when it stands too far from the goal, it stops, plans from where it believes to stand,
+        and drives on. A change of the map that leaves the rest of the path free does not disturb the drive. */
+    class AutomaticParking
+    {
+    public:
+        /** \brief Asked each period for a world that has changed: seconds since the first command, and the pose that
+            the car believes in. Nothing: all is as before.
+
+            Obstacles, goals and slot of the new scenario count; its start does not. Its coordinates must be those of
+            the first one (same worldOffset). */
+        using MapUpdate = std::function<std::optional<Scenario>(double time, const Pose &car)>;
+
+        /** \brief Throws parking::Error for parameters out of their range. */
+        explicit AutomaticParking(const ParkingParameters &parameters = {});
+
+        const ParkingParameters &parameters() const
+        {
+            return parameters_;
+        }
+
+        void setMapUpdate(MapUpdate update);
+
+        /** \brief Replaces the optimiser of the controller (see TrackingController). */
+        void setSolve(TrackingController::Solve solve);
+
+        /** \brief Parks the car of \e scenario.
+
+            Throws parking::Error for a scenario that makes no sense (no goal, an invalid car, another worldOffset after
+            a change); everything else is in the result.
+            \param start where the car really stands, when that is not where the scenario believes it to be */
+        ParkingResult park(const Scenario &scenario, const std::optional<Pose> &start = std::nullopt) const;
+
+        /** \brief Drives a path that somebody else has planned, an OMPL planner for example, in the world of \e
+           scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
+        ParkingResult drive(const Scenario &scenario, const Path &path) const;
+
+    private:
+        class Session;
+
+        ParkingParameters parameters_;
+        MapUpdate update_;
+        TrackingController::Solve solve_;
+    };
+
+    /** \brief The figures of several drives, one after the other, as if they were one. */
+    Evaluation combined(const std::vector<Evaluation> &drives);
+}  // namespace parking

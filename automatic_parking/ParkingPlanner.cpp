@@ -1,0 +1,441 @@
+#include "automatic_parking/ParkingPlanner.h"
+
+#include "ompl_improved_astar/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/CarPlanner.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/ReedsShepp.h"
+#include "parking_geometry/ReverseParking.h"
+#include "parking_geometry/io/Text.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles along motions
+        constexpr double SAMPLING = 0.1;          // metres between states of a path
+        constexpr double SAME = 1e-6;             // metres and radians between a path's end and the goal that it is
+        constexpr double CLEARANCE_STEP = 1e-3;   // metres to which the least clearance is found
+        constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
+        constexpr double CLEARANCE_RANGE = 1.0;   // metres of clearance from which on there is no extra cost
+
+        // A path of the search all the way must be cheaper than a manoeuvre by this factor to be taken instead.
+        constexpr double MANOEUVRE_PREFERENCE = 1.2;
+        constexpr double MANOEUVRE_RADIUS = 1.1;  // of manoeuvres where there is room, over the smallest
+        // What a gap is worth: GAP_UNIT / (gap + GAP_OFFSET), metres.
+        constexpr double GAP_UNIT = 0.25, GAP_OFFSET = 0.05;
+
+        using Clock = std::chrono::steady_clock;
+
+        double secondsSince(Clock::time_point begin)
+        {
+            return std::chrono::duration<double>(Clock::now() - begin).count();
+        }
+
+        void check(const char *field, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("planning: ") + field + " is " + formatNumber(value) + "; it must be " + right);
+        }
+
+        void checkNotNegative(const char *field, double value)
+        {
+            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
+        }
+
+        std::string centimetres(double metres)
+        {
+            return formatNumber(std::round(100.0 * metres)) + " cm";
+        }
+
+        bool sweptFree(const FootprintChecker &checker, const Path &path, std::size_t first)
+        {
+            if (path.empty() || first >= path.size() || !checker.isFree(path[first].pose))
+                return path.empty() || first >= path.size();
+            for (std::size_t i = first + 1; i < path.size(); ++i)
+            {
+                const double length = path[i].arcLength - path[i - 1].arcLength;
+                if (length > 0.0 &&
+                    checker.freeLength(path[i - 1].pose, path[i].curvature, path[i].direction * length) < length)
+                    return false;
+                if (!checker.isFree(path[i].pose))
+                    return false;
+            }
+            return true;
+        }
+
+        bool isAt(const Pose &pose, const Pose &goal)
+        {
+            return std::hypot(pose.x - goal.x, pose.y - goal.y) <= SAME &&
+                   std::abs(wrapAngle(pose.yaw - goal.yaw)) <= SAME;
+        }
+
+        /** A way from start to goal. */
+        struct Candidate
+        {
+            ArcPath approach, manoeuvre, arcs;
+            Pose goal;
+            double cost{std::numeric_limits<double>::infinity()};
+        };
+
+        /** The searches of one plan. */
+        class Search
+        {
+        public:
+            Search(const Scenario &scenario, const PlanningParameters &parameters, const ParkingWorld &world,
+                   ParkingPlan &plan)
+              : scenario_(scenario),
+                parameters_(parameters),
+                world_(world),
+                plan_(plan)
+            {
+            }
+
+            double elapsed() const
+            {
+                return secondsSince(begin_);
+            }
+
+            bool isOver() const
+            {
+                return elapsed() > parameters_.timeLimit;
+            }
+
+            /** Length of the shortest curve to any goal, obstacles or not. */
+            double leastLength(double radius) const
+            {
+                const ReedsShepp curves(radius);
+                double least = std::numeric_limits<double>::infinity();
+                for (const Pose &goal : scenario_.goals)
+                    least = std::min(least, curves.distance(scenario_.start, goal));
+                return least;
+            }
+
+            /** The cheaper of manoeuvre and search all the way that \e checker and \e radius allow.
+
+                \param expansions 0: as many as there is time for */
+            Candidate find(const std::shared_ptr<const FootprintChecker> &checker, double radius,
+                           std::uint64_t expansions)
+            {
+                Candidate best;
+                if (scenario_.slot && parameters_.manoeuvres)
+                    best = byManoeuvre(checker, radius, expansions > 0 ? expansions : parameters_.expansionsPerGap);
+                std::vector<Pose> goals;
+                for (const Pose &goal : scenario_.goals)
+                    if (checker->isFree(goal))
+                        goals.push_back(goal);
+                if (goals.empty())
+                    return best;
+                Candidate whole;
+                whole.approach = whole.arcs = search(*checker, radius, goals, expansions);
+                if (whole.arcs.segments.empty())
+                    return best;
+                for (const Pose &goal : goals)
+                    if (isAt(whole.arcs.end(), goal))
+                        whole.goal = goal;
+                whole.cost = cost(whole.arcs);
+                return whole.cost * MANOEUVRE_PREFERENCE < best.cost ? whole : best;
+            }
+
+        private:
+            search::CostModel costModel(double radius) const
+            {
+                return {0.0,
+                        parameters_.gearChangePenalty,
+                        parameters_.steeringChangePenalty,
+                        parameters_.clearanceWeight,
+                        CLEARANCE_RANGE,
+                        1.0 / radius};
+            }
+
+            /** Cost as of the car itself, so that paths planned with different gaps can be compared. */
+            double cost(const ArcPath &path) const
+            {
+                FootprintEnvironment environment(world_.footprint(), scenario_.bounds, SWEEP_TOLERANCE);
+                return search::pathCost(costModel(scenario_.vehicle.minTurningRadius()), path, environment);
+            }
+
+            ArcPath search(const FootprintChecker &checker, double radius, const std::vector<Pose> &goals,
+                           std::uint64_t expansions)
+            {
+                ++plan_.tries;
+                FootprintEnvironment environment(checker, scenario_.bounds, SWEEP_TOLERANCE);
+                search::CarPlannerParameters car;
+                car.search.turningRadius = radius;
+                const Vehicle &vehicle = scenario_.vehicle;
+                car.search.inscribedRadius = checker.margin() + std::min({0.5 * vehicle.width, vehicle.rearOverhang,
+                                                                          vehicle.wheelbase + vehicle.frontOverhang});
+                car.search.low = scenario_.bounds.min;
+                car.search.high = scenario_.bounds.max;
+                car.search.cost = costModel(radius);
+                search::CarPlanner planner;
+                planner.begin(environment, car);
+                planner.addStart(scenario_.start);
+                for (const Pose &goal : goals)
+                    planner.addGoal(goal);
+                planner.solve(
+                    [&] { return isOver() || (expansions > 0 && planner.statistics().expanded >= expansions); }, {});
+                const search::SearchStatistics statistics = planner.statistics();
+                plan_.search.expanded += statistics.expanded;
+                plan_.search.generated += statistics.generated;
+                plan_.search.connections += statistics.connections;
+                plan_.search.heuristicCells += statistics.heuristicCells;
+                return planner.hasSolution() ? planner.bestPath() : ArcPath{};
+            }
+
+            Candidate byManoeuvre(const std::shared_ptr<const FootprintChecker> &checker, double radius,
+                                  std::uint64_t expansions)
+            {
+                ReverseParkingOptions options;
+                options.clearance = 0.0;  // the gap is in the checker already
+                options.preferredRadius = std::max(radius, MANOEUVRE_RADIUS * scenario_.vehicle.minTurningRadius());
+                std::vector<ReverseParkingResult> fitting;
+                std::vector<Pose> starts;
+                for (ReverseParkingResult &each :
+                     ReverseParking(scenario_.vehicle, options).planAll(*scenario_.slot, queriesOf(checker)))
+                    if (each.fits() && !each.path.segments.empty())
+                    {
+                        starts.push_back(each.path.start);
+                        fitting.push_back(std::move(each));
+                    }
+                Candidate found;
+                if (fitting.empty())
+                    return found;
+                found.approach = search(*checker, radius, starts, expansions);
+                const bool none = found.approach.segments.empty();
+                found.approach.start = scenario_.start;
+                for (const ReverseParkingResult &each : fitting)
+                    if (isAt(none ? scenario_.start : found.approach.end(), each.path.start))
+                    {
+                        found.manoeuvre = each.path;
+                        found.goal = each.goal;
+                        found.arcs = joined(found.approach, found.manoeuvre);
+                        found.cost = cost(found.arcs);
+                        break;
+                    }
+                return found;
+            }
+
+            const Scenario &scenario_;
+            const PlanningParameters &parameters_;
+            const ParkingWorld &world_;
+            ParkingPlan &plan_;
+            Clock::time_point begin_{Clock::now()};
+        };
+
+        void smoothPlan(const PlanningParameters &parameters, const Vehicle &vehicle, const ParkingWorld &world,
+                        const std::shared_ptr<const FootprintChecker> &checker, ParkingPlan &plan)
+        {
+            const auto begin = Clock::now();
+            plan.path = plan.arcs.sample(SAMPLING);
+            if (parameters.smooth)
+            {
+                plan.smooth = PathSmoother(vehicle, parameters.smoothing).smooth(plan.arcs, queriesOf(checker));
+                const Path path = joinedByArcs(plan.smooth);
+                // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
+                if (plan.smooth.free && path.size() > 1 && world.isFree(path))
+                    plan.path = path;
+                else
+                    plan.smooth = {};
+            }
+            plan.smoothingTime = secondsSince(begin);
+        }
+    }  // namespace
+
+    void PlanningParameters::validate() const
+    {
+        check("timeLimit", timeLimit, std::isfinite(timeLimit) && timeLimit > 0.0, "a positive number of seconds");
+        check("gaps", static_cast<double>(gaps.size()), !gaps.empty(), "a list with at least one gap");
+        for (const double gap : gaps)
+            checkNotNegative("a gap", gap);
+        check("radiusFactor", radiusFactor, std::isfinite(radiusFactor) && radiusFactor >= 1.0, "1 or more");
+        checkNotNegative("gapWorth", gapWorth);
+        checkNotNegative("gearChangePenalty", gearChangePenalty);
+        checkNotNegative("steeringChangePenalty", steeringChangePenalty);
+        checkNotNegative("clearanceWeight", clearanceWeight);
+    }
+
+    ParkingWorld::ParkingWorld(const Scenario &scenario)
+      : footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle))
+    {
+    }
+
+    std::shared_ptr<const FootprintChecker> ParkingWorld::enlarged(double gap) const
+    {
+        if (gap == 0.0)
+            return footprint_;
+        try
+        {
+            return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap);
+        }
+        catch (const Error &)
+        {
+            return nullptr;
+        }
+    }
+
+    bool ParkingWorld::isFree(const Path &path, std::size_t first) const
+    {
+        return sweptFree(*footprint_, path, first);
+    }
+
+    double ParkingWorld::clearance(const Path &path) const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        if (!path.empty())
+            least = footprint_->exactClearance(path.front().pose);
+        // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point has
+        // moved by the difference.
+        for (std::size_t i = 1; i < path.size() && least > 0.0; ++i)
+        {
+            const Pose &from = path[i - 1].pose;
+            const double length = path[i].arcLength - path[i - 1].arcLength;
+            const double moved = length * footprint_->speedFactor(path[i].curvature);
+            for (double share = 0.0; share <= 1.0 && least > 0.0;)
+            {
+                const Pose pose = advance(from, path[i].curvature, share * length * path[i].direction);
+                double here = footprint_->clearance(pose);
+                if (here < least)
+                    here = footprint_->exactClearance(pose);
+                least = std::min(least, here);
+                if (moved <= 0.0 || share >= 1.0)
+                    break;
+                const double stride = here - least + std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
+                share = std::min(1.0, share + stride / moved);
+            }
+        }
+        return least;
+    }
+
+    FootprintQueries queriesOf(std::shared_ptr<const FootprintChecker> checker)
+    {
+        FootprintQueries queries;
+        queries.isFree = [checker](const Pose &pose)
+        {
+            return checker->isFree(pose);
+        };
+        queries.clearance = [checker](const Pose &pose)
+        {
+            return checker->clearance(pose);
+        };
+        queries.isPathFree = [checker](const Path &path)
+        {
+            return sweptFree(*checker, path, 0);
+        };
+        return queries;
+    }
+
+    ParkingPlanner::ParkingPlanner(const PlanningParameters &parameters)
+      : parameters_((parameters.validate(), parameters))
+    {
+    }
+
+    ParkingPlan ParkingPlanner::plan(const Scenario &scenario) const
+    {
+        scenario.vehicle.validate();
+        const auto begin = Clock::now();
+        const ParkingWorld world(scenario);
+        const double loading = secondsSince(begin);
+        ParkingPlan result = plan(scenario, world);
+        result.loadingTime += loading;
+        return result;
+    }
+
+    ParkingPlan ParkingPlanner::plan(const Scenario &scenario, const ParkingWorld &world) const
+    {
+        if (scenario.goals.empty())
+            throw Error("scenario " + scenario.name + ": it has no goal");
+        ParkingPlan plan;
+        const FootprintChecker &body = world.footprint();
+        const auto fail = [&plan](ParkingStatus failure, const std::string &message)
+        {
+            plan.failure = failure;
+            plan.message = message;
+            return plan;
+        };
+        if (!body.isFree(scenario.start))
+            return fail(ParkingStatus::InvalidStart, "the car is in collision, or outside, where it starts");
+        const double startRoom = body.exactClearance(scenario.start);
+        double goalRoom = -1.0;
+        for (const Pose &goal : scenario.goals)
+            if (body.isFree(goal))
+                goalRoom = std::max(goalRoom, body.exactClearance(goal));
+        if (goalRoom < 0.0)
+            return fail(ParkingStatus::InvalidGoal, "the car is in collision, or outside, at the goal");
+
+        Search search(scenario, parameters_, world, plan);
+        const double smallest = scenario.vehicle.minTurningRadius();
+        std::vector<double> gaps, radii{parameters_.radiusFactor * smallest};
+        for (const double gap : parameters_.gaps)
+            if (gap == 0.0 || gap < std::min(startRoom, goalRoom))
+                gaps.push_back(gap);
+        if (parameters_.radiusFactor > 1.0)
+            radii.push_back(smallest);
+        const auto worth = [this](double gap)
+        {
+            return parameters_.gapWorth * GAP_UNIT / (gap + GAP_OFFSET);
+        };
+        double best = std::numeric_limits<double>::infinity();
+        std::shared_ptr<const FootprintChecker> bestChecker;
+        for (const double radius : radii)
+        {
+            for (const double gap : gaps)
+            {
+                // Nothing that a smaller gap allows can be shorter than the bare curve.
+                if (search.isOver() || search.leastLength(radius) + worth(gap) >= best)
+                    break;
+                const auto before = Clock::now();
+                const std::shared_ptr<const FootprintChecker> checker = world.enlarged(gap);
+                plan.loadingTime += secondsSince(before);
+                if (!checker)
+                    continue;
+                const bool last = !plan.found && gap == gaps.back() && radius == radii.back();
+                Candidate found = search.find(checker, radius, last ? 0 : parameters_.expansionsPerGap);
+                if (!(found.cost + worth(gap) < best))
+                    continue;
+                best = found.cost + worth(gap);
+                bestChecker = checker;
+                plan.found = true;
+                plan.cost = found.cost;
+                plan.goal = found.goal;
+                plan.approach = std::move(found.approach);
+                plan.manoeuvre = std::move(found.manoeuvre);
+                plan.arcs = std::move(found.arcs);
+                plan.gap = gap;
+                plan.turningRadius = radius;
+            }
+            if (plan.found)
+                break;
+        }
+        plan.planningTime = search.elapsed() - plan.loadingTime;
+        if (!plan.found)
+            return fail(ParkingStatus::NoPath,
+                        search.isOver() ? "no path was found within " + formatNumber(parameters_.timeLimit) + " s"
+                                        : "there is no path for this car");
+        smoothPlan(parameters_, scenario.vehicle, world, bestChecker, plan);
+        plan.clearance = world.clearance(plan.path);
+        plan.message = (plan.manoeuvre.segments.empty() ? "planned all the way" : "approach and manoeuvre") +
+                       std::string(", at least ") + centimetres(plan.clearance) + " from obstacles";
+        return plan;
+    }
+
+    Path joinedByArcs(const SmoothPath &path)
+    {
+        Path result = path.path;
+        for (std::size_t i = 1; i < result.size(); ++i)
+        {
+            const double length = result[i].arcLength - result[i - 1].arcLength;
+            if (length > 0.0)
+                result[i].curvature = wrapAngle(result[i].pose.yaw - result[i - 1].pose.yaw) /
+                                      (length * static_cast<double>(result[i].direction));
+        }
+        if (result.size() > 1)
+            result.front().curvature = result[1].curvature;
+        return result;
+    }
+}  // namespace parking

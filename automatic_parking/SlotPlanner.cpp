@@ -1,0 +1,381 @@
+#include "automatic_parking/SlotPlanner.h"
+
+#include "ompl_improved_astar/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/CarPlanner.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/Kinematics.h"
+#include "parking_geometry/MultiMoveParking.h"
+#include "parking_geometry/SlotSurroundings.h"
+#include "parking_geometry/io/Text.h"
+#include "state_validity/FootprintChecker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace parking
+{
+    namespace
+    {
+        /** Gaps tried for several moves between that of the sweep and the least one, metres. */
+        constexpr double MIDDLE_GAP = 0.02;
+
+        /** The search proves motions free up to this many metres from contact; its gap is smaller by as much. */
+        constexpr double SWEEP_TOLERANCE = 1e-3;
+
+        /** In several moves, metres of driving that a change of direction may save. */
+        constexpr double GEAR_CHANGE = 4.0;
+        constexpr double STEERING_CHANGE = 0.1;
+
+        /** Manoeuvres of more moves than this are sought with the next smaller gap, too, which is worth it when it
+           saves this share of them. */
+        constexpr std::size_t MANY_MOVES = 8;
+        constexpr double WORTH_A_SMALLER_GAP = 0.25;
+
+        /** On the way to the slot. */
+        constexpr double APPROACH_GEAR_CHANGE = 2.0;
+
+        /** How much of its surroundings a slot gets where nothing is known, metres to either side. */
+        constexpr double REACH = 15.0;
+
+        /** A world without a wall across the aisle ends so far from the slot, metres. */
+        constexpr double OPEN_AISLE = 15.0;
+
+        /** Growth of slots that are too small, metres. */
+        constexpr double GROWTH_STEP = 0.25;
+        constexpr double MOST_GROWTH = 2.0;
+
+        /** Checker and queries for one gap. */
+        class Judge
+        {
+        public:
+            Judge(const ObstacleSet &world, const Vehicle &vehicle, double gap) : checker_(world, vehicle, gap)
+            {
+            }
+
+            const FootprintChecker &checker() const
+            {
+                return checker_;
+            }
+
+            /** Refers to this object. Whole paths are swept, arc by arc. */
+            FootprintQueries queries() const
+            {
+                FootprintQueries result;
+                result.isFree = [this](const Pose &pose)
+                {
+                    return checker_.isFree(pose);
+                };
+                result.clearance = [this](const Pose &pose)
+                {
+                    return checker_.clearance(pose);
+                };
+                result.isPathFree = [this](const Path &path)
+                {
+                    return isSweptPathFree(path);
+                };
+                return result;
+            }
+
+        private:
+            bool isSweptPathFree(const Path &path) const
+            {
+                if (!path.empty() && !checker_.isFree(path.front().pose))
+                    return false;
+                for (std::size_t i = 1; i < path.size(); ++i)
+                {
+                    const ArcSegment arc = arcBetween(path[i - 1].pose, path[i].pose);
+                    if (checker_.freeLength(path[i - 1].pose, arc.curvature, arc.length) < std::abs(arc.length))
+                        return false;
+                }
+                return true;
+            }
+
+            FootprintChecker checker_;
+        };
+
+        struct SearchTask
+        {
+            Pose from;
+            std::vector<Pose> to;
+            Bounds bounds;  ///< of the rear axle
+            double radius;
+            double gearChange;
+            bool bothSides;  ///< search from both ends; otherwise out of `from`
+            std::uint64_t effort;
+        };
+
+        /** Without segments when nothing was found. */
+        ArcPath searchPath(const FootprintChecker &checker, const SearchTask &task)
+        {
+            const Vehicle &vehicle = checker.vehicle();
+            FootprintEnvironment environment(checker, task.bounds, SWEEP_TOLERANCE);
+            search::CarPlannerParameters parameters;
+            parameters.search.turningRadius = task.radius;
+            parameters.search.inscribedRadius =
+                std::min({0.5 * vehicle.width, vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang});
+            parameters.search.bidirectional = task.bothSides;
+            parameters.search.searchFromGoal = false;
+            parameters.search.cost.gearChangePenalty = task.gearChange;
+            parameters.search.cost.steeringChangePenalty = STEERING_CHANGE;
+
+            ArcPath path{task.from, {}};
+            search::CarPlanner planner;
+            planner.begin(environment, parameters);
+            if (!environment.isFree(task.from))
+                return path;
+            planner.addStart(task.from);
+            bool hasGoal = false;
+            for (const Pose &pose : task.to)
+                if (environment.isFree(pose))
+                {
+                    planner.addGoal(pose);
+                    hasGoal = true;
+                }
+            if (!hasGoal)
+                return path;
+            planner.solve([&] { return planner.statistics().expanded >= task.effort; }, nullptr);
+            return planner.hasSolution() ? planner.bestPath() : path;
+        }
+
+        bool isSame(const Pose &a, const Pose &b)
+        {
+            return std::hypot(a.x - b.x, a.y - b.y) < 1e-6 && std::abs(wrapAngle(a.yaw - b.yaw)) < 1e-6;
+        }
+
+        Bounds boundsOf(const ObstacleSet &world)
+        {
+            Bounds bounds;
+            bounds.min.setConstant(std::numeric_limits<double>::infinity());
+            bounds.max = -bounds.min;
+            for (const double x : {world.bounds().min.x(), world.bounds().max.x()})
+                for (const double y : {world.bounds().min.y(), world.bounds().max.y()})
+                {
+                    const Pose corner = compose(world.frame(), {x, y, 0.0});
+                    bounds.min = bounds.min.cwiseMin(Eigen::Vector2d(corner.x, corner.y));
+                    bounds.max = bounds.max.cwiseMax(Eigen::Vector2d(corner.x, corner.y));
+                }
+            return bounds;
+        }
+
+        ParkingSlot withSide(ParkingSlot slot)
+        {
+            if (slot.side == SlotSide::Either)
+                slot.side = SlotSide::Right;
+            return slot;
+        }
+
+        ObstacleSet surroundings(const ParkingSlot &slot, const Vehicle &vehicle, double aisleWidth, const Pose *start)
+        {
+            const double across = std::isfinite(aisleWidth) ? aisleWidth : OPEN_AISLE;
+            std::vector<Polygon> obstacles = slotSurroundings(slot, slot.side, aisleWidth, REACH);
+            // Neighbours and walls end somewhere; the car shall not look for a way round their ends.
+            const double reach = 0.5 * slot.length + across + REACH;
+            Bounds bounds{{slot.pose.x - reach, slot.pose.y - reach}, {slot.pose.x + reach, slot.pose.y + reach}};
+            if (start != nullptr)
+                for (const Eigen::Vector2d &corner : vehicle.footprint(*start))
+                {
+                    bounds.min = bounds.min.cwiseMin(corner - Eigen::Vector2d::Constant(vehicle.length()));
+                    bounds.max = bounds.max.cwiseMax(corner + Eigen::Vector2d::Constant(vehicle.length()));
+                }
+            return ObstacleSet::fromPolygons(obstacles, bounds);
+        }
+
+        /** Width of a perpendicular slot below which no body of that length and width gets round the corner of the
+            neighbour, however it moves.
+
+            Turned by phi from the slot's axis, its side on the corner, the body reaches up to the far side of the aisle
+            and down to the other side of the slot: length <= (aisle - width sin phi) / cos phi + (slot - width cos phi)
+            / sin phi. Once the aisle holds all of it the slot does not matter. */
+        double widthToTurnInto(double length, double width, double aisle)
+        {
+            double needed = width;
+            constexpr int STEPS = 2000;
+            for (int i = 1; i < STEPS; ++i)
+            {
+                const double phi = 0.5 * PI * i / STEPS, s = std::sin(phi), c = std::cos(phi);
+                if (length * c + width * s <= aisle)
+                    break;
+                needed = std::max(needed, length * s + (width - aisle * s) / c);
+            }
+            return needed;
+        }
+
+        void check(const char *option, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("slot planner: ") + option + " is " + formatNumber(value) + "; it must be " +
+                            right);
+        }
+    }  // namespace
+
+    SlotPlanner::SlotPlanner(const Vehicle &vehicle, const SlotPlannerOptions &options)
+      : vehicle_(vehicle),
+        options_(options)
+    {
+        ReverseParking(vehicle, options.sweep);  // checks the car and these options
+        PathSmoother(vehicle, options.smoothing);
+        check("radius factor", options.radiusFactor, options.radiusFactor >= 1.0 && std::isfinite(options.radiusFactor),
+              "at least 1");
+        check("least clearance", options.leastClearance,
+              options.leastClearance >= 4.0 * SWEEP_TOLERANCE && std::isfinite(options.leastClearance),
+              "at least 0.004 m");
+        check("effort", static_cast<double>(options.effort), options.effort > 0, "a positive number of expansions");
+    }
+
+    SlotPlanner::Found SlotPlanner::find(const ParkingSlot &slot, const ObstacleSet &world, bool regular) const
+    {
+        Found found{};
+        if (regular && slot.kind == SlotKind::Perpendicular)
+        {
+            const double both = 2.0 * options_.leastClearance;
+            const double missing =
+                widthToTurnInto(vehicle_.length() + both, vehicle_.width + both, options_.sweep.aisleWidth) -
+                slot.width;
+            found.manoeuvre = ReverseParking(vehicle_, options_.sweep).plan(slot);
+            if (missing > 0.0 && !found.manoeuvre.fits())
+            {
+                found.manoeuvre.message +=
+                    "; nor does a car of this size get round the corner in any number of moves: the "
+                    "slot would have to be " +
+                    formatNumber(std::ceil(1000.0 * missing) / 10.0) + " cm wider";
+                return found;
+            }
+        }
+
+        // Comfortable first: the gap, and with it the reserve of steering, is given up step by step.
+        std::vector<std::pair<double, double>> attempts{{options_.sweep.clearance, options_.radiusFactor}};
+        if (MIDDLE_GAP < options_.sweep.clearance && options_.leastClearance < MIDDLE_GAP)
+            attempts.emplace_back(MIDDLE_GAP, 1.0 + 0.5 * (options_.radiusFactor - 1.0));
+        if (options_.leastClearance < options_.sweep.clearance)
+            attempts.emplace_back(options_.leastClearance, 1.0);
+        for (const auto &[gap, radiusFactor] : attempts)
+        {
+            const double clearance = std::max(gap, 4.0 * SWEEP_TOLERANCE);
+            ReverseParkingOptions sweep = options_.sweep;
+            sweep.clearance = gap;
+            const ReverseParking parking(vehicle_, sweep);
+            const Judge judge(world, vehicle_, 0.5 * clearance), planning(world, vehicle_, clearance - SWEEP_TOLERANCE);
+            const SlotExitPlanner shunts = [&, radius = radiusFactor * vehicle_.minTurningRadius()](const auto &task)
+            {
+                return searchPath(planning.checker(), {task.parked, task.exits, Bounds{task.min, task.max}, radius,
+                                                       GEAR_CHANGE, false, options_.effort});
+            };
+            ReverseParkingResult result = planInMoves(parking, slot, judge.queries(), shunts);
+            const auto moves = static_cast<double>(found.manoeuvre.moves());
+            if (found.clearance > 0.0 &&
+                !(result.fits() && (!found.manoeuvre.fits() ||
+                                    static_cast<double>(result.moves()) <= (1.0 - WORTH_A_SMALLER_GAP) * moves)))
+                continue;
+            found = {result, {}, clearance, radiusFactor};
+            for (ReverseParkingResult &each : parking.planAll(slot, judge.queries()))
+                if (each.fits())
+                    found.sweeps.push_back(std::move(each));
+            if (result.fits() && result.moves() <= MANY_MOVES)
+                break;
+        }
+        if (!found.manoeuvre.fits())
+            found.manoeuvre.message += "; nor was a way in several moves found";
+        return found;
+    }
+
+    ReverseParkingResult SlotPlanner::manoeuvre(const ParkingSlot &slot) const
+    {
+        const ParkingSlot sided = withSide(slot);
+        return find(sided, surroundings(sided, vehicle_, options_.sweep.aisleWidth, nullptr), true).manoeuvre;
+    }
+
+    ReverseParkingResult SlotPlanner::manoeuvre(const ParkingSlot &slot, const ObstacleSet &world) const
+    {
+        return find(slot, world, false).manoeuvre;
+    }
+
+    SlotPlan SlotPlanner::plan(const ParkingSlot &slot, const Pose &start) const
+    {
+        const ParkingSlot sided = withSide(slot);
+        return plan(sided, start, surroundings(sided, vehicle_, options_.sweep.aisleWidth, &start), true);
+    }
+
+    SlotPlan SlotPlanner::plan(const ParkingSlot &slot, const Pose &start, const ObstacleSet &world) const
+    {
+        return plan(slot, start, world, false);
+    }
+
+    SlotPlan SlotPlanner::plan(const ParkingSlot &slot, const Pose &start, const ObstacleSet &world, bool regular) const
+    {
+        checkStart(slot, vehicle_, start, options_.sweep.aisleWidth);
+        SlotPlan plan;
+        Found found = find(slot, world, regular);
+        plan.manoeuvre = found.manoeuvre;
+        plan.clearance = found.clearance;
+        plan.message = found.manoeuvre.message;
+        if (!found.manoeuvre.fits())
+            return plan;
+
+        const Judge bare(world, vehicle_, 0.0);
+        const double startGap = bare.checker().exactClearance(start);
+        if (!(startGap > 4.0 * SWEEP_TOLERANCE))
+        {
+            plan.message = startGap > 0.0 ? "the start is nearer to an obstacle than the least gap of 4 mm"
+                                          : "the car touches an obstacle at the start";
+            return plan;
+        }
+        plan.clearance = std::min(plan.clearance, 0.9 * startGap);
+        const Judge planning(world, vehicle_, plan.clearance - SWEEP_TOLERANCE);
+        SearchTask task{start,
+                        {},
+                        boundsOf(world),
+                        found.radiusFactor * vehicle_.minTurningRadius(),
+                        APPROACH_GEAR_CHANGE,
+                        true,
+                        options_.effort};
+        if (found.sweeps.empty())
+            found.sweeps.push_back(found.manoeuvre);
+        for (const ReverseParkingResult &sweep : found.sweeps)
+            task.to.push_back(sweep.path.start);
+        const ArcPath approach = searchPath(planning.checker(), task);
+        if (!approach.segments.empty() || isSame(start, task.to.front()))
+        {
+            for (const ReverseParkingResult &sweep : found.sweeps)
+                if (isSame(approach.end(), sweep.path.start))
+                {
+                    plan.manoeuvre = sweep;
+                    break;
+                }
+            plan.path = joined(approach, plan.manoeuvre.path);
+        }
+        else
+        {
+            task.to = slot.goals(vehicle_);
+            task.gearChange = GEAR_CHANGE;
+            plan.path = searchPath(planning.checker(), task);
+        }
+        plan.solved = !plan.path.segments.empty();
+        plan.message = plan.solved ? "" : "no way was found from the start to the slot";
+        if (plan.solved)
+        {
+            const Judge judge(world, vehicle_, 0.5 * plan.clearance);
+            plan.smooth = PathSmoother(vehicle_, options_.smoothing).smooth(plan.path, judge.queries());
+        }
+        return plan;
+    }
+
+    double SlotPlanner::smallestSlot(const ParkingSlot &slot, double precision) const
+    {
+        const bool parallel = slot.kind == SlotKind::Parallel;
+        double ParkingSlot::*const dimension = parallel ? &ParkingSlot::length : &ParkingSlot::width;
+        const double least = (parallel ? vehicle_.length() : vehicle_.width) + 2.0 * options_.leastClearance;
+        const auto fits = [&](const ParkingSlot &tried)
+        {
+            return manoeuvre(tried).fits();
+        };
+        ParkingSlot largest = slot;
+        largest.depth.reset();
+        largest.lateralOffset = 0.0;
+        largest.*dimension = std::max(slot.*dimension, least);
+        for (double grown = 0.0; !fits(largest); grown += GROWTH_STEP, largest.*dimension += GROWTH_STEP)
+            if (grown >= MOST_GROWTH)
+                return std::numeric_limits<double>::infinity();
+        return parking::smallestSlot(largest, dimension, least, fits, precision);
+    }
+}  // namespace parking

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "benchmarks/PlanOptions.h"
+#include "benchmarks/PlanRun.h"
+#include "path_tracking/ClosedLoop.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief All that parking_plan has found out. */
+    struct PlanResult
+    {
+        std::string planner;
+        nlohmann::json parameters;
+        std::vector<PlanRun> runs;  ///< at least one; the first one's path is the result
+        std::optional<DriveResult> drive;
+        std::string driveError;  ///< why the path cannot be driven; empty otherwise
+
+        const PlanRun &first() const
+        {
+            return runs.front();
+        }
+    };
+
+    /** \brief All parameters of a planner, with numbers and switches as such. */
+    nlohmann::json parametersJson(const ompl::base::Planner &planner);
+
+    /** \brief A path as in results: x, y, yaw, direction, curvature of each state, in the coordinates of the scenario's
+        file. */
+    nlohmann::json pathJson(const Scenario &scenario, const Path &path);
+
+    /** \brief The result in the format that docs/comparison.md describes. */
+    nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);
+
+    /** \brief The result for a reader in a hurry: a few lines. */
+    std::string resultSummary(const Problem &problem, const PlanResult &result);
+
+    /** \brief Map, car along the path, driven track and curvature. */
+    std::string resultSvg(const Problem &problem, const PlanResult &result);
+
+    /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
+    void drivePath(const Problem &problem, PlanResult &result);
+}  // namespace parking

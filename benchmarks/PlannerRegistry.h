@@ -1,0 +1,68 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Parameters of a planner in the order given, as name and value. */
+    using PlannerSettings = std::vector<std::pair<std::string, std::string>>;
+
+    /** \brief A planner of the comparison. */
+    struct PlannerEntry
+    {
+        std::string name;
+        std::string summary;  ///< one line for --help
+        /** Is the planner handed path length as its objective, and goes on improving until the time is up? */
+        bool optimizing{false};
+        ompl::base::PlannerAllocator allocate;
+        PlannerSettings settings;  ///< set on every instance before the user's
+    };
+
+    /** \brief The planners of the comparison by name.
+
+        Case, underscores, hyphens and blanks do not matter in names, and * reads as "star": RRTstar, rrt_star and RRT*
+        are the same planner. */
+    class PlannerRegistry
+    {
+    public:
+        /** \brief All planners that come with the project: our own, and those of OMPL that can plan for a car. */
+        static PlannerRegistry builtIn();
+
+        /** \brief Adds a planner, for example one of a plug-in. Throws parking::Error when its name is taken, empty, or
+            has other characters than letters, digits and _ . + -, or when it has no allocator. */
+        void add(PlannerEntry entry);
+
+        /** \brief Another name for the planner \e name, which must be known. */
+        void addAlias(const std::string &alias, const std::string &name);
+
+        bool knows(const std::string &name) const;
+
+        /** \brief Throws parking::Error with the nearest and all known names for one that is not known. */
+        const PlannerEntry &find(const std::string &name) const;
+
+        /** \brief Of all planners, in the order in which they were added; without aliases. */
+        std::vector<std::string> names() const;
+
+        const std::vector<PlannerEntry> &entries() const
+        {
+            return entries_;
+        }
+
+    private:
+        std::vector<PlannerEntry> entries_;
+        std::vector<std::pair<std::string, std::size_t>> keys_;
+    };
+
+    /** \brief Sets parameters of a planner, `parameter_set` first, the others in their order.
+
+        Words stand for numbers where a parameter is a switch: true, yes and on for 1, false, no and off for 0.
+        Throws parking::Error naming the parameter and the value: with the nearest and all known names for one that is
+        not known, with what the planner says for a value out of range. */
+    void applySettings(ompl::base::Planner &planner, const PlannerSettings &settings);
+}  // namespace parking

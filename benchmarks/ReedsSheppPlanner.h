@@ -1,0 +1,24 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+namespace parking
+{
+    /** \anchor ReedsSheppPlanner
+        \brief The least that any planner has to beat: drive the space's own curve from start to goal, if it is free.
+
+        Tries every pair of a valid start and a valid goal, shortest curve first. A path has two states. There are no
+        approximate solutions: where no curve is free, solve() returns TIMEOUT at once. In a Reeds-Shepp space the curve
+        is that of J. A. Reeds and L. A. Shepp, "Optimal paths for a car that goes both forwards and backwards", 1990;
+        in other spaces it is what they interpolate along. */
+    class ReedsSheppPlanner : public ompl::base::Planner
+    {
+    public:
+        explicit ReedsSheppPlanner(const ompl::base::SpaceInformationPtr &si);
+
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
+
+        /** \brief The two states of the solution, if there is one. */
+        void getPlannerData(ompl::base::PlannerData &data) const override;
+    };
+}  // namespace parking

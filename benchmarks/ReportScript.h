@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace parking
+{
+    /** \brief Has the script that comes with the project make FOLDER/report.html of a comparison's results.
+
+        \return the report's file; empty when there is no such script or no python3. Throws parking::Error with the
+        script's last line when it fails. */
+    std::string makeReport(const std::string &folder);
+}  // namespace parking

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parking
+{
+    /** \brief A solution that was better than all before it. */
+    struct Improvement
+    {
+        double time{0.0};  ///< seconds since solve() began
+        double cost{0.0};  ///< metres
+    };
+
+    /** \brief What one solve() took and found, and when. Safe to use from several threads. */
+    class SolveRecord
+    {
+    public:
+        using Clock = std::chrono::steady_clock;
+
+        /** \brief Forgets everything; the clock starts now. */
+        void begin();
+
+        /** \brief The clock stops. */
+        void end();
+
+        /** \brief Notes \e cost, in metres, if it is finite and better than all before. */
+        void note(double cost);
+
+        /** \brief The same for what came out when the clock stopped. */
+        void noteAtEnd(double cost);
+
+        /** \brief Seconds of wall clock between begin() and end(); 0 before. */
+        double wallTime() const;
+
+        /** \brief Seconds of processor time of all threads between begin() and end(); 0 before. */
+        double cpuTime() const;
+
+        /** \brief The least cost noted; infinite without one. */
+        double bestCost() const;
+
+        std::vector<Improvement> improvements() const;
+
+    private:
+        void add(double time, double cost);
+
+        mutable std::mutex mutex_;
+        Clock::time_point begin_;
+        std::timespec cpuBegin_{};
+        double wallTime_{0.0};
+        double cpuTime_{0.0};
+        std::vector<Improvement> improvements_;
+    };
+
+    /** \brief Path length, noting when which length was reached.
+
+        Every optimising planner of OMPL asks its objective whether a solution that it has just found satisfies: that is
+        the moment that counts, and needs no polling from another thread. */
+    class RecordingObjective final : public ompl::base::PathLengthOptimizationObjective
+    {
+    public:
+        RecordingObjective(const ompl::base::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record);
+
+        bool isSatisfied(ompl::base::Cost cost) const override;
+
+    private:
+        std::shared_ptr<SolveRecord> record_;
+    };
+
+    /** \brief What all planners made by PlannerRegistry are, beside the OMPL planner that they are. */
+    class MeasuredPlanner
+    {
+    public:
+        virtual ~MeasuredPlanner() = default;
+
+        /** \brief Of the last solve(). */
+        virtual const std::shared_ptr<SolveRecord> &record() const = 0;
+
+        /** \brief solve() ends after this many seconds of wall clock, whatever the caller's condition says.
+
+            ompl::tools::Benchmark looks at its clock every 0.1 s only. Infinite: no limit of our own. */
+        virtual void setTimeLimit(double seconds) = 0;
+
+        /** \brief solve() also ends once \e stop is true; null: nothing to look at. */
+        virtual void setStop(const std::atomic<bool> *stop) = 0;
+
+        /** \brief Did the last solve() go on until the time was up, or the caller stopped it? */
+        virtual bool ranOutOfTime() const = 0;
+    };
+
+    /** \brief A planner of OMPL that measures its own solve() and keeps to the second.
+
+        Progress properties are replaced by one, the best cost, that can be read safely from another thread: those of
+        BIT* and ABIT* of OMPL 1.5 are read by the benchmark while the search changes them, and crash now and then. */
+    template <class Planner>
+    class Measured final : public Planner, public MeasuredPlanner
+    {
+    public:
+        template <class... Arguments>
+        explicit Measured(Arguments &&...arguments) : Planner(std::forward<Arguments>(arguments)...)
+        {
+            this->plannerProgressProperties_.clear();
+            this->addPlannerProgressProperty("best cost REAL",
+                                             [record = record_] { return std::to_string(record->bestCost()); });
+        }
+
+        using Planner::solve;
+
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
+        {
+            const auto limit = std::chrono::duration<double>(timeLimit_);
+            record_->begin();
+            const SolveRecord::Clock::time_point begin = SolveRecord::Clock::now();
+            const ompl::base::PlannerTerminationCondition timeUp(
+                [&]
+                {
+                    return SolveRecord::Clock::now() - begin >= limit || ptc() ||
+                           (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
+                });
+            const ompl::base::PlannerStatus status = Planner::solve(timeUp);
+            record_->end();
+            ranOutOfTime_ = timeUp();
+            if (status == ompl::base::PlannerStatus::EXACT_SOLUTION)
+                record_->noteAtEnd(this->getProblemDefinition()->getSolutionPath()->length());
+            return status;
+        }
+
+        const std::shared_ptr<SolveRecord> &record() const override
+        {
+            return record_;
+        }
+
+        void setTimeLimit(double seconds) override
+        {
+            timeLimit_ = seconds;
+        }
+
+        void setStop(const std::atomic<bool> *stop) override
+        {
+            stop_ = stop;
+        }
+
+        bool ranOutOfTime() const override
+        {
+            return ranOutOfTime_;
+        }
+
+    private:
+        std::shared_ptr<SolveRecord> record_{std::make_shared<SolveRecord>()};
+        double timeLimit_{1e9};
+        const std::atomic<bool> *stop_{nullptr};
+        bool ranOutOfTime_{false};
+    };
+}  // namespace parking

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "state_validity/FootprintChecker.h"
+#include "tests/state_validity/RandomWorlds.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Where the poses of a benchmark lie. */
+    enum class Surroundings
+    {
+        Free,     ///< more than a metre from every obstacle
+        Mixed,    ///< anywhere in the world
+        Tight,    ///< at most half a metre from touching an obstacle, on either side
+        Search,   ///< what a parking search asks about
+        FromSlot  ///< the same, searched from the goal only, out of the slot
+    };
+
+    /** \brief The random worlds of the tests, or the bundled parking problems, with poses in each. */
+    struct ValidityWorlds
+    {
+        struct Place
+        {
+            std::unique_ptr<FootprintChecker> tiered, plain;
+            std::vector<Pose> poses;
+        };
+        std::vector<Place> places;
+
+        std::size_t poseCount() const;
+    };
+
+    /** \brief Eight random worlds with 4000 poses each, always the same ones.
+
+        \param grids occupancy grids, otherwise polygons; \e surroundings any but those of a search */
+    ValidityWorlds randomWorlds(bool grids, Surroundings surroundings);
+
+    /** \brief The bundled parking problems with the poses that ImprovedAStar asks about while it solves them.
+
+        For that the planner is given a checker that it does not know: it then asks for every state along the motions
+        that it tries. At most 20 000 poses are kept of each problem, evenly spread over its search.
+
+        Throws parking::Error when a problem cannot be read. */
+    ValidityWorlds searchedWorlds(const std::string &folder, bool fromSlot);
+}  // namespace parking

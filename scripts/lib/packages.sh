@@ -1,0 +1,112 @@
+# shellcheck shell=bash
+# Sourced by the scripts: the Debian packages that the project needs, and how the missing ones get here.
+# This list is the only one; add to it whatever a bare machine turns out to lack.
+
+# shellcheck source=common.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
+
+# package | build: for building and comparing, test: for the tests only | what for
+packages()
+{
+    cat <<'LIST'
+g++                          | build | the C++17 compiler
+make                         | build | runs the build
+cmake                        | build | configures the build (3.25 or later)
+libeigen3-dev                | build | Eigen: linear algebra, splines
+libompl-dev                  | build | OMPL, the Open Motion Planning Library
+libfcl-dev                   | build | FCL: collision queries
+libccd-dev                   | build | libccd: the collision solver under FCL
+libceres-dev                 | build | Ceres: the solver of the model predictive controller
+libboost-dev                 | build | Boost's headers (heap, DLL), also needed by OMPL's
+libboost-program-options-dev | build | reads the .cfg files
+libboost-filesystem-dev      | build | loads planner plug-ins, with Boost.DLL
+libyaml-cpp-dev              | build | reads scenarios and maps
+nlohmann-json3-dev           | build | writes results as JSON
+libpng-dev                   | build | reads maps in PNG
+libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
+ompl-demos                   | build | ompl_benchmark_statistics, which turns logs into a database
+python3                      | build | reports from the database; checks of the tests
+libgtest-dev                 | test  | GoogleTest
+pkg-config                   | test  | the consumer that finds the installed package by pkg-config
+git                          | test  | names the files that the style tests look at
+clang-format                 | test  | checks the format of the sources
+shellcheck                   | test  | checks the shell scripts
+LIST
+}
+
+# packages_for build|test: name and purpose, one per line. The tests need what the build needs, too.
+packages_for()
+{
+    packages | awk -F ' *[|] *' -v part="$1" '$2 == "build" || $2 == part { print $1 "\t" $3 }'
+}
+
+is_installed()
+{
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+# Runs a command as root, or fails when there is no way to without asking for a password.
+as_root()
+{
+    if [[ $(id -u) == 0 ]]; then
+        "$@"
+    else
+        sudo --non-interactive "$@"
+    fi
+}
+
+can_be_root()
+{
+    [[ $(id -u) == 0 ]] || sudo --non-interactive true 2>/dev/null
+}
+
+# require_packages build|test: installs what is missing, and touches neither apt nor the network when nothing is.
+require_packages()
+{
+    local package purpose total=0
+    local -a missing=() reasons=()
+    if ! command -v dpkg-query >/dev/null; then
+        say "This is no Debian or Ubuntu: the packages cannot be checked. What is needed, by Debian's names:"
+        packages_for "$1" | while IFS=$'\t' read -r package purpose; do
+            printf '    %-28s  %s\n' "$package" "$purpose"
+        done
+        return 0
+    fi
+    while IFS=$'\t' read -r package purpose; do
+        total=$((total + 1))
+        if ! is_installed "$package"; then
+            missing+=("$package")
+            reasons+=("$(printf '    %-28s  %s' "$package" "$purpose")")
+        fi
+    done < <(packages_for "$1")
+    if ((${#missing[@]} == 0)); then
+        say "All $total packages are installed."
+        return 0
+    fi
+    say "${#missing[@]} of $total packages are missing:"
+    printf '%s\n' "${reasons[@]}"
+    if ! can_be_root; then
+        {
+            printf 'Installing them takes root, and sudo would ask for a password. Please run\n\n'
+            printf '    sudo apt-get update && sudo apt-get install --yes --no-install-recommends %s\n\n' "${missing[*]}"
+            printf 'and then this script again.\n'
+        } >&2
+        exit 2
+    fi
+    install_packages "${missing[@]}"
+}
+
+install_packages()
+{
+    local package
+    # Freshly started machines may still be busy with their first updates: wait for the lock instead of failing.
+    local -a apt=(env DEBIAN_FRONTEND=noninteractive apt-get --quiet --option DPkg::Lock::Timeout=600)
+    say "apt-get update"
+    as_root "${apt[@]}" update || say "apt-get update failed; trying with the package lists that are there."
+    say "apt-get install --no-install-recommends $*"
+    as_root "${apt[@]}" install --yes --no-install-recommends "$@" ||
+        die "apt-get could not install the missing packages (see above); is there a network?"
+    for package in "$@"; do
+        is_installed "$package" || die "apt-get has run, but the package $package is still not installed"
+    done
+}

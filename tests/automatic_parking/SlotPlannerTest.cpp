@@ -1,0 +1,263 @@
+// Slots that are too tight for one sweep, by the planner's car model; the way from the aisle into them.
+
+#include "automatic_parking/SlotPlanner.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/SlotSurroundings.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/support/PolygonOracle.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::expectError;
+using parking_test::PolygonOracle;
+
+namespace
+{
+    constexpr double AISLE = 4.5;
+
+    /** Parallel slots of car length + 50 cm, with 25 cm to the kerb; perpendicular ones of width + 30 cm. */
+    ParkingSlot tightSlot(SlotKind kind, const Vehicle &car, SlotSide side = SlotSide::Right)
+    {
+        ParkingSlot slot;
+        slot.kind = kind;
+        slot.side = side;
+        slot.pose = {3.0, -2.0, 0.4};
+        slot.length = car.length() + (kind == SlotKind::Parallel ? 0.5 : 0.3);
+        slot.width = car.width + (kind == SlotKind::Parallel ? 0.5 : 0.3);
+        return slot;
+    }
+
+    SlotPlannerOptions inAisle(double width)
+    {
+        SlotPlannerOptions options;
+        options.sweep.aisleWidth = width;
+        return options;
+    }
+
+    PolygonOracle oracleFor(const ParkingSlot &slot, double aisle)
+    {
+        return {slotSurroundings(slot, slot.side, aisle), {{-60.0, -60.0}, {60.0, 60.0}}};
+    }
+
+    void expectFree(const ArcPath &path, const Vehicle &car, const PolygonOracle &oracle, double margin)
+    {
+        Pose pose = path.start;
+        for (const ArcSegment &segment : path.segments)
+        {
+            ASSERT_LE(std::abs(segment.curvature), (1.0 + 1e-9) / car.minTurningRadius());
+            ASSERT_TRUE(oracle.isArcFree(pose, segment.curvature, segment.length, car, 0.002, margin));
+            pose = advance(pose, segment.curvature, segment.length);
+        }
+    }
+
+    double gap(const Pose &a, const Pose &b)
+    {
+        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
+    }
+
+    /** A start in the middle of the aisle, \e along metres after the slot. */
+    Pose inTheAisle(const ParkingSlot &slot, double along)
+    {
+        const double mirror = slot.side == SlotSide::Left ? -1.0 : 1.0;
+        const Pose lane = slot.kind == SlotKind::Parallel
+                              ? Pose{along, mirror * (0.5 * slot.width + 0.5 * AISLE), 0.0}
+                              : Pose{0.5 * slot.length + 0.5 * AISLE, -mirror * along, -mirror * 0.5 * PI};
+        return compose(slot.pose, lane);
+    }
+
+    class TightSlots : public testing::TestWithParam<std::string>
+    {
+    };
+}  // namespace
+
+TEST_P(TightSlots, ParallelOfCarLengthAndHalfAMetre)
+{
+    const Vehicle car = vehicleByName(GetParam());
+    const ParkingSlot slot = tightSlot(SlotKind::Parallel, car);
+    const ReverseParkingResult result = SlotPlanner(car, inAisle(AISLE)).manoeuvre(slot);
+    ASSERT_TRUE(result.fits()) << result.message;
+    EXPECT_GT(result.moves(), 1u);
+    EXPECT_LT(gap(result.path.end(), slot.goals(car).front()), 1e-9);
+    EXPECT_GT(result.neededSlotLength, slot.length) << "one sweep needs more";
+    expectFree(result.path, car, oracleFor(slot, AISLE), 0.008);
+    RecordProperty("moves", static_cast<int>(result.moves()));
+}
+
+TEST_P(TightSlots, PerpendicularOfWidthAndThirtyCentimetres)
+{
+    const Vehicle car = vehicleByName(GetParam());
+    const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
+    const SlotPlanner planner(car, inAisle(AISLE));
+    const ReverseParkingResult result = planner.manoeuvre(slot);
+    if (car.name == "mercedes_s_w223")
+    {
+        // 5.18 m of car, a ladder round a corner: not even sideways would it get in.
+        EXPECT_FALSE(result.fits());
+        EXPECT_NE(result.message.find("any number of moves"), std::string::npos) << result.message;
+        EXPECT_GT(result.neededAisleWidth, AISLE);
+        return;
+    }
+    ASSERT_TRUE(result.fits()) << result.message;
+    EXPECT_LT(gap(result.path.end(), slot.goals(car).front()), 1e-9);
+    expectFree(result.path, car, oracleFor(slot, AISLE), 0.008);
+    RecordProperty("moves", static_cast<int>(result.moves()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cars, TightSlots, testing::ValuesIn(vehicleNames()),
+                         [](const testing::TestParamInfo<std::string> &car) { return car.param; });
+
+TEST(SlotPlanner, NoBodyTurnsWhereTheBoundSaysSo)
+{
+    // The S-class, slid round the corner without any steering limits.
+    const Vehicle car = vehicleByName("mercedes_s_w223");
+    for (const double more : {0.28, 0.40})
+    {
+        ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
+        slot.pose = {0.0, 0.0, 0.5 * PI};
+        slot.width = car.width + more;
+        const PolygonOracle oracle = oracleFor(slot, AISLE);
+        // For each turn of the body from the slot's axis: can it be anywhere?
+        bool always = true;
+        for (double turn = 0.3; turn < 0.7 && always; turn += 0.05)
+        {
+            bool somewhere = false;
+            for (double x = -1.2; x < 1.2 && !somewhere; x += 0.02)
+                for (double y = 1.0; y < 5.0 && !somewhere; y += 0.02)
+                    somewhere = oracle.isFree({x, y, 0.5 * PI - turn}, car, 0.01);
+            always = somewhere;
+        }
+        SlotPlannerOptions options = inAisle(AISLE);
+        options.effort = 100;
+        const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
+        EXPECT_EQ(always, result.message.find("any number of moves") == std::string::npos) << more;
+        EXPECT_EQ(always, more > 0.3);
+    }
+}
+
+TEST(SlotPlanner, OneSweepIsLeftAlone)
+{
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.side = SlotSide::Right;
+    const SlotPlannerOptions options = inAisle(7.0);
+    const ReverseParkingResult sweep = ReverseParking(car, options.sweep).plan(slot);
+    const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
+    ASSERT_TRUE(sweep.fits() && result.fits());
+    EXPECT_EQ(result.moves(), 1u);
+    EXPECT_EQ(result.firstRadius, sweep.firstRadius);
+}
+
+TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
+{
+    for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
+        for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
+            for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
+                for (const bool tight : {false, true})
+                {
+                    const Vehicle car = vehicleByName(name);
+                    ParkingSlot slot = tightSlot(kind, car, side);
+                    SCOPED_TRACE(std::string(name) + (tight ? ", tight" : ", roomy") +
+                                 (kind == SlotKind::Parallel ? ", parallel" : ", perpendicular") +
+                                 (side == SlotSide::Left ? ", left" : ", right"));
+                    const double aisle = tight ? AISLE : 8.0;
+                    if (!tight)
+                        slot.length += 4.2, slot.width += 0.4;
+                    const SlotPlanner planner(car, inAisle(aisle));
+                    const Pose start = inTheAisle(slot, -8.0);
+                    const SlotPlan plan = planner.plan(slot, start);
+                    ASSERT_TRUE(plan.solved) << plan.message;
+                    EXPECT_EQ(plan.manoeuvre.moves() == 1, !tight);
+                    EXPECT_LT(gap(plan.path.start, start), 1e-9);
+                    EXPECT_LT(gap(plan.path.end(), slot.goals(car).front()), 1e-6);
+                    const PolygonOracle oracle = oracleFor(slot, aisle);
+                    expectFree(plan.path, car, oracle, plan.clearance - 0.002);
+                    EXPECT_TRUE(plan.smooth.free);
+                    EXPECT_LT(gap(plan.smooth.path.front().pose, start), 1e-9);
+                    EXPECT_LT(gap(plan.smooth.path.back().pose, plan.path.end()), 1e-9);
+                    for (const PathState &state : plan.smooth.pieces.sampleEvenly(0.01))
+                    {
+                        ASSERT_TRUE(oracle.isFree(state.pose, car));
+                        ASSERT_LE(std::abs(state.curvature), (1.0 + 1e-9) / car.minTurningRadius());
+                    }
+                }
+}
+
+TEST(SlotPlanner, EqualInputsGiveEqualOutputs)
+{
+    const Vehicle car = vehicleByName("vw_golf8");
+    const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
+    const SlotPlanner planner(car, inAisle(AISLE));
+    const SlotPlan one = planner.plan(slot, inTheAisle(slot, -7.0)), two = planner.plan(slot, inTheAisle(slot, -7.0));
+    ASSERT_EQ(one.path.segments.size(), two.path.segments.size());
+    for (std::size_t i = 0; i < one.path.segments.size(); ++i)
+    {
+        EXPECT_EQ(one.path.segments[i].length, two.path.segments[i].length);
+        EXPECT_EQ(one.path.segments[i].curvature, two.path.segments[i].curvature);
+    }
+}
+
+TEST(SlotPlanner, SmallestSlotIsSmallerThanForOneSweep)
+{
+    const Vehicle car = vehicleByName("toyota_yaris");
+    SlotPlannerOptions options = inAisle(AISLE);
+    options.effort = 5000;
+    const SlotPlanner planner(car, options);
+    for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
+    {
+        ParkingSlot slot = tightSlot(kind, car);
+        double ParkingSlot::*const dimension = kind == SlotKind::Parallel ? &ParkingSlot::length : &ParkingSlot::width;
+        const double body = kind == SlotKind::Parallel ? car.length() : car.width;
+        const double least = planner.smallestSlot(slot, 0.1);
+        EXPECT_GT(least, body);
+        EXPECT_LE(least, slot.*dimension) << "that one fits";
+        slot.*dimension = least;
+        EXPECT_TRUE(planner.manoeuvre(slot).fits());
+        // From a slot that does not fit it looks at larger ones.
+        slot.*dimension = body + 0.03;
+        EXPECT_NEAR(planner.smallestSlot(slot, 0.1), least, 0.25);
+    }
+}
+
+TEST(SlotPlanner, WhatIsWrongIsNamed)
+{
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.side = SlotSide::Right;
+    const SlotPlanner planner(car, inAisle(6.0));
+    expectError([&] { planner.plan(slot, {-1.0, 0.0, 0.0}); }, {"start", "cm into the slot"});
+    expectError([&] { planner.plan(slot, {8.0, 0.0, 0.5 * PI}); }, {"start", "cm beyond the aisle of 6 m"});
+    ParkingSlot small = slot;
+    small.length = 4.5;
+    expectError([&] { planner.manoeuvre(small); }, {"slot", "length", "18.9 cm"});
+    ParkingSlot negative = slot;
+    negative.width = -2.0;
+    expectError([&] { planner.manoeuvre(negative); }, {"slot", "width", "-2"});
+    ParkingSlot steep = slot;
+    steep.kind = SlotKind::Angled;
+    steep.angle = 2.0;
+    expectError([&] { planner.manoeuvre(steep); }, {"slot", "angle"});
+
+    SlotPlannerOptions options;
+    options.radiusFactor = 0.9;
+    expectError([&] { SlotPlanner(car, options); }, {"radius factor", "0.9"});
+    options = {};
+    options.leastClearance = 0.0;
+    expectError([&] { SlotPlanner(car, options); }, {"least clearance", "0.004"});
+    options = {};
+    options.effort = 0;
+    expectError([&] { SlotPlanner(car, options); }, {"effort"});
+
+    // A start among obstacles is a status, not an error.
+    std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right, 6.0);
+    const Pose start{4.2, 6.0, -0.5 * PI};
+    obstacles.push_back({{4.0, 4.0}, {5.0, 4.0}, {5.0, 5.0}, {4.0, 5.0}});
+    const SlotPlan plan = planner.plan(slot, start, ObstacleSet::fromPolygons(obstacles, {{-30, -30}, {30, 30}}));
+    EXPECT_FALSE(plan.solved);
+    EXPECT_NE(plan.message.find("start"), std::string::npos) << plan.message;
+}

@@ -1,0 +1,51 @@
+// Calls into every library of the package, so that what it needs must be found, compiled and linked.
+#include <iostream>
+#include <string>
+
+#include <ompl_improved_astar/Parameters.h>
+#include <parking_geometry/ArcPath.h>
+#include <parking_geometry/Error.h>
+#include <parking_geometry/io/ScenarioReader.h>
+#include <state_validity/FootprintChecker.h>
+#ifdef HAS_path_tracking
+#include <path_tracking/Mpc.h>
+#include <path_tracking/SpeedProfile.h>
+#endif
+
+int main(int argc, char **argv)
+{
+    if (argc != 2 || std::string(argv[1]) != PACKAGE_VERSION)
+    {
+        std::cerr << "The package says that its version is " << PACKAGE_VERSION << '\n';
+        return 1;
+    }
+
+    parking::ArcPath path;
+    path.append({0.1, 3.0});
+    path.append({-0.1, 3.0});
+
+    const auto world = parking::ObstacleSet::fromPolygons({{{4, -5}, {5, -5}, {5, 5}, {4, 5}}}, {{-20, -20}, {20, 20}});
+    const parking::FootprintChecker checker(world, parking::Vehicle());
+    const bool startIsFree = checker.isFree({-5.0, 0.0, 0.0}), wallIsFree = checker.isFree({3.0, 0.0, 0.0});
+
+    bool readerRefuses = false;
+    try
+    {
+        parking::readScenario("there is no such file");
+    }
+    catch (const parking::Error &)
+    {
+        readerRefuses = true;
+    }
+
+    bool drives = true;
+#ifdef HAS_path_tracking
+    const parking::SpeedProfile profile(path.sample(0.1), parking::Vehicle());
+    parking::Mpc controller(parking::Vehicle{}, parking::MpcParameters{});
+    drives = profile.duration() > 0.0 && !controller.solve(parking::MpcProblem()).usable;
+#endif
+
+    const bool right = startIsFree && !wallIsFree && readerRefuses && drives && !parking::parameterSetNames().empty();
+    std::cout << (right ? "all libraries answer\n" : "a library gives a wrong answer\n");
+    return right ? 0 : 1;
+}

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Do the folders include each other in one direction only?
+
+usage: check_dependencies.py ROOT
+"""
+import os
+import re
+import sys
+
+from project_files import project_files, report, text_of
+
+GEOMETRY, VALIDITY, PLANNER = 'parking_geometry', 'state_validity', 'ompl_improved_astar'
+TRACKING, PIPELINE = 'path_tracking', 'automatic_parking'
+LIBRARIES = [GEOMETRY, VALIDITY, PLANNER, TRACKING, PIPELINE]
+
+# folder -> the other folders of the project that it may include. The longest prefix of a file's path counts.
+MAY_INCLUDE = {
+    GEOMETRY: [],
+    VALIDITY: [GEOMETRY],
+    PLANNER: [VALIDITY, GEOMETRY],
+    f'{PLANNER}/search': [GEOMETRY],
+    TRACKING: [GEOMETRY],
+    PIPELINE: LIBRARIES,
+    'benchmarks': LIBRARIES + ['tests'],  # micro-benchmarks measure on the random worlds of the tests
+    'examples': LIBRARIES,
+    'tests': LIBRARIES + ['benchmarks', 'examples'],
+}
+
+# folder -> what it must not include although it may include what is round it.
+NEVER = {
+    GEOMETRY: ['ompl/', 'fcl/', 'ceres/'],
+    VALIDITY: ['ompl/geometric/', 'ompl/control/', 'ompl/tools/', 'ceres/'],
+    PLANNER: ['fcl/', 'ceres/', 'ompl/tools/'],
+    f'{PLANNER}/search': ['ompl/', 'fcl/', 'ceres/', f'{GEOMETRY}/io/'],
+    TRACKING: ['ompl/', 'fcl/'],
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+
+
+def rule_for(name, rules):
+    """The entry for the longest folder that the file lies in, or None."""
+    fitting = [folder for folder in rules if name.startswith(folder + '/')]
+    return max(fitting, key=len) if fitting else None
+
+
+def is_within(included, folders):
+    return any(included.startswith(folder + '/') for folder in folders)
+
+
+def main(root):
+    findings = []
+    for name in project_files(root):
+        own = rule_for(name, MAY_INCLUDE)
+        if own is None or not name.endswith(('.h', '.cpp')):
+            continue
+        never = NEVER.get(rule_for(name, NEVER), [])
+        text = text_of(root, name)
+        for match in INCLUDE.finditer(text):
+            included = match.group(1)
+            place = f'{name}:{text.count(chr(10), 0, match.start(1)) + 1}'
+            # A file includes its own folder, and that is all that lies within a folder with rules of its own.
+            allowed = is_within(included, [own] + MAY_INCLUDE[own])
+            if is_within(included, MAY_INCLUDE) and not allowed:
+                findings.append(f'{place}: {own} must not include {included}')
+            elif any(included.startswith(prefix) for prefix in never):
+                findings.append(f'{place}: {own} must not include {included}')
+            elif included.startswith('.'):
+                findings.append(f'{place}: {included}: includes are written from the root of the project')
+    report(findings, 'The arrows between the folders: MAY_INCLUDE and NEVER in tests/style/check_dependencies.py.')
+
+
+if __name__ == '__main__':
+    main(os.path.abspath(sys.argv[1]))

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Each style check is run on a small project without a fault, then with one fault at a time: it must find them all."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+GOOD_SOURCE = '#pragma once\n\n#include "parking_geometry/Pose.h"\n'
+README = '<!-- sample:begin -->\n```cpp\nint main()\n{\n}\n```\n<!-- sample:end -->\n'
+EXAMPLE = '// readme:begin\nint main()\n{\n}\n// readme:end\n'
+
+
+class ChecksTest(unittest.TestCase):
+    def setUp(self):
+        self.root = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.root)
+        shutil.copy(os.path.join(ROOT, '.clang-format'), self.root)
+        self.write('parking_geometry/Pose.h', '#pragma once\n')
+        self.write('state_validity/Checker.h', GOOD_SOURCE)
+        self.write('ompl_improved_astar/search/Search.h', GOOD_SOURCE)
+        self.write('examples/readme_example.cpp', EXAMPLE)
+        self.write('README.md', README)
+        self.write('scripts/run', '#!/usr/bin/env bash\necho "$1"\n')
+        self.write('tests/style/long_files.txt', '# none\n')
+
+    def write(self, name, text):
+        path = os.path.join(self.root, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+
+    def run_check(self, check):
+        return subprocess.run([sys.executable, '-B', os.path.join(HERE, f'check_{check}.py'), self.root],
+                              capture_output=True, text=True, check=False)
+
+    def expect_found(self, check, name):
+        done = self.run_check(check)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn(name, done.stdout + done.stderr)
+
+    def test_project_without_faults_passes_all(self):
+        for check in ('format', 'length', 'dependencies', 'shell', 'paths', 'readme_sample'):
+            with self.subTest(check):
+                done = self.run_check(check)
+                self.assertIn(done.returncode, (0, 77), done.stdout + done.stderr)
+
+    def test_unformatted_source(self):
+        self.write('state_validity/Checker.cpp', 'int  f( ) { return 1 ; }\n')
+        if self.run_check('format').returncode == 77:
+            self.skipTest('clang-format is of another version')
+        self.expect_found('format', 'state_validity/Checker.cpp')
+
+    def test_long_file(self):
+        self.write('state_validity/Long.cpp', '\n' * 500)
+        self.assertEqual(self.run_check('length').returncode, 0)
+        self.write('state_validity/Long.cpp', '\n' * 501)
+        self.expect_found('length', 'state_validity/Long.cpp: 501')
+        self.write('tests/style/long_files.txt', 'state_validity/Long.cpp:\n')
+        self.expect_found('length', 'without a reason')
+        self.write('tests/style/long_files.txt', 'state_validity/Long.cpp: a table\n')
+        self.assertEqual(self.run_check('length').returncode, 0)
+        self.write('state_validity/Long.cpp', '\n')
+        self.expect_found('length', 'not longer')
+
+    def test_long_script_without_ending(self):
+        self.write('scripts/long', '#!/bin/sh\n' + '\n' * 500)
+        self.expect_found('length', 'scripts/long')
+
+    def test_includes_against_the_arrows(self):
+        for name, included in (
+                ('parking_geometry/Bad.h', '"state_validity/Checker.h"'),
+                ('parking_geometry/Bad.cpp', '<ompl/base/State.h>'),
+                ('state_validity/Bad.h', '"ompl_improved_astar/ImprovedAStar.h"'),
+                ('state_validity/Bad.cpp', '"tests/Oracle.h"'),
+                ('path_tracking/Bad.cpp', '"state_validity/Checker.h"'),
+                ('ompl_improved_astar/Bad.cpp', '"path_tracking/Mpc.h"'),
+                ('ompl_improved_astar/search/Bad.h', '"state_validity/Checker.h"'),
+                ('ompl_improved_astar/search/Bad.h', '"parking_geometry/io/Text.h"'),
+                ('ompl_improved_astar/search/Bad.h', '"ompl_improved_astar/ImprovedAStar.h"'),
+                ('ompl_improved_astar/search/Bad.h', '<ompl/base/Planner.h>'),
+                ('ompl_improved_astar/search/Bad.h', '<fcl/fcl.h>'),
+                ('automatic_parking/Bad.cpp', '"benchmarks/Table.h"'),
+                ('benchmarks/Bad.cpp', '"../state_validity/Checker.h"')):
+            with self.subTest(f'{name} includes {included}'):
+                self.write(name, f'#pragma once\n#include {included}\n')
+                self.expect_found('dependencies', f'{name}:2')
+                os.remove(os.path.join(self.root, name))
+
+    def test_shell_script_with_unquoted_variable(self):
+        self.write('scripts/run', '#!/usr/bin/env bash\nrm $1\n')
+        self.expect_found('shell', 'SC2086')
+
+    def test_machine_path(self):
+        self.write('README.md', 'See /' + 'home/somebody/project.\n')
+        self.expect_found('paths', 'README.md:1')
+
+    def test_sample_that_differs(self):
+        self.write('README.md', README.replace('main()', 'main(int, char **)'))
+        self.expect_found('readme_sample', 'examples/readme_example.cpp')
+        subprocess.run([sys.executable, '-B', os.path.join(HERE, 'check_readme_sample.py'), self.root, '--update'],
+                       check=True)
+        self.assertEqual(self.run_check('readme_sample').returncode, 0)
+
+    def test_files_ignored_by_git_do_not_count(self):
+        if not shutil.which('git'):
+            self.skipTest('git is not installed')
+        subprocess.run(['git', 'init', '--quiet', self.root], check=True)
+        self.write('.gitignore', '/build/\n')
+        self.write('build/state_validity/Long.cpp', '\n' * 501)
+        self.assertEqual(self.run_check('length').returncode, 0)
+        self.write('state_validity/Long.cpp', '\n' * 501)
+        self.expect_found('length', 'state_validity/Long.cpp')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""What scripts/test and scripts/compare do about packages and options, with dpkg, apt-get, sudo and id replaced."""
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCRIPTS = ('test', 'compare')
+
+
+class ScriptsTest(unittest.TestCase):
+    """The replaced commands write what they are called with to `calls`; `missing` holds what dpkg does not have."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.project = os.path.join(self.folder, 'a project')
+        shutil.copytree(os.path.join(ROOT, 'scripts'), os.path.join(self.project, 'scripts'))
+        self.calls = os.path.join(self.folder, 'calls')
+        self.missing = os.path.join(self.folder, 'missing')
+        self.write(self.calls, '')
+        self.write(self.missing, '')
+        self.replace('dpkg-query', f'grep -qx -- "${{@: -1}}" "{self.missing}" || echo -n installed')
+        self.replace('apt-get', f'echo "apt-get $*" >>"{self.calls}"; '
+                                f'if [[ $* == *install* ]]; then : >"{self.missing}"; fi')
+        self.replace('sudo', f'echo "sudo $*" >>"{self.calls}"; exit 1')
+        self.replace('id', 'echo 0')
+        self.replace('cmake', f'echo "cmake $*" >>"{self.calls}"; '
+                              'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; else exit 1; fi')
+
+    def write(self, path, text):
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+
+    def replace(self, command, body):
+        path = os.path.join(self.folder, 'bin', command)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        self.write(path, '#!/usr/bin/env bash\n' + body + '\n')
+        os.chmod(path, 0o755)
+
+    def run_script(self, script, *arguments, **environment):
+        path = os.path.join(self.folder, 'bin') + ':' + os.environ['PATH']
+        return subprocess.run([os.path.join(self.project, 'scripts', script), *arguments], cwd='/',
+                              env={**os.environ, 'PATH': path, **environment}, capture_output=True, text=True,
+                              check=False)
+
+    def called(self, command):
+        with open(self.calls, encoding='utf-8') as file:
+            return [line.strip() for line in file if line.startswith(command)]
+
+    def test_apt_is_not_touched_when_nothing_is_missing(self):
+        for script in SCRIPTS:
+            with self.subTest(script):
+                done = self.run_script(script)
+                self.assertIn('packages are installed', done.stdout)
+                self.assertEqual(self.called('apt-get'), [])
+                self.assertEqual(self.called('sudo'), [])
+                self.assertTrue(self.called('cmake --preset release'), done.stderr)
+                self.assertEqual(done.returncode, 1)  # of the replaced cmake
+
+    def test_only_what_is_missing_is_installed(self):
+        self.write(self.missing, 'libompl-dev\nlibgtest-dev\n')
+        done = self.run_script('test')
+        self.assertIn('libompl-dev', done.stdout)
+        self.assertIn('GoogleTest', done.stdout)
+        update, install = self.called('apt-get')
+        self.assertTrue(update.endswith(' update'))
+        self.assertTrue(install.endswith('--yes --no-install-recommends libompl-dev libgtest-dev'))
+
+    def test_comparing_needs_no_packages_of_the_tests(self):
+        self.write(self.missing, 'libgtest-dev\nshellcheck\n')
+        self.run_script('compare')
+        self.assertEqual(self.called('apt-get'), [])
+
+    def test_without_root_the_command_is_printed(self):
+        self.replace('id', 'echo 1000')
+        self.write(self.missing, 'libompl-dev\n')
+        for script in SCRIPTS:
+            with self.subTest(script):
+                done = self.run_script(script)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn('sudo apt-get update && sudo apt-get install --yes --no-install-recommends libompl-dev\n',
+                              done.stderr)
+                self.assertEqual(self.called('apt-get'), [])
+
+    def test_sudo_without_a_password_is_used(self):
+        self.replace('id', 'echo 1000')
+        self.replace('sudo', f'echo "sudo $*" >>"{self.calls}"; shift; "$@"')
+        self.write(self.missing, 'libompl-dev\n')
+        self.run_script('test')
+        self.assertEqual(len(self.called('sudo --non-interactive env DEBIAN_FRONTEND=noninteractive apt-get')), 2)
+
+    def test_failure_of_apt_ends_the_script(self):
+        self.replace('apt-get', 'exit 100')
+        self.write(self.missing, 'libompl-dev\n')
+        done = self.run_script('test')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('could not install', done.stderr)
+        self.assertEqual(self.called('cmake'), [])
+
+    def test_old_cmake_is_named(self):
+        self.replace('cmake', 'echo "cmake version 3.18.4"')
+        done = self.run_script('test')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('cmake 3.18.4 is too old', done.stderr)
+
+    def test_wrong_options_end_with_status_2_and_one_line(self):
+        for script, arguments in (('test', ['--release']), ('test', ['a', 'b']), ('compare', ['--fast']),
+                                  ('compare', ['results'])):
+            with self.subTest(f'{script} {arguments}'):
+                done = self.run_script(script, *arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertEqual(len(done.stderr.splitlines()), 1)
+                self.assertEqual(self.called('cmake'), [])
+
+    def test_wrong_number_of_jobs_is_named(self):
+        self.replace('cmake', 'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; fi')
+        done = self.run_script('test', PARKING_JOBS='none')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("PARKING_JOBS is 'none'", done.stderr)
+
+    def test_called_through_a_symbolic_link(self):
+        link = os.path.join(self.folder, 'run-tests')
+        os.symlink(os.path.join(self.project, 'scripts', 'test'), link)
+        done = subprocess.run([link, '--help'], cwd='/', capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn('usage', done.stdout)
+
+    def test_build_folder_of_another_place_is_configured_afresh(self):
+        cache = os.path.join(self.project, 'build', 'release', 'CMakeCache.txt')
+        os.makedirs(os.path.dirname(cache))
+        self.write(cache, 'CMAKE_HOME_DIRECTORY:INTERNAL=/somewhere/else\n')
+        self.run_script('test')
+        self.assertIn('--fresh', self.called('cmake --preset')[-1])
+        self.write(cache, f'CMAKE_HOME_DIRECTORY:INTERNAL={os.path.realpath(self.project)}\n')
+        self.run_script('test')
+        self.assertNotIn('--fresh', self.called('cmake --preset')[-1])
+
+
+if __name__ == '__main__':
+    unittest.main()
