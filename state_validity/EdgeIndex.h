@@ -55,8 +55,8 @@ namespace parking
         /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.
 
             \param sweep the motion; its half lengths take the place of those of \e box
-            The centre of the box must not move farther than \e slack from where it is, and all of \e sweep's box must
-           fit within reach() - slack of its centre. The box must not touch an edge at the beginning. */
+            Edges farther than reach() from the centre of \e box may be missed: the sweep must not get there. The box
+            must not touch an edge at the beginning. */
         double firstContact(const OrientedBox &box, const BoxSweep &sweep) const;
 
         /** \brief The same for a caller who has the cosine and sine of half the angle turned through at hand. */

@@ -100,15 +100,20 @@ namespace parking
            reports: it looks at every edge when none is within a metre. */
         double exactClearance(const Pose &pose) const;
 
-        /** \brief How far the car can drive along an arc, proven free in between (conservative advancement).
+        /** \brief How far the car can drive along an arc without touching an obstacle: exact, not sampled.
 
-            At each pose the car may move until its fastest point has moved as far as the clearance; so no obstacle is
-            missed between poses. The proof gives up, conservatively, when it would need more than a few steps nearer
-            than \e tolerance to an obstacle: motions that stay closer than that may be rejected, but a motion that
-           touches an obstacle is never accepted.
+            The body, enlarged by \e tolerance on each side, is swept along the arc, and the first contact with every
+            edge near the way is computed in closed form (see SweepFront). Where the distance field shows that nothing
+            is near, no edge is looked at. The enlargement stands for all rounding, so a motion during which the body
+            touches an obstacle is never called free; one that passes nearer than 1.5 times the tolerance may be cut
+            short. A start that is nearer than that is given a smaller enlargement, so that a car can drive away from
+            what it all but touches.
 
             \param length signed metres
-            \return between 0 and |length|: the length that is proven free; |length| itself when all of it is */
+            \param tolerance metres, positive
+            \return between 0 and |length|: the length that is proven free, less the tolerance where it ends at an
+            obstacle; |length| itself when all of it is free; 0 when the pose is not free or an argument is not finite
+         */
         double freeLength(const Pose &from, double curvature, double length, double tolerance,
                           CheckCounts &counts) const;
 
@@ -120,8 +125,8 @@ namespace parking
         {
             OrientedBox box;   ///< the body, local
             double tolerance;  ///< metres
-            double
-                enlargement;  ///< metres by which the body is enlarged on the way; negative when the pose is not free
+            /** Metres by which the body is enlarged on the way; negative when the pose is not free. */
+            double enlargement;
         };
 
         /** \brief Prepares a pose. \param tolerance metres, positive */

@@ -89,6 +89,14 @@ TEST(FootprintProperty, AgreesWithTheOracleAndFclOnGrids)
     expectVaried(tally);
 }
 
+TEST(FootprintProperty, AgreesWithTheOracleAndFclOnNoisyMaps)
+{
+    Tally tally;
+    for (std::uint64_t seed = 700; seed < 712 && !HasFatalFailure(); ++seed)
+        compare(noisyGridWorld(seed, NEAR), {}, 0.0, POSES, seed, tally);
+    expectVaried(tally);
+}
+
 TEST(FootprintProperty, AgreesWithTheOracleAndFclAThousandKilometresAway)
 {
     Tally tally;

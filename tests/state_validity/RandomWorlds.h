@@ -222,4 +222,26 @@ namespace parking_test
             fill(random.index(side), random.index(side), 1 + random.index(side / 6), 1 + random.index(side / 6));
         return {"grid " + std::to_string(seed), grid};
     }
+
+    /** \brief A grid as a sensor leaves it: walls in flecks, and single cells strewn over what is free. */
+    inline World noisyGridWorld(std::uint64_t seed, const Eigen::Vector2d &offset = {0.0, 0.0})
+    {
+        Random random(seed);
+        constexpr double RESOLUTION = 0.1;
+        constexpr std::size_t SIDE = 200;
+        parking::OccupancyGrid grid(SIDE, SIDE, RESOLUTION, {offset.x(), offset.y(), random.between(-3.0, 3.0)});
+        const double strewn = random.between(5e-5, 5e-4);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(strewn * SIDE * SIDE); ++i)
+            grid.set(random.index(SIDE), random.index(SIDE), parking::Cell::Occupied);
+        for (std::size_t wall = 0; wall < 3; ++wall)
+        {
+            const std::size_t at = random.index(SIDE - 2), begin = random.index(SIDE), length = random.index(SIDE / 2);
+            const bool upright = random.chance(0.5);
+            for (std::size_t k = begin; k < std::min(SIDE, begin + length); ++k)
+                for (std::size_t t = at; t < at + 3; ++t)
+                    if (random.chance(0.4))
+                        grid.set(upright ? t : k, upright ? k : t, parking::Cell::Occupied);
+        }
+        return {"noisy grid " + std::to_string(seed), grid};
+    }
 }  // namespace parking_test

@@ -89,21 +89,28 @@ namespace parking_test
             const double farthest =
                 std::hypot(std::max(vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang), vehicle.width);
             const double speed = 1.0 + std::abs(curvature) * (farthest + std::max(margin, 0.0));
+            // Margins to try, the one that held last time first: neighbouring poses are much alike.
+            constexpr std::array<double, 9> MARGINS{1.2, 0.6, 0.3, 0.15, 0.075, 0.038, 0.019, 0.01, 0.005};
+            std::size_t level = 0;
             for (double driven = 0.0;;)
             {
                 const parking::Pose pose =
                     parking::advance(from, curvature, std::copysign(std::min(driven, std::abs(length)), length));
-                if (!isFree(pose, vehicle, margin))
-                    return false;
-                if (driven >= std::abs(length))
-                    return true;
-                double skipped = step;
-                for (const double more : {0.6, 0.2, 0.06, 0.02})
-                    if (more / speed > step && isFree(pose, vehicle, margin + more))
+                double skipped = 0.0;
+                for (level -= level > 0; level < MARGINS.size() && MARGINS[level] / speed > step; ++level)
+                    if (isFree(pose, vehicle, margin + MARGINS[level]))
                     {
-                        skipped = more / speed;
+                        skipped = MARGINS[level] / speed;
                         break;
                     }
+                if (skipped == 0.0)
+                {
+                    if (!isFree(pose, vehicle, margin))
+                        return false;
+                    skipped = step;
+                }
+                if (driven >= std::abs(length))
+                    return true;
                 driven += skipped;
             }
         }
