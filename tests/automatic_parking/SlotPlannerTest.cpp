@@ -8,7 +8,9 @@
 #include "tests/support/PolygonOracle.h"
 
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -186,6 +188,30 @@ TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
                         ASSERT_LE(std::abs(state.curvature), (1.0 + 1e-9) / car.minTurningRadius());
                     }
                 }
+}
+
+TEST(SlotPlanner, EveryWayInIsAGoal)
+{
+    // Either entry, either side: which manoeuvre is driven depends on where the car comes from.
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.width = 2.8;
+    slot.entry = SlotEntry::Either;
+    const double aisle = 8.0;
+    const ObstacleSet world =
+        ObstacleSet::fromPolygons(slotSurroundings(slot, SlotSide::Right, aisle), {{-30, -30}, {30, 30}});
+    const SlotPlanner planner(car, inAisle(aisle));
+    std::set<std::pair<SlotEntry, SlotSide>> driven;
+    for (const double y : {-9.0, 9.0})
+        for (const double yaw : {-0.5 * PI, 0.5 * PI})
+        {
+            const SlotPlan plan = planner.plan(slot, {7.0, y, yaw}, world);
+            ASSERT_TRUE(plan.solved) << plan.message;
+            EXPECT_LT(gap(plan.path.end(), plan.manoeuvre.goal), 1e-6);
+            EXPECT_LT(gap(plan.smooth.path.back().pose, plan.manoeuvre.goal), 1e-6);
+            driven.emplace(plan.manoeuvre.entry, plan.manoeuvre.side);
+        }
+    EXPECT_GE(driven.size(), 2u);
 }
 
 TEST(SlotPlanner, EqualInputsGiveEqualOutputs)

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "automatic_parking/SlotPlanner.h"
+#include "parking_geometry/ParkingSlot.h"
+#include "parking_geometry/Scenario.h"
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/io/SvgFigure.h"
+#include "parking_geometry/io/SvgScenario.h"
+#include "parking_geometry/io/Text.h"
+#include "state_validity/ObstacleSet.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parking_examples
+{
+    /** \brief A length to the centimetre. */
+    inline std::string inMetres(double length)
+    {
+        return parking::formatNumber(std::round(100.0 * length) / 100.0) + " m";
+    }
+
+    /** \brief A slot between parked cars, kerbs and walls, and the picture of a car that parks there: what the examples
+        have in common. */
+    class StreetScene
+    {
+    public:
+        StreetScene(const parking::Vehicle &car, const parking::ParkingSlot &slot, const parking::Pose &start)
+        {
+            scenario_.vehicle = car;
+            scenario_.start = start;
+            scenario_.goals = slot.goals(car);
+            scenario_.slot = slot;
+            scenario_.bounds = {{-20.0, -20.0}, {20.0, 20.0}};
+        }
+
+        /** \brief Another car, which does not move, in the middle of \e slot. */
+        void addParkedCar(const parking::ParkingSlot &slot, const std::string &name)
+        {
+            const parking::Vehicle car = parking::vehicleByName(name);
+            parked_.emplace_back(slot.goals(car).front(), car);
+            const auto corners = car.footprint(parked_.back().first);
+            scenario_.polygons.emplace_back(corners.begin(), corners.end());
+        }
+
+        /** \brief A kerb or a wall, from corner to corner. */
+        void addWall(double minX, double minY, double maxX, double maxY)
+        {
+            scenario_.polygons.push_back({{minX, minY}, {maxX, minY}, {maxX, maxY}, {minX, maxY}});
+        }
+
+        parking::ObstacleSet world() const
+        {
+            return parking::ObstacleSet::fromScenario(scenario_);
+        }
+
+        /** \brief Map with the car along its way, and its curvature below. */
+        void draw(const parking::SlotPlan &plan, const std::string &title, const std::string &subtitle,
+                  const std::string &file) const
+        {
+            parking::SvgMap map(parking::viewAround(scenario_, plan.smooth.path, 2.0));
+            parking::drawScenario(map, scenario_);
+            for (const auto &[pose, car] : parked_)
+                parking::drawCar(map, pose, car, parking::svg_colour::OBSTACLE_EDGE);
+            parking::drawPath(map, plan.smooth.path, scenario_.vehicle);
+            parking::SvgFigure figure(title, subtitle);
+            figure.setMap(map);
+            // Finely, since the curvature changes linearly between the states.
+            figure.addPlot(parking::curvaturePlot(plan.smooth.pieces.sampleEvenly(0.02), scenario_.vehicle));
+            figure.write(file);
+        }
+
+    private:
+        parking::Scenario scenario_;
+        std::vector<std::pair<parking::Pose, parking::Vehicle>> parked_;
+    };
+}  // namespace parking_examples

@@ -1,0 +1,56 @@
+// A slot only 30 cm wider than the car on an aisle of 4.5 m: no single sweep gets in, several moves do.
+
+#include "examples/StreetScene.h"
+#include "parking_geometry/Error.h"
+
+#include <iostream>
+
+using namespace parking;
+using parking_examples::inMetres;
+
+int main(int argc, char **argv)
+{
+    const std::string file = argc > 1 ? argv[1] : "park_narrow.svg";
+    try
+    {
+        const Vehicle car = vehicleByName("tesla_model3");
+        ParkingSlot slot;
+        slot.kind = SlotKind::Perpendicular;
+        slot.pose = {0.0, 0.0, 0.5 * PI};
+        slot.length = 5.0;
+        slot.width = car.width + 0.3;
+        slot.side = SlotSide::Right;
+        const double aisle = 4.5;
+        const Pose start{-8.5, 4.6, 0.0};
+
+        parking_examples::StreetScene scene(car, slot, start);
+        scene.addWall(-14.0, -2.8, -0.5 * slot.width, 2.5);  // a garage with walls on both sides
+        scene.addWall(0.5 * slot.width, -2.8, 14.0, 2.5);
+        scene.addWall(-0.5 * slot.width, -2.8, 0.5 * slot.width, -2.5);
+        scene.addWall(-14.0, 2.5 + aisle, 14.0, 2.9 + aisle);
+
+        SlotPlannerOptions options;
+        options.sweep.aisleWidth = aisle;
+        const SlotPlanner planner(car, options);
+        std::cout << "one sweep: " << ReverseParking(car, options.sweep).plan(slot).message << '\n';
+        const SlotPlan plan = planner.plan(slot, start, scene.world());
+        if (!plan.solved)
+        {
+            std::cerr << plan.message << '\n';
+            return 1;
+        }
+        options.effort = 4000;  // enough to say how narrow it may be
+        const SlotPlanner quick(car, options);
+        std::cout << "several: " << plan.manoeuvre.moves() << " moves at the slot, " << plan.moves() << " and "
+                  << inMetres(pathLength(plan.smooth.path))
+                  << " in all; the narrowest slot that would do: " << inMetres(quick.smallestSlot(slot, 0.05)) << "\n";
+        scene.draw(plan, "A narrow slot in several moves",
+                   "Tesla Model 3, 15 cm to the walls on either side, aisle of 4.5 m", file);
+        return plan.smooth.free && plan.manoeuvre.moves() > 1 ? 0 : 1;
+    }
+    catch (const Error &error)
+    {
+        std::cerr << "park_narrow: " << error.what() << '\n';
+        return 2;
+    }
+}
