@@ -25,6 +25,10 @@ namespace parking
         double freeLength(const Pose &from, double curvature, double length) override;
         double roomAt(double x, double y) override;
         bool acceptPath(const ArcPath &path) override;
+        bool wasInterrupted() const override
+        {
+            return judge_ != nullptr && judge_->wasInterrupted();
+        }
 
         /** \brief Which tier decided how many poses. */
         const CheckCounts &counts() const

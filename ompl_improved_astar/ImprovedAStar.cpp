@@ -1,26 +1,17 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
-#include "ompl_improved_astar/FootprintEnvironment.h"
-#include "ompl_improved_astar/StateSpaceEnvironment.h"
-#include "ompl_improved_astar/search/CarPlanner.h"
-#include "ompl_improved_astar/search/GridSearch.h"
-#include "parking_geometry/BsplineSmoother.h"
+#include "ompl_improved_astar/ImprovedAStarQuery.h"
 #include "state_validity/CircleValidityChecker.h"
-#include "state_validity/CurveSpace.h"
 #include "state_validity/FclFootprintChecker.h"
-#include "state_validity/OmplPose.h"
 #include "state_validity/SweptMotionValidator.h"
 
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/goals/GoalStates.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/Exception.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -30,18 +21,12 @@ namespace ompl::geometric
 {
     namespace
     {
-        using parking::ArcPath;
         using parking::MotionModel;
         using parking::Pose;
-        using parking::search::CarPlanner;
-        using parking::search::GridSearch;
 
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr double GRID_RESOLUTION = 0.5;  // metres, when the user leaves the choice
 
-        // Between states of a path on a plain SE2 space, where OMPL interpolates along the chord: a hundredth of the
-        // radius keeps the chord within a hundred-thousandth of the radius of the arc.
-        constexpr double SPACING_ON_SE2 = 0.01;
         // Between states asked for along a motion with a checker that knows states only, in turning radii.
         constexpr double CHECK_STEP = 0.02;
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
@@ -69,52 +54,6 @@ namespace ompl::geometric
         }
     }  // namespace
 
-    /** What belongs to one query, and the memory that outlives it. */
-    struct ImprovedAStar::Query
-    {
-        std::optional<parking::CurveSpace> space;
-        std::unique_ptr<parking::FootprintEnvironment> footprintEnvironment;
-        std::unique_ptr<parking::StateSpaceEnvironment> stateEnvironment;
-        CarPlanner car;
-        GridSearch grid;
-        bool begun{false};
-        bool gridDone{false};
-        std::vector<Pose> starts, goals;
-        std::optional<Pose> fallbackTarget;
-        ArcPath bestArcs;
-        bool hasArcs{false};
-        ob::Cost bestCost{INFINITE};
-        std::vector<ob::State *> dataStates;
-        ob::SpaceInformationPtr si;
-
-        explicit Query(ob::SpaceInformationPtr information) : si(std::move(information))
-        {
-        }
-
-        Query(const Query &) = delete;
-        Query &operator=(const Query &) = delete;
-
-        ~Query()
-        {
-            freeDataStates();
-        }
-
-        void freeDataStates()
-        {
-            for (ob::State *state : dataStates)
-                si->freeState(state);
-            dataStates.clear();
-        }
-
-        ob::State *dataState(const Pose &pose)
-        {
-            ob::State *state = si->allocState();
-            parking::setPose(state, pose);
-            dataStates.push_back(state);
-            return state;
-        }
-    };
-
     ImprovedAStar::ImprovedAStar(const ob::SpaceInformationPtr &si)
       : ob::Planner(si, "ImprovedAStar"),
         query_(std::make_unique<Query>(si)),
@@ -137,11 +76,23 @@ namespace ompl::geometric
     {
         Planner::setup();
         query_->space.emplace(*si_->getStateSpace());
+        requireFittingModel();
+        query_->begun = false;
+    }
+
+    void ImprovedAStar::requireFittingModel() const
+    {
         if (parameters_.motionModel != MotionModel::Car && query_->space->kind() != parking::SpaceKind::SE2)
             throw Exception(getName(), "motion_model " + getMotionModel() +
                                            " needs a plain SE2StateSpace: a Reeds-Shepp or Dubins space would turn its "
                                            "path into loops. Use motion_model car there");
-        query_->begun = false;
+    }
+
+    void ImprovedAStar::setProblemDefinition(const ob::ProblemDefinitionPtr &pdef)
+    {
+        if (pdef != pdef_)
+            clearQuery();
+        Planner::setProblemDefinition(pdef);
     }
 
     void ImprovedAStar::clear()
@@ -155,14 +106,7 @@ namespace ompl::geometric
     void ImprovedAStar::clearQuery()
     {
         pis_.restart();
-        query_->freeDataStates();
-        query_->begun = false;
-        query_->gridDone = false;
-        query_->starts.clear();
-        query_->goals.clear();
-        query_->fallbackTarget.reset();
-        query_->hasArcs = false;
-        query_->bestCost = ob::Cost(INFINITE);
+        query_->forget();
         bestCost_ = INFINITE;
         expanded_ = 0;
     }
@@ -171,16 +115,18 @@ namespace ompl::geometric
     {
         if (query_->begun)
             return;
+        requireFittingModel();
         query_->begun = true;
+        query_->parameters = parameters_;
+        query_->goal = pdef_->getGoal();
         const parking::Bounds bounds = parking::spaceBounds(*si_->getStateSpace());
-        const bool plain = query_->space->kind() == parking::SpaceKind::SE2;
-        const double radius = plain ? parameters_.turningRadius : query_->space->turningRadius();
+        const double radius = query_->turningRadius();
         const auto *circle = dynamic_cast<const parking::CircleValidityChecker *>(si_->getStateValidityChecker().get());
         const auto *footprint =
             dynamic_cast<const parking::FclFootprintChecker *>(si_->getStateValidityChecker().get());
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
-            plain ? SPACING_ON_SE2 * radius : 0.0, circle == nullptr);
+            query_->stateSpacing(), circle == nullptr);
         query_->footprintEnvironment.reset();
 
         if (parameters_.motionModel != MotionModel::Car)
@@ -229,7 +175,11 @@ namespace ompl::geometric
             car.search.inscribedRadius =
                 std::min({0.5 * vehicle.width, vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang});
             // The motion validator has the last word unless it asks the same questions of the same checker.
-            const bool swept = dynamic_cast<const parking::SweptMotionValidator *>(si_->getMotionValidator().get());
+            const auto *validator =
+                dynamic_cast<const parking::SweptMotionValidator *>(si_->getMotionValidator().get());
+            const bool swept = !query_->isPlain() && parameters_.steeringAngles == 3 && validator != nullptr &&
+                               &validator->footprint() == &footprint->footprint() &&
+                               validator->tolerance() <= SWEEP_TOLERANCE;
             query_->footprintEnvironment = std::make_unique<parking::FootprintEnvironment>(
                 footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
             environment = query_->footprintEnvironment.get();
@@ -247,7 +197,8 @@ namespace ompl::geometric
             return false;
         }
         prepareQuery();
-        const bool car = parameters_.motionModel == MotionModel::Car;
+        query_->stateEnvironment->setStop([&ptc] { return ptc(); });
+        const bool car = query_->isCar();
         while (const ob::State *state = pis_.nextStart())
         {
             query_->starts.push_back(parking::poseOf(state));
@@ -279,9 +230,11 @@ namespace ompl::geometric
                 break;
         }
         // Lazily sampled goals may be on their way. A list of goals that are all taken grows no longer: OMPL would wait
-        // for it until the time is up.
+        // for it until the time is up. So would it for a region whose samples are all invalid: after so many attempts
+        // the time is better spent on coming near to it.
         const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(region);
-        if (query_->goals.empty() && region->couldSample() && (!finite || (lazy != nullptr && lazy->isSampling())))
+        const bool mayHaveMore = lazy != nullptr ? lazy->isSampling() : !finite && !region->canSample();
+        if (query_->goals.empty() && region->couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
                 add(state);
         if (query_->goals.empty())
@@ -300,207 +253,26 @@ namespace ompl::geometric
     ob::PlannerStatus ImprovedAStar::solve(const ob::PlannerTerminationCondition &ptc)
     {
         checkValidity();
+        if (query_->begun && (query_->goal != pdef_->getGoal() || query_->parameters != parameters_))
+            clearQuery();
         ob::PlannerStatus failure;
-        if (ptc)
+        if (ptc && !query_->hasSolution())
             return ob::PlannerStatus::TIMEOUT;
-        if (!readInputs(ptc, failure))
-            return failure;
-        query_->stateEnvironment->setStop([&ptc] { return ptc(); });
-        const ob::PlannerStatus status = parameters_.motionModel == MotionModel::Car ? solveCar(ptc) : solveGrid(ptc);
-        query_->stateEnvironment->setStop(nullptr);
+        const bool ready = readInputs(ptc, failure);
+        const ob::PlannerStatus status = !ready ? failure : query_->isCar() ? solveCar(ptc) : solveGrid(ptc);
+        if (query_->stateEnvironment)
+            query_->stateEnvironment->setStop(nullptr);
         return status;
-    }
-
-    ob::Cost ImprovedAStar::costOf(const ob::PathPtr &path) const
-    {
-        // Not stored in the problem definition, where it would change what other planners do with it.
-        if (const ob::OptimizationObjectivePtr &objective = pdef_->getOptimizationObjective())
-            return path->cost(objective);
-        return ob::Cost(path->length());
-    }
-
-    ob::PlannerStatus ImprovedAStar::solveCar(const ob::PlannerTerminationCondition &ptc)
-    {
-        const double spacing =
-            query_->space->kind() == parking::SpaceKind::SE2 ? SPACING_ON_SE2 * parameters_.turningRadius : 0.0;
-        const auto stop = [this, &ptc]
-        {
-            expanded_.store(query_->car.statistics().expanded, std::memory_order_relaxed);
-            return ptc();
-        };
-        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
-        const auto improved = [&](const ArcPath &arcs, double)
-        {
-            auto path = std::make_shared<PathGeometric>(si_);
-            std::vector<const ob::State *> states;
-            for (const Pose &pose : parking::pathStates(arcs, spacing))
-            {
-                ob::ScopedState<> state(si_);
-                parking::setPose(state.get(), pose);
-                path->append(state.get());
-            }
-            const ob::Cost cost = costOf(path);
-            if (query_->hasArcs && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
-                                               : cost.value() < query_->bestCost.value()))
-                return false;
-            query_->hasArcs = true;
-            query_->bestArcs = arcs;
-            query_->bestCost = cost;
-            bestCost_.store(cost.value(), std::memory_order_relaxed);
-            if (const ob::ReportIntermediateSolutionFn &report = pdef_->getIntermediateSolutionCallback())
-            {
-                // Goal first, without the ends, as OMPL's planners do.
-                for (std::size_t i = path->getStateCount(); i-- > 0;)
-                    states.push_back(path->getState(i));
-                report(this, states, cost);
-            }
-            return objective && objective->isSatisfied(cost);
-        };
-        if (!query_->goals.empty())
-            query_->car.solve(stop, improved);
-        expanded_ = query_->car.statistics().expanded;
-        if (query_->hasArcs)
-            return report(parking::pathStates(query_->bestArcs, spacing), false);
-        ArcPath nearest;
-        const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
-        if (parameters_.approximate && query_->car.approximate(target, stop, nearest))
-        {
-            query_->bestArcs = nearest;
-            return report(parking::pathStates(nearest, spacing), true);
-        }
-        return ob::PlannerStatus::TIMEOUT;
-    }
-
-    ob::PlannerStatus ImprovedAStar::solveGrid(const ob::PlannerTerminationCondition &ptc)
-    {
-        GridSearch &grid = query_->grid;
-        const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
-        grid.setTarget(target.x, target.y);
-        if (!query_->gridDone)
-        {
-            const GridSearch::Outcome outcome = grid.run(
-                [this, &ptc]
-                {
-                    expanded_.store(query_->grid.statistics().expanded, std::memory_order_relaxed);
-                    return ptc();
-                });
-            query_->gridDone = outcome == GridSearch::Outcome::Found;
-        }
-        expanded_ = grid.statistics().expanded;
-        if (query_->gridDone)
-            return report(smoothed(grid.path()), false);
-        if (parameters_.approximate)
-            if (const std::vector<Pose> poses = grid.nearestPath(target.x, target.y); !poses.empty())
-                return report(smoothed(poses), true);
-        return ob::PlannerStatus::TIMEOUT;
-    }
-
-    std::vector<Pose> ImprovedAStar::smoothed(const std::vector<Pose> &poses) const
-    {
-        if (!parameters_.bsplineSmoothing)
-            return poses;
-        std::vector<Eigen::Vector2d> points;
-        for (const Pose &pose : poses)
-            if (points.empty() || (points.back() - Eigen::Vector2d(pose.x, pose.y)).norm() > 1e-9)
-                points.emplace_back(pose.x, pose.y);
-        if (points.size() < 3)
-            return poses;
-        parking::FootprintQueries world;
-        world.isFree = [this](const Pose &pose)
-        {
-            return query_->stateEnvironment->isFree(pose);
-        };
-        parking::BsplineOptions options;
-        options.maxCurvature = 1.0 / parameters_.turningRadius;
-        const parking::BsplinePath smooth = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
-        std::vector<Pose> result{poses.front()};
-        for (const parking::PathState &state : smooth.path)
-            result.push_back(state.pose);
-        result.push_back(poses.back());
-        // The spline was checked at its states; the motion validator has the last word.
-        for (std::size_t i = 1; i < result.size(); ++i)
-            if (!query_->stateEnvironment->isMotionFree(result[i - 1], result[i]))
-                return poses;
-        return result;
-    }
-
-    ob::PlannerStatus ImprovedAStar::report(const std::vector<Pose> &poses, bool approximate)
-    {
-        auto path = std::make_shared<PathGeometric>(si_);
-        ob::ScopedState<> state(si_);
-        for (const Pose &pose : poses)
-        {
-            parking::setPose(state.get(), pose);
-            path->append(state.get());
-        }
-        if (!approximate)
-        {
-            // The exact goal; the path ends there up to rounding.
-            const Pose &end = poses.back();
-            const auto off = [&end](const Pose &goal)
-            {
-                return std::hypot(goal.x - end.x, goal.y - end.y) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
-            };
-            const auto goal = std::min_element(query_->goals.begin(), query_->goals.end(),
-                                               [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
-            if (path->getStateCount() == 1)
-                path->append(path->getState(0));
-            parking::setPose(path->getState(path->getStateCount() - 1), *goal);
-        }
-        double difference = 0.0;
-        if (approximate)
-            pdef_->getGoal()->isSatisfied(path->getState(path->getStateCount() - 1), &difference);
-        ob::PlannerSolution solution(path);
-        solution.setPlannerName(getName());
-        if (approximate)
-            solution.setApproximate(difference);
-        if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
-        {
-            const ob::Cost cost = path->cost(objective);
-            solution.setOptimized(objective, cost, !approximate && objective->isSatisfied(cost));
-        }
-        pdef_->addSolutionPath(solution);
-        OMPL_DEBUG("%s: %s path of length %.3f after %llu expansions", getName().c_str(),
-                   approximate ? "approximate" : "exact", path->length(),
-                   static_cast<unsigned long long>(expanded_.load()));
-        return approximate ? ob::PlannerStatus::APPROXIMATE_SOLUTION : ob::PlannerStatus::EXACT_SOLUTION;
-    }
-
-    void ImprovedAStar::getPlannerData(ob::PlannerData &data) const
-    {
-        Planner::getPlannerData(data);
-        query_->freeDataStates();
-        if (!query_->begun)
-            return;
-        std::vector<unsigned int> indices[2];
-        std::vector<ob::State *> states[2];
-        const auto visit = [&](const Pose &pose, std::uint32_t parent, std::uint32_t index, bool fromStart)
-        {
-            std::vector<ob::State *> &tree = states[fromStart ? 0 : 1];
-            if (tree.size() <= index)
-                tree.resize(index + 1, nullptr);
-            tree[index] = query_->dataState(pose);
-            const ob::PlannerDataVertex vertex(tree[index], fromStart ? 1 : 2);
-            if (parent == GridSearch::NO_NODE)
-                fromStart ? data.addStartVertex(vertex) : data.addGoalVertex(vertex);
-            else if (fromStart)
-                data.addEdge(ob::PlannerDataVertex(tree[parent], 1), vertex);
-            else
-                data.addEdge(vertex, ob::PlannerDataVertex(tree[parent], 2));
-        };
-        parameters_.motionModel == MotionModel::Car ? query_->car.search().forEachNode(visit)
-                                                    : query_->grid.forEachNode(visit);
     }
 
     double ImprovedAStar::mapLoadingTime() const
     {
-        return parameters_.motionModel == MotionModel::Car ? query_->car.search().loadingTime()
-                                                           : query_->grid.loadingTime();
+        return query_->isCar() ? query_->car.search().loadingTime() : query_->grid.loadingTime();
     }
 
     parking::search::SearchStatistics ImprovedAStar::statistics() const
     {
-        return parameters_.motionModel == MotionModel::Car ? query_->car.statistics() : query_->grid.statistics();
+        return query_->isCar() ? query_->car.statistics() : query_->grid.statistics();
     }
 
     std::uint64_t ImprovedAStar::checkedStates() const
@@ -516,13 +288,13 @@ namespace ompl::geometric
         return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byFcl : 0;
     }
 
-    const ArcPath *ImprovedAStar::solutionArcs() const
+    const parking::ArcPath *ImprovedAStar::solutionArcs() const
     {
         return query_->hasArcs ? &query_->bestArcs : nullptr;
     }
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return parameters_.motionModel == MotionModel::Car ? query_->car.suboptimalityBound() : INFINITE;
+        return query_->isCar() ? query_->car.suboptimalityBound() : INFINITE;
     }
 }  // namespace ompl::geometric

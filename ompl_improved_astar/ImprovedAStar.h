@@ -14,21 +14,43 @@
 namespace ompl::geometric
 {
     /** \anchor gImprovedAStar
+
         \par Short description
+
         Improved A* plans motions of a car among obstacles: the paths that it returns can be driven, forwards and in
         reverse, at or above a minimum turning radius. It searches from the goal and from the start at once, over motion
         primitives at a ladder of resolutions, and joins the two trees by Reeds-Shepp (or Dubins) curves. Every
-       improvement of the paper that it is named after is a parameter, and so is the paper's own search on a grid of
-       positions. \par Spaces ReedsSheppStateSpace (the turning radius is the space's), DubinsStateSpace (the car drives
-       forwards only) and plain SE2StateSpace (parameter `turning_radius`; the states of the path lie densely enough for
-       the straight interpolation between them). The grid models belong on a plain SE2StateSpace: a curve space would
-       turn their paths into loops. \par Validity Any StateValidityChecker and MotionValidator will do: paths found are
-       put to the motion validator before they are returned. With parking::FclFootprintChecker the search sweeps the
-       car's footprint exactly and needs no states at all, which is some ten times faster. \par Goals Any
-       GoalSampleableRegion with any number of goals, of which the cheapest to reach is reached exactly. Where a goal
-        lies in an obstacle, or cannot be reached, the path ends as near to it as the car gets, and the solution is
+        improvement of the paper that it is named after is a parameter, and so is the paper's own search on a grid of
+        positions.
+
+        \par Spaces
+
+        ReedsSheppStateSpace (the turning radius is the space's), DubinsStateSpace (the car drives forwards only) and
+        plain SE2StateSpace (parameter `turning_radius`; the states of the path lie densely enough for the straight
+        interpolation between them). The grid models belong on a plain SE2StateSpace: a curve space would turn their
+        paths into loops.
+
+        \par Validity
+
+        Any StateValidityChecker and MotionValidator will do: paths found are put to the motion validator before they
+        are returned. With parking::FclFootprintChecker the search sweeps the car's footprint exactly and needs no
+        states at all, which is some ten times faster. A checker given to the SpaceInformation later serves from the
+        next query on.
+
+        \par Goals
+
+        Any GoalSampleableRegion with any number of goals, of which the cheapest to reach is reached exactly. Where a
+        goal lies in an obstacle, or cannot be reached, the path ends as near to it as the car gets, and the solution is
         approximate (parameter `approximate`).
+
+        \par Several calls of solve()
+
+        A call goes on where the one before it ended, with starts and goals that were added since, and returns a
+        solution at least as good. Another problem definition, another goal object or another value of a parameter
+        begins the query anew, as clearQuery() does; that is also what to call when the obstacles have changed.
+
         \par Associated publication
+
         Y. Zhao, Automatic parking planning control method based on improved A* algorithm, arXiv:2406.15429, 2024. */
 
     /** \brief Improved A* for cars. */
@@ -42,6 +64,9 @@ namespace ompl::geometric
            that does not go with it. */
         void setup() override;
 
+        /** \brief Another problem definition than before begins a new query. */
+        void setProblemDefinition(const base::ProblemDefinitionPtr &pdef) override;
+
         using base::Planner::solve;
         base::PlannerStatus solve(const base::PlannerTerminationCondition &ptc) override;
 
@@ -50,10 +75,11 @@ namespace ompl::geometric
         /** \brief Forgets starts, goals and trees, but keeps memory and what depends on the space only. */
         void clearQuery() override;
 
-        /** \brief Both trees; edges point in the direction of driving. */
+        /** \brief Both trees and, when it is exact, the last solution; edges point in the direction of driving. The
+            states stay valid until the query ends. */
         void getPlannerData(base::PlannerData &data) const override;
 
-        /** \brief All parameters at once. */
+        /** \brief All parameters at once; throws as the setters below do, and then changes nothing. */
         const parking::PlannerParameters &parameters() const
         {
             return parameters_;
@@ -189,11 +215,13 @@ namespace ompl::geometric
         struct Query;
 
         void declareParameters();
+        void requireFittingModel() const;
         base::PlannerStatus solveCar(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus solveGrid(const base::PlannerTerminationCondition &ptc);
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
-        std::vector<parking::Pose> smoothed(const std::vector<parking::Pose> &poses) const;
+        std::vector<parking::Pose> smoothed(const std::vector<parking::Pose> &poses,
+                                            const base::PlannerTerminationCondition &ptc) const;
         base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
         base::Cost costOf(const base::PathPtr &path) const;
 

@@ -38,7 +38,28 @@ namespace ompl::geometric
 
     void ImprovedAStar::setParameters(const parking::PlannerParameters &parameters)
     {
+        const parking::PlannerParameters before = parameters_;
         parameters_ = parameters;
+        try
+        {
+            setTurningRadius(parameters.turningRadius);
+            setXyResolution(parameters.xyResolution);
+            setHeadingBins(parameters.headingBins);
+            setSteeringAngles(parameters.steeringAngles);
+            setHeuristicWeightFar(parameters.weights.far);
+            setHeuristicWeightNear(parameters.weights.near);
+            setNearGoalDistance(parameters.weights.nearDistance);
+            setTieBreak(parameters.weights.tieBreak);
+            setReversePenalty(parameters.reversePenalty);
+            setGearChangePenalty(parameters.gearChangePenalty);
+            setSteeringChangePenalty(parameters.steeringChangePenalty);
+            setClearanceWeight(parameters.clearanceWeight);
+        }
+        catch (const Exception &)
+        {
+            parameters_ = before;
+            throw;
+        }
     }
 
     void ImprovedAStar::setMotionModel(const std::string &model)

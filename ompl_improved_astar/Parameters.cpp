@@ -3,6 +3,8 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/NearestName.h"
 
+#include <tuple>
+
 namespace parking
 {
     namespace
@@ -29,7 +31,22 @@ namespace parking
             set.approximate = false;
             return set;
         }
+
+        auto members(const PlannerParameters &p)
+        {
+            return std::tie(p.motionModel, p.turningRadius, p.xyResolution, p.headingBins, p.steeringAngles,
+                            p.weights.far, p.weights.near, p.weights.nearDistance, p.weights.tieBreak, p.openList,
+                            p.bidirectional, p.searchFromGoal, p.adaptiveResolution, p.obstacleHeuristic,
+                            p.eagerObstacles, p.bsplineSmoothing, p.shortening, p.approximate, p.reversePenalty,
+                            p.gearChangePenalty, p.steeringChangePenalty, p.clearanceWeight, p.analyticExpansion,
+                            p.anytime);
+        }
     }  // namespace
+
+    bool operator==(const PlannerParameters &a, const PlannerParameters &b)
+    {
+        return members(a) == members(b);
+    }
 
     std::vector<std::string> parameterSetNames()
     {

@@ -42,6 +42,12 @@ namespace parking
         bool anytime{false};
     };
 
+    bool operator==(const PlannerParameters &a, const PlannerParameters &b);
+    inline bool operator!=(const PlannerParameters &a, const PlannerParameters &b)
+    {
+        return !(a == b);
+    }
+
     /** \brief Names of the parameter sets: `default`, the paper's `basic_astar`, `experiment_1` to `experiment_6` and
         `improved_astar` (its ablation, on the grid model), and `hybrid_astar` (the car model with the improvements
        off). */

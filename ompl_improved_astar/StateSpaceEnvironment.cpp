@@ -23,15 +23,18 @@ namespace parking
         return {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}};
     }
 
-    std::vector<Pose> pathStates(const ArcPath &path, double spacing)
+    std::vector<Pose> pathStates(const ArcPath &path, const StateSpacing &spacing)
     {
         std::vector<Pose> poses{path.start};
         Pose pose = path.start;
         for (const ArcSegment &segment : path.segments)
         {
             double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
-            if (spacing > 0.0)
-                pieces = std::max(pieces, std::ceil(std::abs(segment.length) / spacing));
+            const bool gentle =
+                segment.curvature != 0.0 && std::abs(segment.curvature) < (1.0 - 1e-9) * spacing.sharpestCurvature;
+            const double dense = gentle ? spacing.onGentleArcs : spacing.everywhere;
+            if (dense > 0.0)
+                pieces = std::max(pieces, std::ceil(std::abs(segment.length) / dense));
             pieces = std::max(pieces, 1.0);
             for (double i = 1.0; i <= pieces; i += 1.0)
             {
@@ -44,8 +47,8 @@ namespace parking
         return poses;
     }
 
-    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step, double stateSpacing,
-                                                 bool headingMatters)
+    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step,
+                                                 const StateSpacing &stateSpacing, bool headingMatters)
       : si_(si),
         step_(step),
         stateSpacing_(stateSpacing),
@@ -73,11 +76,17 @@ namespace parking
         return std::max(0.0, si_->getStateValidityChecker()->clearance(state_.get()));
     }
 
+    bool StateSpaceEnvironment::isTimeUp()
+    {
+        interrupted_ = interrupted_ || (stop_ && stop_());
+        return interrupted_;
+    }
+
     double StateSpaceEnvironment::freeLength(const Pose &from, double curvature, double length)
     {
         const double whole = std::abs(length), pieces = std::max(1.0, std::ceil(whole / step_));
         for (double i = 1.0; i <= pieces; i += 1.0)
-            if ((checkedStates_ % STATES_BETWEEN_STOPS == 0 && stop_ && stop_()) ||
+            if ((checkedStates_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()) ||
                 !isFree(advance(from, curvature, length * i / pieces)))
                 return whole * (i - 1.0) / pieces;
         return whole;
@@ -102,7 +111,7 @@ namespace parking
     {
         const std::vector<Pose> poses = pathStates(path, stateSpacing_);
         for (std::size_t i = 1; i < poses.size(); ++i)
-            if ((stop_ && stop_()) || !isMotionFree(poses[i - 1], poses[i]))
+            if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
                 return false;
         return true;
     }

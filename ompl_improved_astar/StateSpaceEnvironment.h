@@ -13,6 +13,20 @@
 
 namespace parking
 {
+    /** \brief How far apart the states of a path may be for the space's own interpolation to follow the path.
+
+        Spaces of curves go from state to state along straight lines and arcs at their turning radius, of which the ends
+        suffice. An arc that turns less they would replace by a sharper one and a line. */
+    struct StateSpacing
+    {
+        double everywhere{0.0};         ///< metres; 0 where the ends of straight lines and short arcs suffice
+        double onGentleArcs{0.0};       ///< metres; 0 as above
+        double sharpestCurvature{0.0};  ///< 1/m; arcs that turn less are gentle
+    };
+
+    /** \brief The poses of \e path between which the space's own interpolation follows the path. */
+    std::vector<Pose> pathStates(const ArcPath &path, const StateSpacing &spacing);
+
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
         Motions are tried by asking for the validity of states along them; paths found are then put to the motion
@@ -21,14 +35,15 @@ namespace parking
     {
     public:
         /** \brief \param step metres between states asked for along a motion
-            \param stateSpacing metres between the states of a path, see pathStates() */
-        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, double stateSpacing,
+            \param stateSpacing between the states of a path */
+        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, const StateSpacing &stateSpacing,
                               bool headingMatters);
 
         /** \brief While \e stop says true every motion is cut short, so that a slow checker does not delay the end. */
         void setStop(const search::StopFunction &stop)
         {
             stop_ = stop;
+            interrupted_ = false;
         }
 
         bool isFree(const Pose &pose) override;
@@ -36,6 +51,10 @@ namespace parking
         double freeLength(const Pose &from, double curvature, double length) override;
         double roomAt(double x, double y) override;
         bool acceptPath(const ArcPath &path) override;
+        bool wasInterrupted() const override
+        {
+            return interrupted_;
+        }
 
         bool isMotionFree(const Pose &from, const Pose &to) override;
         bool headingMatters() const override
@@ -49,13 +68,16 @@ namespace parking
         }
 
     private:
+        bool isTimeUp();
+
         ompl::base::SpaceInformationPtr si_;
         double step_;
-        double stateSpacing_;
+        StateSpacing stateSpacing_;
         bool headingMatters_;
         bool clearanceKnown_;
         Bounds bounds_;
         search::StopFunction stop_;
+        bool interrupted_{false};
         std::uint64_t checkedStates_{0};
         ompl::base::ScopedState<> state_, other_;
     };
@@ -63,8 +85,4 @@ namespace parking
     /** \brief The bounds of an SE2, Reeds-Shepp or Dubins space. */
     Bounds spaceBounds(const ompl::base::StateSpace &space);
 
-    /** \brief The poses of \e path between which the space's own interpolation follows the path.
-
-        \param spacing metres; 0 for spaces of curves, where the ends of short arcs suffice */
-    std::vector<Pose> pathStates(const ArcPath &path, double spacing);
 }  // namespace parking

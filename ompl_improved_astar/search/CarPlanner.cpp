@@ -10,9 +10,11 @@ namespace parking::search
         // After the first solution the search goes on for this part of its expansions, and at least so many.
         constexpr double AFTERTHOUGHT = 0.2;
         constexpr std::uint64_t LEAST_AFTERTHOUGHT = 5;
-        // Or so many, when the solution is longer than the bare curve by this factor.
-        constexpr std::uint64_t MORE_AFTERTHOUGHT = 20;
-        constexpr double LONG = 1.1;
+        // And so many more for a solution twice as long as the way looked, in proportion, the solution is longer than
+        // the way looked.
+        constexpr double AFTERTHOUGHT_PER_EXCESS = 60.0;
+        constexpr double MOST_EXCESS = 1.0;
+        constexpr double SHORT = 1.03;
         // Knots of the first shortening: their distance in turning radii, and no more than so many on long paths.
         constexpr double SPACING = 0.5;
         constexpr double MOST_KNOTS = 24.0;
@@ -66,10 +68,12 @@ namespace parking::search
         return shorter && take(path, pathCost(parameters_.search.cost, path, *environment_));
     }
 
-    bool CarPlanner::isShortestPossible() const
+    bool CarPlanner::isShortestPossible(const ArcPath &path, double cost) const
     {
-        // The bare curve is as short as any drivable path, whatever the obstacles.
-        return bestPath_.length() <= search_.shortestCurve() * (1.0 + 1e-9);
+        // The bare curve is as short as any drivable path, whatever the obstacles. What it costs beyond its length may
+        // be worth a longer way when it is more than a few changes of gear and steering come to.
+        const double shortest = search_.shortestCurve();
+        return path.length() <= shortest * (1.0 + 1e-9) && cost <= shortest + parameters_.search.turningRadius;
     }
 
     CarPlanner::Outcome CarPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
@@ -84,18 +88,23 @@ namespace parking::search
                 return outcome == SearchOutcome::Stopped ? Outcome::Stopped : Outcome::Exhausted;
             ArcPath best = search_.bestPath();
             double cost = search_.bestCost();
-            // A single curve that cannot be beaten ends the matter.
-            if (best.length() > search_.shortestCurve() * (1.0 + 1e-9))
+            // A single curve that cannot be beaten ends the matter, and little can be gained by going on with a path
+            // that is hardly longer than the shortest curve.
+            if (!isShortestPossible(best, cost))
             {
+                const double little = SHORT * search_.shortestCurve();
+                const bool isShort = best.length() < little && cost < little + parameters_.search.turningRadius;
                 const std::uint64_t spent = search_.statistics().expanded;
-                const bool isLong = best.length() > LONG * search_.shortestCurve();
-                const std::uint64_t end = spent + (isLong ? MORE_AFTERTHOUGHT : LEAST_AFTERTHOUGHT) +
-                                          static_cast<std::uint64_t>(AFTERTHOUGHT * static_cast<double>(spent));
+                const double expected = std::max(search_.shortestCurve(), search_.estimate());
+                const double excess = std::clamp(best.length() / expected - 1.0, 0.0, MOST_EXCESS);
+                const std::uint64_t end = spent + LEAST_AFTERTHOUGHT +
+                                          static_cast<std::uint64_t>(AFTERTHOUGHT * static_cast<double>(spent) +
+                                                                     AFTERTHOUGHT_PER_EXCESS * excess);
                 const StopFunction enough = [&]
                 {
                     return search_.statistics().expanded >= end || (stop && stop());
                 };
-                while (search_.run(enough) == SearchOutcome::Improved)
+                while (!isShort && search_.run(enough) == SearchOutcome::Improved)
                 {
                 }
                 best = search_.bestPath();
@@ -124,7 +133,7 @@ namespace parking::search
             while (search_.run([] { return true; }) == SearchOutcome::Improved)
                 take(search_.bestPath(), search_.bestCost());
         }
-        if (goodEnough_ || !parameters_.anytime || isShortestPossible())
+        if (goodEnough_ || !parameters_.anytime || isShortestPossible(bestPath_, bestCost_))
             return Outcome::Solved;
         return improve();
     }
@@ -167,7 +176,7 @@ namespace parking::search
                     progress = take(search_.bestPath(), search_.bestCost()) || progress;
                 searching = outcome != SearchOutcome::Exhausted;
             }
-            if (isShortestPossible() || (!searching && !progress && round_ > 50))
+            if (isShortestPossible(bestPath_, bestCost_) || (!searching && !progress && round_ > 50))
                 return Outcome::Solved;
         }
     }

@@ -90,7 +90,7 @@ namespace parking::search
     private:
         bool take(const ArcPath &path, double cost);
         bool shortenBest(double spacing, double offset);
-        bool isShortestPossible() const;
+        bool isShortestPossible(const ArcPath &path, double cost) const;
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};

@@ -219,6 +219,12 @@ namespace parking::search
         expand(side, entry.node, level);
         if (first && parameters_.analyticExpansion)
             connectAround(side, entry.node);
+        if (first && environment_->wasInterrupted())
+        {
+            tree.nodes[entry.node].expanded = false;
+            push(side, level, entry.node);
+            return;
+        }
         if (parameters_.adaptiveResolution && level + 1 < LEVELS)
             push(side, level + 1, entry.node);
         if (tree.exhausted())

@@ -113,6 +113,10 @@ namespace parking::search
         /** \brief Length of the shortest curve from any start to any goal, obstacles or not. */
         double shortestCurve() const;
 
+        /** \brief What the heuristic makes of the way from the starts to the goals: more than the shortest curve where
+            obstacles are in the way. Not a bound. */
+        double estimate() const;
+
         /** \brief Tells the search of a cheaper solution found elsewhere, so that it looks for better ones only. */
         void setCostBound(double cost);
 
@@ -181,6 +185,7 @@ namespace parking::search
 
         void addRoot(int side, const Pose &pose);
         void prepareHeuristics();
+        double heuristicCell(int side) const;
         void resetObstacleHeuristic(int side, const Pose &toward);
         void aimAtTarget();
         bool isProvenUnreachable();
@@ -209,6 +214,7 @@ namespace parking::search
         std::array<Tree, 2> trees_;  // of the starts and of the goals
         std::array<CurveHeuristic, 2> curveHeuristics_;
         std::array<ObstacleHeuristic, 2> obstacleHeuristics_;
+        std::array<double, 2> heuristicCells_{};
         std::array<bool, 2> aroundObstacles_{false, false};
         std::array<double, LEVELS> steps_{};
         std::array<double, LEVELS> inverseCell_{};

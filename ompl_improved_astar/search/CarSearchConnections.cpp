@@ -109,6 +109,14 @@ namespace parking::search
         return shortest;
     }
 
+    double CarSearch::estimate() const
+    {
+        double least = INFINITE;
+        for (const std::uint32_t root : trees_[0].roots)
+            least = std::min<double>(least, trees_[0].nodes[root].h);
+        return least;
+    }
+
     bool CarSearch::nearestPath(const Pose &target, ArcPath &path) const
     {
         std::uint32_t best = NO_NODE;

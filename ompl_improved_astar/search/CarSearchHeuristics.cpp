@@ -11,8 +11,11 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        // Side of a cell of the obstacle-aware heuristic in turning radii.
+        // Side of a cell of the obstacle-aware heuristic in turning radii; for long ways, straight, in parts of them,
+        // but then no more than so many times coarser.
         constexpr double HEURISTIC_CELL = 1.0 / 6.0;
+        constexpr double CELL_OF_LONG_WAYS = 1.0 / 120.0;
+        constexpr double COARSEST_CELL = 3.0;
     }  // namespace
 
     void CarSearch::prepareHeuristics()
@@ -37,11 +40,25 @@ namespace parking::search
             prepareNodes(side);
     }
 
+    double CarSearch::heuristicCell(int side) const
+    {
+        double farthest = 0.0;
+        for (const std::uint32_t root : trees_[side].roots)
+            for (const Pose &target : curveHeuristics_[side].targets())
+            {
+                const Pose &pose = trees_[side].nodes[root].pose;
+                farthest = std::max(farthest, std::hypot(pose.x - target.x, pose.y - target.y));
+            }
+        const double cell = HEURISTIC_CELL * parameters_.turningRadius;
+        return std::clamp(CELL_OF_LONG_WAYS * farthest, cell, COARSEST_CELL * cell);
+    }
+
     void CarSearch::resetObstacleHeuristic(int side, const Pose &toward)
     {
         ObstacleHeuristic &heuristic = obstacleHeuristics_[side];
         aroundObstacles_[side] = true;
-        heuristic.reset(*environment_, HEURISTIC_CELL * parameters_.turningRadius, parameters_.inscribedRadius,
+        heuristicCells_[side] = heuristicCell(side);
+        heuristic.reset(*environment_, heuristicCells_[side], parameters_.inscribedRadius,
                         Eigen::Vector2d(toward.x, toward.y));
         if (!parameters_.eagerObstacles)
             return;
@@ -120,7 +137,7 @@ namespace parking::search
         {
             const double way = obstacleHeuristics_[side].distance(pose.x, pose.y, stop_);
             if (way < INFINITE)
-                h = std::max(h, way - HEURISTIC_CELL * parameters_.turningRadius);
+                h = std::max(h, way - heuristicCells_[side]);
         }
         return h;
     }
@@ -129,7 +146,7 @@ namespace parking::search
     {
         double h = curveHeuristics_[side].exact(pose);
         if (aroundObstacles_[side])
-            h = std::max(h, obstacleHeuristics_[side].lowerBound(pose.x, pose.y, stop_));
+            h = std::max(h, obstacleHeuristics_[side].lowerBound(pose.x, pose.y, {}));  // after run(), without its stop
         return h;
     }
 

@@ -9,8 +9,9 @@ namespace parking::search
 {
     namespace
     {
-        constexpr std::uint64_t EXPANSIONS_BETWEEN_STOPS = 32;
-        constexpr std::int64_t CELLS_BETWEEN_STOPS = 256;
+        // Often, since a checker may take a tenth of a millisecond for each of the states that these ask for.
+        constexpr std::uint64_t EXPANSIONS_BETWEEN_STOPS = 1;
+        constexpr std::int64_t CELLS_BETWEEN_STOPS = 8;
 
         struct Step
         {

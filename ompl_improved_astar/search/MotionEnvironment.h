@@ -29,6 +29,13 @@ namespace parking::search
             when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
+        /** \brief Did freeLength() or acceptPath() say less than they would have, because the time was up? The search
+            then comes back to what it was at. */
+        virtual bool wasInterrupted() const
+        {
+            return false;
+        }
+
         /** \brief A last word on a whole path whose pieces were all found free. */
         virtual bool acceptPath(const ArcPath & /*path*/)
         {

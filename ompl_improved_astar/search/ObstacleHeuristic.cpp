@@ -10,6 +10,7 @@ namespace parking::search
     {
         constexpr float DIAGONAL = 1.41421356f;
         constexpr double HALF_DIAGONAL = 0.70710679;
+        constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MAX_CELLS = 4000000;  // a world without walls must not fill the memory
 
@@ -47,10 +48,27 @@ namespace parking::search
         if (state.passage == Passage::Unknown)
         {
             const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
-            const bool open = environment_->roomAt(x, y) + HALF_DIAGONAL * resolution_ >= radius_;
-            state.passage = open ? Passage::Open : Passage::Blocked;
+            state.passage = mayHoldDisc(x, y, 0.5 * resolution_, REFINEMENTS) ? Passage::Open : Passage::Blocked;
         }
         return state.passage == Passage::Open;
+    }
+
+    bool ObstacleHeuristic::mayHoldDisc(double x, double y, double halfSide, int refinements)
+    {
+        const double room = environment_->roomAt(x, y);
+        if (room >= radius_)
+            return true;
+        if (room + 2.0 * HALF_DIAGONAL * halfSide < radius_)
+            return false;
+        if (refinements == 0)
+            return true;
+        // In doubt the quarters are asked: else the disc could slip through thin walls between two coarse cells.
+        const double quarter = 0.5 * halfSide;
+        for (const double dx : {-quarter, quarter})
+            for (const double dy : {-quarter, quarter})
+                if (mayHoldDisc(x + dx, y + dy, quarter, refinements - 1))
+                    return true;
+        return false;
     }
 
     void ObstacleHeuristic::load(const Eigen::Vector2d &low, const Eigen::Vector2d &high, const StopFunction &stop)
@@ -70,8 +88,9 @@ namespace parking::search
     {
         const float dx = std::abs(static_cast<float>(column) + 0.5f - towardColumn_);
         const float dy = std::abs(static_cast<float>(row) + 0.5f - towardRow_);
-        // A hair less than the octile distance, so that rounding does not make it inconsistent.
-        return 0.9999f * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
+        // A hair more than the octile distance: of many equally short ways in the open one is followed to its end. What
+        // is settled is longer than the shortest way by no more than this hair.
+        return 1.00002f * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
     }
 
     void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)

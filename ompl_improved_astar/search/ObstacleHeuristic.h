@@ -77,6 +77,7 @@ namespace parking::search
         };
 
         bool isOpen(CellState &state, std::int32_t column, std::int32_t row);
+        bool mayHoldDisc(double x, double y, double halfSide, int refinements);
         float estimate(std::int32_t column, std::int32_t row) const;
         void push(float g, std::int32_t column, std::int32_t row);
         bool settleNext(Entry &settled);

@@ -48,7 +48,7 @@ namespace
                         const Place next{at.first + dc, at.second + dr};
                         const double x = toward.x() + (next.first + 0.5) * resolution;
                         const double y = toward.y() + (next.second + 0.5) * resolution;
-                        if (world.distanceFrom(x, y) + std::sqrt(0.5) * resolution >= radius)
+                        if (mayHoldDisc(world, x, y, resolution, radius))
                             open.push({g + std::hypot(dc, dr) * resolution, next});
                     }
             }
@@ -61,6 +61,18 @@ namespace
         }
 
     private:
+        /** One of the sixteen parts of the cell may hold the disc's centre. */
+        static bool mayHoldDisc(const DiscCarWorld &world, double x, double y, double resolution, double radius)
+        {
+            for (const double dx : {-0.375, -0.125, 0.125, 0.375})
+                for (const double dy : {-0.375, -0.125, 0.125, 0.375})
+                    if (world.distanceFrom(x + dx * resolution, y + dy * resolution) +
+                            std::sqrt(0.5) * resolution / 4.0 >=
+                        radius)
+                        return true;
+            return false;
+        }
+
         Place place(const Eigen::Vector2d &point) const
         {
             return {static_cast<int>(std::floor((point.x() - toward_.x()) / resolution_)),

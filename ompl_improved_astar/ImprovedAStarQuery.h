@@ -1,0 +1,125 @@
+#pragma once
+
+// Private to ImprovedAStar's own source files; not installed.
+
+#include "ompl_improved_astar/FootprintEnvironment.h"
+#include "ompl_improved_astar/ImprovedAStar.h"
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
+#include "ompl_improved_astar/search/CarPlanner.h"
+#include "ompl_improved_astar/search/GridSearch.h"
+#include "state_validity/CurveSpace.h"
+#include "state_validity/OmplPose.h"
+
+#include <ompl/base/SpaceInformation.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace ompl::geometric
+{
+    // Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on a plain
+    // SE2 space a hundredth of the radius keeps the chord within a hundred-thousandth of the radius of the arc.
+    constexpr double DENSE_SPACING = 0.01;
+
+    /** What belongs to one query, and the memory that outlives it. */
+    struct ImprovedAStar::Query
+    {
+        std::optional<parking::CurveSpace> space;
+        std::unique_ptr<parking::FootprintEnvironment> footprintEnvironment;
+        std::unique_ptr<parking::StateSpaceEnvironment> stateEnvironment;
+        parking::search::CarPlanner car;
+        parking::search::GridSearch grid;
+        bool begun{false};
+        parking::PlannerParameters parameters;  ///< those that the query was begun with
+        base::GoalPtr goal;                     ///< the one that the query was begun for
+        bool gridDone{false};
+        std::vector<parking::Pose> starts, goals;
+        std::optional<parking::Pose> fallbackTarget;
+        parking::ArcPath bestArcs;
+        bool hasArcs{false};
+        base::Cost bestCost{std::numeric_limits<double>::infinity()};
+        std::vector<parking::Pose> solution;  ///< what was reported last, when it was exact
+        base::SpaceInformationPtr si;
+        std::array<std::vector<base::State *>, 3> dataStates;  ///< of both trees and of the solution
+
+        explicit Query(base::SpaceInformationPtr information) : si(std::move(information))
+        {
+        }
+
+        Query(const Query &) = delete;
+        Query &operator=(const Query &) = delete;
+
+        ~Query()
+        {
+            freeDataStates();
+        }
+
+        bool isCar() const
+        {
+            return parameters.motionModel == parking::MotionModel::Car;
+        }
+
+        bool hasSolution() const
+        {
+            return begun && (hasArcs || gridDone);
+        }
+
+        bool isPlain() const
+        {
+            return space->kind() == parking::SpaceKind::SE2;
+        }
+
+        double turningRadius() const
+        {
+            return isPlain() ? parameters.turningRadius : space->turningRadius();
+        }
+
+        parking::StateSpacing stateSpacing() const
+        {
+            const double radius = turningRadius();
+            return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius};
+        }
+
+        void forget()
+        {
+            freeDataStates();
+            begun = false;
+            goal.reset();
+            gridDone = false;
+            starts.clear();
+            goals.clear();
+            fallbackTarget.reset();
+            hasArcs = false;
+            solution.clear();
+            bestCost = base::Cost(std::numeric_limits<double>::infinity());
+        }
+
+        void freeDataStates()
+        {
+            for (std::vector<base::State *> &states : dataStates)
+            {
+                for (base::State *state : states)
+                    if (state != nullptr)
+                        si->freeState(state);
+                states.clear();
+            }
+        }
+
+        /** The state that stands for a node in planner data: the same one each time, so that data handed out before
+            stays valid until the query ends. */
+        base::State *dataState(std::size_t group, std::size_t index, const parking::Pose &pose)
+        {
+            std::vector<base::State *> &states = dataStates[group];
+            if (states.size() <= index)
+                states.resize(index + 1, nullptr);
+            if (states[index] == nullptr)
+                states[index] = si->allocState();
+            parking::setPose(states[index], pose);
+            return states[index];
+        }
+    };
+}  // namespace ompl::geometric

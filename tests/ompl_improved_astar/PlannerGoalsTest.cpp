@@ -1,0 +1,224 @@
+// Several starts, several goals, regions of goals.
+
+#include "tests/ompl_improved_astar/PlanningProblem.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <ompl/base/goals/GoalLazySamples.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+namespace
+{
+    using namespace parking_test;
+    using parking::Pose;
+    using Status = ob::PlannerStatus;
+
+    class PlannerGoals : public testing::Test
+    {
+    protected:
+        void SetUp() override
+        {
+            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+        }
+    };
+
+    constexpr Pose HERE{-8.0, -5.0, 0.0};
+    constexpr Pose NEAR{0.0, -5.0, 0.0};
+    constexpr Pose FAR{9.0, 10.0, 2.0};
+
+    TEST_F(PlannerGoals, TheCheapestOfSeveral)
+    {
+        for (const char *model : {"car", "grid8", "grid16"})
+            for (const std::vector<Pose> &goals : {std::vector<Pose>{NEAR, FAR}, {FAR, NEAR}, {FAR, NEAR, FAR}})
+            {
+                PlanningProblem problem(Space::SE2, slotSite());
+                problem.planner->setMotionModel(model);
+                problem.from(HERE).to(goals);
+                ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+                EXPECT_TRUE(isAt(problem.poses().back(), NEAR)) << model;
+            }
+    }
+
+    TEST_F(PlannerGoals, TheNearestOfSeveralStarts)
+    {
+        for (const char *model : {"car", "grid8"})
+            for (const std::vector<Pose> &starts : {std::vector<Pose>{FAR, HERE}, {HERE, FAR}})
+            {
+                PlanningProblem problem(Space::SE2, slotSite());
+                problem.planner->setMotionModel(model);
+                for (const Pose &start : starts)
+                    problem.from(start);
+                problem.to({NEAR});
+                ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+                EXPECT_TRUE(isAt(problem.poses().front(), HERE)) << model;
+            }
+    }
+
+    TEST_F(PlannerGoals, BadOnesAreLeftOut)
+    {
+        const Pose inObstacle{-2.5, 2.0, 0.0};
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(inObstacle).from(HERE).to({inObstacle, SLOT});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().front(), HERE));
+        EXPECT_TRUE(isAt(problem.poses().back(), SLOT));
+    }
+
+    TEST_F(PlannerGoals, OneOutOfReachDoesNotHinder)
+    {
+        PlanningProblem problem(Space::ReedsShepp, closedSite());
+        problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}, {-8.0, 8.0, 1.0}});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().back(), {-8.0, 8.0, 1.0}));
+    }
+
+    TEST_F(PlannerGoals, AddedBetweenTwoCalls)
+    {
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(HERE).to({FAR});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().back(), FAR));
+        problem.pdef->getGoal()->as<ob::GoalStates>()->addState(problem.state(NEAR));
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().back(), NEAR));
+        problem.from({-1.0, -5.0, 0.0});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().front(), {-1.0, -5.0, 0.0}));
+    }
+
+    /** Any heading within a metre of a point; every third sample lies in an obstacle. */
+    class Disc : public ob::GoalSampleableRegion
+    {
+    public:
+        Disc(const ob::SpaceInformationPtr &si, double x, double y) : GoalSampleableRegion(si), x_(x), y_(y)
+        {
+            setThreshold(1.0);
+        }
+
+        void sampleGoal(ob::State *state) const override
+        {
+            ++samples;
+            if (samples % 3 == 1)
+                return parking::setPose(state, {-2.5, 2.0, 0.0});
+            const double angle = random_.uniformReal(-parking::PI, parking::PI), radius = random_.uniform01();
+            parking::setPose(state, {x_ + radius * std::cos(angle), y_ + radius * std::sin(angle),
+                                     random_.uniformReal(-parking::PI, parking::PI)});
+        }
+        unsigned int maxSampleCount() const override
+        {
+            return std::numeric_limits<unsigned int>::max();
+        }
+        double distanceGoal(const ob::State *state) const override
+        {
+            const Pose pose = parking::poseOf(state);
+            return std::hypot(pose.x - x_, pose.y - y_);
+        }
+
+        mutable unsigned int samples{0};
+
+    private:
+        double x_, y_;
+        mutable ompl::RNG random_{7};
+    };
+
+    TEST_F(PlannerGoals, RegionsAreSampled)
+    {
+        for (const char *model : {"car", "grid8"})
+        {
+            PlanningProblem problem(Space::SE2, slotSite());
+            problem.planner->setMotionModel(model);
+            problem.from(HERE);
+            const auto disc = std::make_shared<Disc>(problem.si, 6.0, -6.0);
+            problem.pdef->setGoal(disc);
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            EXPECT_TRUE(disc->isSatisfied(problem.path().getStates().back()));
+            EXPECT_FALSE(problem.pdef->hasApproximateSolution());
+            EXPECT_TRUE(problem.path().check());
+            EXPECT_LT(disc->samples, 100u);  // it could go on for ever
+        }
+    }
+
+    TEST_F(PlannerGoals, RegionsWithoutAValidStateEndNearThem)
+    {
+        PlanningProblem problem(Space::ReedsShepp, closedSite());
+        problem.from({-8.0, 0.0, 0.0});
+        class Nowhere : public Disc
+        {
+        public:
+            using Disc::Disc;
+            void sampleGoal(ob::State *state) const override
+            {
+                parking::setPose(state, {0.0, 0.0, 0.0});
+            }
+        };
+        problem.pdef->setGoal(std::make_shared<Nowhere>(problem.si, 0.0, 0.0));
+        EXPECT_EQ(problem.solve(), Status::APPROXIMATE_SOLUTION);
+        EXPECT_LT(problem.pdef->getSolutionDifference(), 5.0);
+        problem.pdef->clearSolutionPaths();
+        problem.planner->setApproximate(false);
+        EXPECT_EQ(problem.solve(), Status::INVALID_GOAL);
+    }
+
+    TEST_F(PlannerGoals, LazySamplesAreWaitedFor)
+    {
+        for (const int delay : {0, 30})
+        {
+            PlanningProblem problem(Space::ReedsShepp, slotSite());
+            problem.from(HERE);
+            std::atomic<int> made{0};
+            const auto sampler = [&](const ob::GoalLazySamples *, ob::State *state)
+            {
+                std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+                const int i = made++;
+                parking::setPose(state, {4.0, -6.0 - 0.5 * i, 0.0});
+                return i < 4;
+            };
+            const auto lazy = std::make_shared<ob::GoalLazySamples>(problem.si, sampler);
+            problem.pdef->setGoal(lazy);
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << delay;
+            lazy->stopSampling();
+            EXPECT_DOUBLE_EQ(problem.poses().back().x, 4.0);
+            EXPECT_TRUE(problem.path().check());
+        }
+    }
+
+    TEST_F(PlannerGoals, LazySamplesThatNeverComeEndWithTheTime)
+    {
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(HERE);
+        const auto sampler = [](const ob::GoalLazySamples *, ob::State *)
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            return true;  // says that there will be more, and adds none that is valid
+        };
+        const auto lazy = std::make_shared<ob::GoalLazySamples>(problem.si,
+                                                                [&](const ob::GoalLazySamples *goal, ob::State *state)
+                                                                {
+                                                                    parking::setPose(state, {-2.5, 2.0, 0.0});
+                                                                    return sampler(goal, state);
+                                                                });
+        problem.pdef->setGoal(lazy);
+        const Status status = problem.solve(0.2);
+        lazy->stopSampling();
+        EXPECT_NE(status, Status::EXACT_SOLUTION);
+        EXPECT_FALSE(problem.pdef->hasExactSolution());
+    }
+
+    TEST_F(PlannerGoals, AGoalStateIsReachedExactlyWhateverItsThreshold)
+    {
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(HERE);
+        const auto goal = std::make_shared<ob::GoalState>(problem.si);
+        goal->setState(problem.state(SLOT));
+        goal->setThreshold(2.0);
+        problem.pdef->setGoal(goal);
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isAt(problem.poses().back(), SLOT));
+    }
+}  // namespace

@@ -1,0 +1,235 @@
+// The spaces and checkers that the planner works with, and those that it refuses.
+
+#include "tests/ompl_improved_astar/PlanningProblem.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/Exception.h>
+
+namespace
+{
+    using namespace parking_test;
+    using parking::ArcSegment;
+    using parking::Pose;
+    using Status = ob::PlannerStatus;
+
+    class PlannerSpaces : public testing::Test
+    {
+    protected:
+        void SetUp() override
+        {
+            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+        }
+
+        static std::string refusal(og::ImprovedAStar &planner)
+        {
+            try
+            {
+                planner.setup();
+            }
+            catch (const ompl::Exception &error)
+            {
+                return error.what();
+            }
+            return "";
+        }
+    };
+
+    const std::pair<Pose, Pose> QUERIES[] = {{AISLE, SLOT},
+                                             {AISLE, {0.0, 1.0, 0.5 * parking::PI}},
+                                             {SLOT, {-8.0, -3.0, parking::PI}},
+                                             {{9.0, 8.0, 1.0}, {-9.0, 8.0, 4.0 - 2.0 * parking::PI}}};
+
+    TEST_F(PlannerSpaces, PathsBeginAndEndExactlyAndPassEveryCheck)
+    {
+        for (const Space kind : {Space::SE2, Space::ReedsShepp})
+            for (const auto &[start, goal] : QUERIES)
+            {
+                PlanningProblem problem(kind, slotSite());
+                problem.from(start).to({goal});
+                ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+                const std::vector<Pose> poses = problem.poses();
+                EXPECT_TRUE(isAt(poses.front(), start, 0.0));
+                EXPECT_TRUE(isAt(poses.back(), goal, 0.0));
+                EXPECT_TRUE(problem.path().check());  // by the swept validator
+                problem.si->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(problem.si));
+                problem.space->setLongestValidSegmentFraction(0.0005);
+                problem.space->setup();
+                EXPECT_TRUE(problem.path().check());  // and by states 2 cm apart
+            }
+    }
+
+    TEST_F(PlannerSpaces, InterpolationFollowsTheArcs)
+    {
+        for (const Space kind : {Space::SE2, Space::ReedsShepp, Space::Dubins})
+        {
+            PlanningProblem problem(kind, openSite(20.0));
+            problem.from({-8.0, -3.0, 0.0}).to({{5.0, 6.0, -2.0}});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            const parking::ArcPath &arcs = *problem.planner->solutionArcs();
+            og::PathGeometric path = problem.path();
+            EXPECT_NEAR(kind == Space::SE2 ? arcs.length() : path.length(), arcs.length(), 1e-6);
+            path.interpolate(2000);
+            const parking::Path exact = arcs.sample(0.001);
+            std::size_t nearest = 0;
+            for (const Pose &pose : PlanningProblem::posesOf(path))
+            {
+                double least = 1e9;
+                for (std::size_t i = nearest; i < exact.size() && i < nearest + 2000; ++i)
+                    if (const double off = std::hypot(exact[i].pose.x - pose.x, exact[i].pose.y - pose.y) +
+                                           0.1 * std::abs(parking::wrapAngle(exact[i].pose.yaw - pose.yaw));
+                        off < least)
+                    {
+                        least = off;
+                        nearest = i;
+                    }
+                ASSERT_LT(least, 2e-3);
+            }
+        }
+    }
+
+    TEST_F(PlannerSpaces, DubinsCarsNeverReverse)
+    {
+        Site site = openSite(20.0);
+        site.obstacles = {box(-1.0, -6.0, 1.0, 6.0), box(6.0, -12.0, 7.0, 2.0)};
+        for (const bool symmetric : {false, true})
+            for (int i = 0; i < 8; ++i)
+            {
+                PlanningProblem problem(Space::Dubins, site.bounds);
+                if (symmetric)
+                {
+                    const ob::RealVectorBounds bounds = problem.space->as<ob::SE2StateSpace>()->getBounds();
+                    problem.space = std::make_shared<ob::DubinsStateSpace>(problem.vehicle.minTurningRadius(), true);
+                    problem.space->as<ob::SE2StateSpace>()->setBounds(bounds);
+                    problem.si = std::make_shared<ob::SpaceInformation>(problem.space);
+                    problem.pdef = std::make_shared<ob::ProblemDefinition>(problem.si);
+                }
+                problem.setObstacles(site.set());
+                problem.makePlanner();
+                const Pose goal{12.0, -8.0 + 2.0 * i, 0.8 * i - parking::PI};
+                problem.from({-10.0, 0.0, 0.4 * i}).to({goal});
+                ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << i;
+                for (const ArcSegment &segment : problem.planner->solutionArcs()->segments)
+                    EXPECT_GT(segment.length, 0.0);
+                EXPECT_TRUE(isAt(problem.poses().back(), goal));
+                EXPECT_TRUE(problem.path().check());
+            }
+    }
+
+    TEST_F(PlannerSpaces, OtherSpacesAreRefused)
+    {
+        const auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
+        plane->setBounds(-1.0, 1.0);
+        const auto solid = std::make_shared<ob::SE3StateSpace>();
+        ob::RealVectorBounds bounds(3);
+        bounds.setLow(-1.0);
+        bounds.setHigh(1.0);
+        solid->setBounds(bounds);
+        for (const ob::StateSpacePtr &space : {ob::StateSpacePtr(plane), ob::StateSpacePtr(solid)})
+        {
+            const auto si = std::make_shared<ob::SpaceInformation>(space);
+            si->setStateValidityChecker([](const ob::State *) { return true; });
+            og::ImprovedAStar planner(si);
+            const std::string text = refusal(planner);
+            EXPECT_NE(text.find("Reeds-Shepp"), std::string::npos) << text;
+            EXPECT_EQ(text.find('\n'), std::string::npos);
+        }
+    }
+
+    TEST_F(PlannerSpaces, GridsBelongOnAPlainSpace)
+    {
+        for (const Space kind : {Space::ReedsShepp, Space::Dubins})
+            for (const char *model : {"grid8", "grid16"})
+            {
+                PlanningProblem problem(kind, openSite(15.0));
+                problem.planner->setMotionModel(model);
+                const std::string text = refusal(*problem.planner);
+                EXPECT_NE(text.find(model), std::string::npos) << text;
+                EXPECT_NE(text.find("SE2StateSpace"), std::string::npos) << text;
+
+                // Also when the model is changed after the setup.
+                PlanningProblem later(kind, openSite(15.0));
+                later.planner->setup();
+                later.planner->setMotionModel(model);
+                later.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
+                EXPECT_THROW(later.solve(), ompl::Exception);
+            }
+    }
+
+    TEST_F(PlannerSpaces, AnyCheckerWillDo)
+    {
+        // A point among posts, in every space and with every model that goes with it.
+        const auto isFree = [](const Pose &pose)
+        {
+            return std::hypot(pose.x, pose.y - 1.0) > 3.0 && std::hypot(pose.x - 5.0, pose.y + 5.0) > 2.0;
+        };
+        for (const auto &[kind, model] : {std::pair{Space::SE2, "car"},
+                                          {Space::ReedsShepp, "car"},
+                                          {Space::Dubins, "car"},
+                                          {Space::SE2, "grid8"},
+                                          {Space::SE2, "grid16"}})
+        {
+            PlanningProblem problem(kind, openSite(15.0).bounds, isFree);
+            problem.planner->setMotionModel(model);
+            problem.from({-9.0, 0.0, 0.0}).to({{9.0, 0.0, 0.0}});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << model;
+            EXPECT_TRUE(problem.path().check());
+            og::PathGeometric path = problem.path();
+            path.interpolate(1000);
+            for (const Pose &pose : PlanningProblem::posesOf(path))
+                EXPECT_TRUE(std::hypot(pose.x, pose.y - 1.0) > 2.98) << model;
+            EXPECT_GT(problem.planner->checkedStates(), 0u);
+            EXPECT_EQ(problem.planner->exactChecks(), 0u);
+        }
+    }
+
+    TEST_F(PlannerSpaces, AnyMotionValidatorWillDo)
+    {
+        // A rule of the user's that no state tells: no motion may cross the line x = 0 but through a gate.
+        class Gate : public ob::MotionValidator
+        {
+        public:
+            using MotionValidator::MotionValidator;
+            bool checkMotion(const ob::State *a, const ob::State *b) const override
+            {
+                const Pose from = parking::poseOf(a), to = parking::poseOf(b);
+                return (from.x < 0.0) == (to.x < 0.0) || (from.y > 2.0 && to.y > 2.0);
+            }
+            bool checkMotion(const ob::State *a, const ob::State *b,
+                             std::pair<ob::State *, double> &lastValid) const override
+            {
+                lastValid.second = 0.0;
+                return checkMotion(a, b);
+            }
+        };
+        for (const char *model : {"car", "grid8"})
+        {
+            PlanningProblem problem(Space::SE2, openSite(12.0).bounds, [](const Pose &) { return true; });
+            problem.si->setMotionValidator(std::make_shared<Gate>(problem.si));
+            problem.si->setup();
+            problem.planner->setMotionModel(model);
+            problem.from({-4.0, 1.0, 0.0}).to({{4.0, 2.5, 0.0}});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << model;
+            EXPECT_TRUE(problem.path().check()) << model;
+        }
+    }
+
+    TEST_F(PlannerSpaces, TheBoundsOfTheSpaceHold)
+    {
+        // The checker's world is larger than the space.
+        PlanningProblem problem(Space::ReedsShepp, {{-10.0, -4.0}, {10.0, 4.0}});
+        problem.setObstacles(openSite(30.0).set());
+        problem.makePlanner();
+        problem.from({-8.0, 0.0, 0.0}).to({{-8.0, 1.0, parking::PI}});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        for (const parking::PathState &state : problem.planner->solutionArcs()->sample(0.01))
+            EXPECT_TRUE(std::abs(state.pose.x) <= 10.0 + 1e-9 && std::abs(state.pose.y) <= 4.0 + 1e-9);
+        EXPECT_TRUE(problem.path().check());
+    }
+}  // namespace

@@ -1,0 +1,351 @@
+// Each switch of the planner has the effect that it names.
+
+#include "tests/ompl_improved_astar/PlanningProblem.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include <ompl/util/Console.h>
+
+namespace
+{
+    using namespace parking_test;
+    using parking::ArcPath;
+    using parking::ArcSegment;
+    using parking::Pose;
+    using Status = ob::PlannerStatus;
+
+    class PlannerSwitches : public testing::Test
+    {
+    protected:
+        void SetUp() override
+        {
+            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+        }
+
+        /** Plans into the slot, or wherever else, with some parameters changed. */
+        static PlanningProblem planned(Space kind, const Site &site, const Pose &start, const Pose &goal,
+                                       const std::map<std::string, std::string> &parameters)
+        {
+            PlanningProblem problem(kind, site);
+            EXPECT_TRUE(problem.planner->params().setParams(parameters));
+            problem.from(start).to({goal});
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            return problem;
+        }
+
+        static PlanningProblem parked(const std::map<std::string, std::string> &parameters)
+        {
+            return planned(Space::ReedsShepp, slotSite(), AISLE, SLOT, parameters);
+        }
+
+        static double reverse(const ArcPath &path)
+        {
+            double sum = 0.0;
+            for (const ArcSegment &segment : path.segments)
+                sum += std::max(0.0, -segment.length);
+            return sum;
+        }
+
+        static double steering(const ArcPath &path)
+        {
+            double sum = 0.0;
+            for (std::size_t i = 1; i < path.segments.size(); ++i)
+                sum += std::abs(path.segments[i].curvature - path.segments[i - 1].curvature);
+            return sum;
+        }
+
+        static Site gridSite()
+        {
+            return {{box(-3.0, -10.0, -2.0, 6.0), box(3.0, -6.0, 4.0, 10.0)}, {{-15.0, -15.0}, {15.0, 15.0}}};
+        }
+
+        static PlanningProblem onGrid(std::map<std::string, std::string> parameters)
+        {
+            parameters.emplace("motion_model", "grid8");
+            return planned(Space::SE2, gridSite(), {-9.0, -5.0, 0.0}, {9.0, 5.0, 0.0}, parameters);
+        }
+    };
+
+    TEST_F(PlannerSwitches, PenaltiesAreAvoided)
+    {
+        // Behind the car: a longer way round saves reverse. The other way: a wide turn saves changes of gear.
+        const Pose start{0.0, 0.0, 0.0}, behind{-6.0, 0.0, 0.0}, turned{0.5, 0.5, parking::PI};
+        const auto plan = [&](const Pose &goal, const std::string &name, const std::string &value)
+        {
+            PlanningProblem problem(Space::ReedsShepp, openSite(20.0));
+            problem.planner->params().setParam(name, value);
+            problem.from(start).to({goal});
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            return *problem.planner->solutionArcs();
+        };
+        EXPECT_NEAR(reverse(plan(behind, "reverse_penalty", "0")), 6.0, 1e-6);
+        EXPECT_LT(reverse(plan(behind, "reverse_penalty", "10")), 5.0);
+        EXPECT_EQ(plan(turned, "gear_change_penalty", "1").cusps(), 2u);
+        EXPECT_LT(plan(turned, "gear_change_penalty", "20").cusps(), 2u);
+        const Pose aside{10.0, 1.0, 0.0};
+        const auto shift = [&](const char *value)
+        {
+            return steering(*planned(Space::ReedsShepp, openSite(20.0), start, aside,
+                                     {{"steering_change_penalty", value}, {"steering_angles", "7"}, {"anytime", "0"}})
+                                 .planner->solutionArcs());
+        };
+        EXPECT_LE(shift("10"), shift("0"));
+    }
+
+    TEST_F(PlannerSwitches, ClearanceIsKeptWhereItCounts)
+    {
+        const auto closest = [&](const char *weight)
+        {
+            Site site = openSite(15.0);
+            site.obstacles.push_back(box(-2.0, 1.2, 2.0, 4.0));
+            const PlanningProblem problem =
+                planned(Space::ReedsShepp, site, {-9.0, 0.0, 0.0}, {9.0, 0.0, 0.0}, {{"clearance_weight", weight}});
+            double least = 1e9;
+            const parking::FootprintChecker checker(site.set(), problem.vehicle);
+            for (const parking::PathState &state : problem.planner->solutionArcs()->sample(0.05))
+                least = std::min(least, checker.clearance(state.pose));
+            return least;
+        };
+        EXPECT_LT(closest("0"), 0.3);  // straight past
+        EXPECT_GT(closest("10"), closest("0") + 0.2);
+    }
+
+    TEST_F(PlannerSwitches, BidirectionalGrowsBothTreesOtherwiseOnlyOne)
+    {
+        const auto trees = [](const PlanningProblem &problem)
+        {
+            ob::PlannerData data(problem.si);
+            problem.planner->getPlannerData(data);
+            std::pair<int, int> sizes{0, 0};
+            for (unsigned int i = 0; i < data.numVertices(); ++i)
+            {
+                sizes.first += data.getVertex(i).getTag() == 1;
+                sizes.second += data.getVertex(i).getTag() == 2;
+            }
+            return sizes;
+        };
+        const auto both = trees(parked({{"bidirectional", "1"}}));
+        EXPECT_GT(both.first, 1);
+        EXPECT_GT(both.second, 1);
+        const auto fromGoal = trees(parked({{"bidirectional", "0"}, {"search_from", "goal"}}));
+        EXPECT_EQ(fromGoal.first, 1);
+        EXPECT_GT(fromGoal.second, 1);
+        const auto fromStart = trees(parked({{"bidirectional", "0"}, {"search_from", "start"}}));
+        EXPECT_GT(fromStart.first, 1);
+        EXPECT_EQ(fromStart.second, 1);
+
+        const auto grid = trees(onGrid({{"bidirectional", "1"}}));
+        EXPECT_GT(grid.second, 1);
+        EXPECT_EQ(trees(onGrid({{"bidirectional", "0"}})).second, 1);
+    }
+
+    TEST_F(PlannerSwitches, TheOpenListChangesTheTimeOnly)
+    {
+        for (const char *model : {"car", "grid8"})
+        {
+            const auto plan = [&](const char *list)
+            {
+                return planned(Space::SE2, gridSite(), {-9.0, -5.0, 0.0}, {9.0, 5.0, 0.0},
+                               {{"motion_model", model}, {"open_list", list}});
+            };
+            const PlanningProblem heap = plan("binary_heap"), linear = plan("linear");
+            EXPECT_TRUE(areSame(heap.poses(), linear.poses())) << model;
+            EXPECT_EQ(heap.planner->statistics().expanded, linear.planner->statistics().expanded) << model;
+        }
+    }
+
+    TEST_F(PlannerSwitches, LoadingBeforehandFindsTheSamePathAndTakesMapLoadingTime)
+    {
+        for (const char *model : {"car", "grid8"})
+        {
+            const auto plan = [&](const char *loading)
+            {
+                return planned(Space::SE2, gridSite(), {-9.0, -5.0, 0.0}, {9.0, 5.0, 0.0},
+                               {{"motion_model", model}, {"obstacle_loading", loading}});
+            };
+            const PlanningProblem lazy = plan("lazy"), eager = plan("eager");
+            EXPECT_TRUE(areSame(lazy.poses(), eager.poses())) << model;
+            EXPECT_EQ(lazy.planner->mapLoadingTime(), 0.0);
+            EXPECT_GT(eager.planner->mapLoadingTime(), 0.0);
+        }
+        // On grids the checks of states are what is loaded.
+        EXPECT_GT(onGrid({{"obstacle_loading", "eager"}}).planner->checkedStates(),
+                  onGrid({{"obstacle_loading", "lazy"}}).planner->checkedStates());
+    }
+
+    TEST_F(PlannerSwitches, SmoothingRoundsTheCornersOfGridPaths)
+    {
+        Site site = openSite(15.0);
+        const auto sharpest = [&](const char *smoothing)
+        {
+            const PlanningProblem problem =
+                planned(Space::SE2, site, {-9.0, -5.0, 0.0}, {9.0, 4.0, 0.0},
+                        {{"motion_model", "grid8"}, {"smoothing", smoothing}, {"turning_radius", "1.5"}});
+            const std::vector<Pose> poses = problem.poses();
+            double angle = 0.0;
+            for (std::size_t i = 2; i + 1 < poses.size(); ++i)
+                angle = std::max(angle, std::abs(parking::wrapAngle(poses[i].yaw - poses[i - 1].yaw)));
+            EXPECT_TRUE(problem.path().check());
+            return angle;
+        };
+        EXPECT_GT(sharpest("none"), 0.7);
+        EXPECT_LT(sharpest("bspline"), 0.3);
+    }
+
+    TEST_F(PlannerSwitches, GridModelsMoveBetweenNeighbours)
+    {
+        for (const auto &[model, directions] : {std::pair{"grid8", 8}, {"grid16", 16}})
+        {
+            const PlanningProblem problem =
+                planned(Space::SE2, openSite(15.0), {-9.25, -5.25, 0.0}, {9.25, 4.25, 0.0},
+                        {{"motion_model", model}, {"smoothing", "none"}, {"xy_resolution", "0.5"}});
+            std::set<int> steps;
+            const std::vector<Pose> poses = problem.poses();
+            for (std::size_t i = 1; i < poses.size(); ++i)
+            {
+                const double dx = (poses[i].x - poses[i - 1].x) / 0.5, dy = (poses[i].y - poses[i - 1].y) / 0.5;
+                EXPECT_NEAR(dx, std::round(dx), 1e-9);
+                EXPECT_NEAR(dy, std::round(dy), 1e-9);
+                steps.insert(static_cast<int>(std::lround(dx * dx + dy * dy)));
+            }
+            // Turns on the spot, straight, diagonal, knight's moves.
+            for (const int square : steps)
+                EXPECT_TRUE(square <= 2 || (directions == 16 && square == 5)) << model << " " << square;
+            EXPECT_EQ(steps.count(5), directions == 16 ? 1u : 0u);
+        }
+    }
+
+    TEST_F(PlannerSwitches, ShorteningShortens)
+    {
+        EXPECT_LT(parked({{"shortening", "1"}}).path().length(), parked({{"shortening", "0"}}).path().length() + 1e-9);
+        Site site = gridSite();
+        const auto length = [&](const char *value)
+        {
+            return planned(Space::ReedsShepp, site, {-9.0, -5.0, 0.0}, {9.0, 5.0, 0.0}, {{"shortening", value}})
+                .path()
+                .length();
+        };
+        EXPECT_LT(length("1"), length("0") - 0.1);
+    }
+
+    TEST_F(PlannerSwitches, WithoutCurvesNothingEndsExactly)
+    {
+        PlanningProblem problem(Space::ReedsShepp, openSite(12.0));
+        problem.planner->setAnalyticExpansion(false);
+        problem.from(AISLE).to({{4.0, 2.0, 0.0}});
+        EXPECT_EQ(problem.solve(0.3), Status::APPROXIMATE_SOLUTION);
+        EXPECT_EQ(problem.planner->statistics().connections, 0u);
+        EXPECT_LT(problem.pdef->getSolutionDifference(), 3.0);
+    }
+
+    TEST_F(PlannerSwitches, AdaptiveResolutionGetsOutOfANarrowSlot)
+    {
+        // Parallel, 30 cm at each end.
+        const parking::Vehicle car;
+        const Site site{{box(-15.0, -1.2, -car.rearOverhang - 0.3, 1.2),
+                         box(car.wheelbase + car.frontOverhang + 0.3, -1.2, 15.0, 1.2), box(-15.0, -2.0, 15.0, -1.2)},
+                        {{-15.0, -4.0}, {15.0, 12.0}}};
+        const auto solves = [&](const char *value)
+        {
+            PlanningProblem problem(Space::ReedsShepp, site);
+            problem.planner->params().setParam("adaptive_resolution", value);
+            problem.from({-8.0, 4.0, 0.0}).to({{0.0, 0.0, 0.0}});
+            return problem.solve(20.0) == Status::EXACT_SOLUTION;
+        };
+        EXPECT_TRUE(solves("1"));
+        EXPECT_FALSE(solves("0"));
+    }
+
+    TEST_F(PlannerSwitches, TheObstacleHeuristicSavesExpansionsInDeadEnds)
+    {
+        // A cul-de-sac in the straight way.
+        Site site = openSite(20.0);
+        site.obstacles = {box(3.0, -5.0, 4.0, 5.0), box(-4.0, 4.0, 3.0, 5.0), box(-4.0, -5.0, 3.0, -4.0)};
+        const auto plan = [&](const char *value)
+        {
+            return planned(Space::ReedsShepp, site, {-1.0, 0.0, 0.0}, {12.0, 0.0, 0.0}, {{"obstacle_heuristic", value}})
+                .planner->statistics();
+        };
+        EXPECT_GT(plan("1").heuristicCells, 0u);
+        EXPECT_EQ(plan("0").heuristicCells, 0u);
+        EXPECT_LT(plan("1").expanded, plan("0").expanded);
+    }
+
+    TEST_F(PlannerSwitches, WeightsTradeWorkForLength)
+    {
+        const auto plan = [](const char *weight)
+        {
+            return onGrid({{"heuristic_weight_far", weight},
+                           {"heuristic_weight_near", weight},
+                           {"smoothing", "none"},
+                           {"bidirectional", "0"}});
+        };
+        const PlanningProblem exact = plan("1"), greedy = plan("3"), blind = plan("0");
+        EXPECT_LT(greedy.planner->statistics().expanded, exact.planner->statistics().expanded);
+        EXPECT_LT(exact.planner->statistics().expanded, blind.planner->statistics().expanded);
+        const auto driven = [](const PlanningProblem &problem)
+        {
+            double sum = 0.0;  // without the turns on the spot, which OMPL counts
+            const std::vector<Pose> poses = problem.poses();
+            for (std::size_t i = 1; i < poses.size(); ++i)
+                sum += std::hypot(poses[i].x - poses[i - 1].x, poses[i].y - poses[i - 1].y);
+            return sum;
+        };
+        EXPECT_LE(driven(exact), driven(greedy) + 1e-9);
+        EXPECT_NEAR(driven(exact), driven(blind), 1e-3 * driven(exact));  // tie_break
+    }
+
+    TEST_F(PlannerSwitches, ResolutionAndHeadingsSetTheNumberOfCells)
+    {
+        EXPECT_GT(onGrid({{"xy_resolution", "0.25"}}).planner->statistics().expanded,
+                  onGrid({{"xy_resolution", "0.5"}}).planner->statistics().expanded);
+        const auto generated = [](const std::map<std::string, std::string> &parameters)
+        {
+            PlanningProblem problem(Space::ReedsShepp, closedSite());
+            problem.planner->params().setParams(parameters);
+            problem.planner->setAdaptiveResolution(false);
+            problem.planner->setObstacleHeuristic(false);
+            problem.planner->setApproximate(false);
+            problem.planner->setBidirectional(false);
+            problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
+            EXPECT_EQ(problem.solve(20.0), Status::TIMEOUT);
+            return problem.planner->statistics().expanded;
+        };
+        const auto usual = generated({{"xy_resolution", "1"}, {"heading_bins", "24"}});
+        EXPECT_GT(generated({{"xy_resolution", "0.5"}, {"heading_bins", "24"}}), usual);
+        EXPECT_GT(generated({{"xy_resolution", "1"}, {"heading_bins", "48"}}), usual);
+    }
+
+    TEST_F(PlannerSwitches, SteeringAnglesGiveMoreMotions)
+    {
+        const auto ratio = [](const char *count)
+        {
+            PlanningProblem problem(Space::ReedsShepp, slotSite());
+            problem.planner->params().setParam("steering_angles", count);
+            problem.from(AISLE).to({SLOT});
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            const auto statistics = problem.planner->statistics();
+            return static_cast<double>(statistics.generated) / static_cast<double>(statistics.expanded);
+        };
+        EXPECT_GT(ratio("7"), 1.3 * ratio("3"));
+    }
+
+    TEST_F(PlannerSwitches, TheTurningRadiusIsKept)
+    {
+        for (const double radius : {2.0, 3.5, 6.0})
+        {
+            PlanningProblem problem(Space::SE2, openSite(25.0));
+            problem.planner->setTurningRadius(radius);
+            problem.from({0.0, 0.0, 0.0}).to({{0.0, 3.0, parking::PI}});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            double sharpest = 0.0;
+            for (const ArcSegment &segment : problem.planner->solutionArcs()->segments)
+                sharpest = std::max(sharpest, std::abs(segment.curvature));
+            EXPECT_NEAR(sharpest, 1.0 / radius, 1e-9);
+        }
+    }
+}  // namespace
