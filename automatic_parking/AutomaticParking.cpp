@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/Text.h"
+#include "path_tracking/PathSections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,8 @@ namespace parking
 {
     namespace
     {
-        constexpr double LOOK_BACK = 0.1;  // metres of path behind the car that still count as being before it
+        constexpr double SAME_PLACE = 1e-6;  // metres
+        constexpr double LOOK_BACK = 0.1;    // metres of path behind the car that still count as being before it
 
         void checkPositive(const char *field, double value)
         {
@@ -199,7 +201,16 @@ namespace parking
                          " degrees off the path";
             else if (update_)
                 if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
-                    takeOver(std::move(*changed), leg.plan.path, record.control.s);
+                    try
+                    {
+                        takeOver(std::move(*changed), leg.plan.path, record.control.s);
+                    }
+                    catch (const Error &error)
+                    {
+                        // A moving car is stopped, whatever is wrong with its map.
+                        cause_ = std::string("the changed map cannot be used: ") + error.what();
+                        hopeless_ = true;
+                    }
             return cause_.empty();
         }
 
@@ -213,8 +224,8 @@ namespace parking
             changed.start = scenario_.start;
             changed.vehicle = scenario_.vehicle;
             const bool moved = !sameGoals(changed, scenario_);
+            world_ = ParkingWorld(changed);
             scenario_ = std::move(changed);
-            world_ = ParkingWorld(scenario_);
             std::size_t first = 0;
             while (first + 1 < path.size() && path[first + 1].arcLength < s - LOOK_BACK)
                 ++first;
@@ -235,10 +246,10 @@ namespace parking
             if (!drive.arrived)
             {
                 reason = cause_.empty() ? drive.message : cause_;
-                if (!cause_.empty())
+                if (!cause_.empty() && !hopeless_)
                     return false;
-                // The controller stopped for a reason that another path would not mend.
-                finish(ParkingStatus::Stopped, drive.message);
+                // The controller stopped for a reason that another path would not mend, or there is no map for one.
+                finish(ParkingStatus::Stopped, reason);
                 return true;
             }
             const Pose stands = drive.log.back().control.estimate;
@@ -276,7 +287,8 @@ namespace parking
         Pose goal_;
         double time_{0.0};
         double steering_{0.0};
-        std::string cause_;  // why the drive under way was stopped by watch(); empty otherwise
+        bool hopeless_{false};  // is there no use in planning again?
+        std::string cause_;     // why the drive under way was stopped by watch(); empty otherwise
         ParkingResult result_;
     };
 
@@ -304,6 +316,40 @@ namespace parking
     {
         const MapUpdate none;
         return Session(parameters_, none, solve_, scenario).follow(path);
+    }
+
+    Path asChords(const Path &path, const Vehicle &vehicle)
+    {
+        Path result;
+        const double most = 1.0 / vehicle.minTurningRadius();
+        for (const PathState &state : path)
+        {
+            if (!result.empty() && distance(result.back().pose, state.pose) < SAME_PLACE)
+            {
+                // Turning on the spot: what counts is the heading that the car leaves with.
+                if (&state == &path.back())
+                    result.back().pose.yaw = state.pose.yaw;
+                continue;
+            }
+            PathState next = state;
+            next.direction = 1;
+            next.curvature = 0.0;
+            next.arcLength = result.empty() ? 0.0 : result.back().arcLength + distance(result.back().pose, state.pose);
+            if (!result.empty())
+            {
+                const Pose &from = result.back().pose;
+                const double chord = std::atan2(state.pose.y - from.y, state.pose.x - from.x);
+                const double turn = wrapAngle(state.pose.yaw - from.yaw);
+                const bool along = std::abs(wrapAngle(0.5 * turn + from.yaw - chord)) < CORNER_ANGLE;
+                const double curvature = turn / (next.arcLength - result.back().arcLength);
+                if (along && std::abs(curvature) <= most)
+                    next.curvature = curvature;
+                else if (&state != &path.back())
+                    next.pose.yaw = chord;
+            }
+            result.push_back(next);
+        }
+        return result;
     }
 
     Evaluation combined(const std::vector<Evaluation> &drives)

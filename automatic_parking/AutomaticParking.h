@@ -71,8 +71,8 @@ namespace parking
         /** \brief Asked each period for a world that has changed: seconds since the first command, and the pose that
             the car believes in. Nothing: all is as before.
 
-            Obstacles, goals and slot of the new scenario count; its start does not. Its coordinates must be those of
-            the first one (same worldOffset). */
+            Obstacles, goals and slot of the new scenario count; its start and its car do not. Its coordinates must be
+            those of the first one (same worldOffset). A scenario that makes no sense is a safe stop. */
         using MapUpdate = std::function<std::optional<Scenario>(double time, const Pose &car)>;
 
         /** \brief Throws parking::Error for parameters out of their range. */
@@ -90,8 +90,8 @@ namespace parking
 
         /** \brief Parks the car of \e scenario.
 
-            Throws parking::Error for a scenario that makes no sense (no goal, an invalid car, another worldOffset after
-            a change); everything else is in the result.
+            Throws parking::Error for a scenario that makes no sense (no goal, an invalid car); everything else is in
+            the result.
             \param start where the car really stands, when that is not where the scenario believes it to be */
         ParkingResult park(const Scenario &scenario, const std::optional<Pose> &start = std::nullopt) const;
 
@@ -106,6 +106,13 @@ namespace parking
         MapUpdate update_;
         TrackingController::Solve solve_;
     };
+
+    /** \brief A path of straight chords, a grid planner's for example, as drives take it: forwards, the heading of each
+        state that of its chord, which may jump from one to the next (see ReferencePath on corners).
+
+        Arcs that the car can drive are kept, so that a spline keeps its shape where it is wide enough. The first and
+       the last heading are kept: the car turns there. */
+    Path asChords(const Path &path, const Vehicle &vehicle);
 
     /** \brief The figures of several drives, one after the other, as if they were one. */
     Evaluation combined(const std::vector<Evaluation> &drives);

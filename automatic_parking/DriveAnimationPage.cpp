@@ -164,7 +164,8 @@ function show() {
   if (byId('follow').checked) {
     const wide = Math.min(whole[2], 22 * drive.scale), high = wide * whole[3] / whole[2];
     const px = metres.a * x + metres.e, py = metres.d * y + metres.f;
-    scene.setAttribute('viewBox', `${px - wide / 2} ${py - high / 2} ${wide} ${high}`);
+    const within = (middle, size, all) => Math.min(all - size, Math.max(0, middle - size / 2));
+    scene.setAttribute('viewBox', `${within(px, wide, whole[2])} ${within(py, high, whole[3])} ${wide} ${high}`);
   } else scene.setAttribute('viewBox', whole.join(' '));
 }
 
@@ -216,7 +217,7 @@ const plots = [
   makePlot('Speed', 'm/s', drive.v, drive.maxSpeed, [-2, -1, 0, 1, 2].filter(v => Math.abs(v) <= drive.maxSpeed)),
   makePlot('Acceleration', 'm/s\u00b2', drive.a, drive.maxAcceleration,
            [-1, -0.5, 0, 0.5, 1].filter(v => Math.abs(v) <= drive.maxAcceleration)),
-  makePlot('Steering angle', 'degrees', drive.steering.map(degrees), degrees(drive.maxSteering), [-40, -20, 0, 20, 40])];
+  makePlot('Steering angle', 'degrees', drive.steering.map(degrees), degrees(drive.maxSteering), [-40, -20, 0, 20, 40].filter(v => Math.abs(v) <= degrees(drive.maxSteering)))];
 
 function go(to) {
   time = Math.min(end, Math.max(begin, to));

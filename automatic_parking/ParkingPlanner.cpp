@@ -25,10 +25,11 @@ namespace parking
         constexpr double CLEARANCE_RANGE = 1.0;   // metres of clearance from which on there is no extra cost
 
         // A path of the search all the way must be cheaper than a manoeuvre by this factor to be taken instead.
-        constexpr double MANOEUVRE_PREFERENCE = 1.2;
+        constexpr double MANOEUVRE_PREFERENCE = 1.5;
         constexpr double MANOEUVRE_RADIUS = 1.1;  // of manoeuvres where there is room, over the smallest
+        constexpr double LATE = 0.5;              // share of the time that all but the last try may take
         // What a gap is worth: GAP_UNIT / (gap + GAP_OFFSET), metres.
-        constexpr double GAP_UNIT = 0.25, GAP_OFFSET = 0.05;
+        constexpr double GAP_UNIT = 0.25, GAP_OFFSET = 0.02;
 
         using Clock = std::chrono::steady_clock;
 
@@ -106,6 +107,12 @@ namespace parking
                 return elapsed() > parameters_.timeLimit;
             }
 
+            /** Is it time for the last resort? */
+            bool isLate() const
+            {
+                return elapsed() > LATE * parameters_.timeLimit;
+            }
+
             /** Length of the shortest curve to any goal, obstacles or not. */
             double leastLength(double radius) const
             {
@@ -178,8 +185,11 @@ namespace parking
                 planner.addStart(scenario_.start);
                 for (const Pose &goal : goals)
                     planner.addGoal(goal);
-                planner.solve(
-                    [&] { return isOver() || (expansions > 0 && planner.statistics().expanded >= expansions); }, {});
+                const auto stop = [&]
+                {
+                    return expansions == 0 ? isOver() : isLate() || planner.statistics().expanded >= expansions;
+                };
+                planner.solve(stop, {});
                 const search::SearchStatistics statistics = planner.statistics();
                 plan_.search.expanded += statistics.expanded;
                 plan_.search.generated += statistics.generated;
@@ -389,12 +399,14 @@ namespace parking
                 // Nothing that a smaller gap allows can be shorter than the bare curve.
                 if (search.isOver() || search.leastLength(radius) + worth(gap) >= best)
                     break;
+                const bool last = !plan.found && gap == gaps.back() && radius == radii.back();
+                if (search.isLate() && !last)
+                    continue;
                 const auto before = Clock::now();
                 const std::shared_ptr<const FootprintChecker> checker = world.enlarged(gap);
                 plan.loadingTime += secondsSince(before);
                 if (!checker)
                     continue;
-                const bool last = !plan.found && gap == gaps.back() && radius == radii.back();
                 Candidate found = search.find(checker, radius, last ? 0 : parameters_.expansionsPerGap);
                 if (!(found.cost + worth(gap) < best))
                     continue;

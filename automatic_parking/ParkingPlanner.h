@@ -21,15 +21,16 @@ namespace parking
     /** \brief How a parking path is planned. */
     struct PlanningParameters
     {
-        double timeLimit{5.0};  ///< seconds for all tries together
+        double timeLimit{10.0};  ///< seconds for all tries together; half of them for all but the last
 
         /** Gaps in metres kept all round the body, largest first; one that start or goal do not leave is not tried. */
         std::vector<double> gaps{0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
-        /** What a gap is worth: of two paths the one with the smaller cost + gapWorth * 0.25 m / (gap + 0.05 m) is
-            taken, in metres. At 3, 25 cm may cost 5 m of way more than 6 cm, and 12 m more than grazing. */
+        /** What a gap is worth: of two paths the one with the smaller cost + gapWorth * 0.25 m / (gap + 0.02 m) is
+            taken, in metres. At 3, keeping 25 cm may cost 7 m of way more than 6 cm, and 6 cm 28 m more than grazing.
+         */
         double gapWorth{3.0};
         /** Expansions after which a gap is given up; the last one is granted all of the time. */
-        std::uint64_t expansionsPerGap{1500};
+        std::uint64_t expansionsPerGap{4000};
 
         /** Planned turning radius over the car's smallest: what is above 1 is room for smoothing and correcting. Where
             there is no path with it, there may be one with 1. */

@@ -38,6 +38,7 @@ namespace parking
             add("from", po::value<Texts>()->value_name("FILE|DIR")->composing(),
                 "with --merge: where the runs are; may be given several times");
             add("fresh", "start over, whatever is finished");
+            add("no-report", "leave out the HTML report");
             add("quiet", "tell no progress");
             add("help", "this text");
             return options;
@@ -63,9 +64,11 @@ namespace parking
         const po::variables_map values =
             parseCommandLine(arguments, options, po::positional_options_description().add("config", 1));
         BenchmarkOptions result;
+        if (values.count("plugin") > 0)
+            result.plugins = values["plugin"].as<Texts>();
         result.help = values.count("help") > 0;
         if (result.help)
-            return result;
+            return result;  // with the plug-ins, whose planners it names
         const auto text = [&values](const char *name)
         {
             return values[name].as<std::string>();
@@ -95,10 +98,10 @@ namespace parking
             readShard(result, text("shard"));
         result.scenarios = texts("scenarios");
         result.planners = texts("planner");
-        result.plugins = texts("plugin");
         result.merge = given("merge");
         result.inputs = texts("from");
         result.fresh = given("fresh");
+        result.report = !given("no-report");
         result.quiet = given("quiet");
         if (!result.inputs.empty() && !result.merge)
             throw Error("--from goes with --merge only");
@@ -116,7 +119,7 @@ namespace parking
              << describe() << "\nPlanners:";
         for (const std::string &each : registry.names())
             text << ' ' << each;
-        text << "\n\nStatus: 0 done, 1 runs are missing, 2 bad input or usage, 130 interrupted\n";
+        text << "\n\nStatus: 0 done, 1 runs or the report are missing, 2 bad input or usage, 130 interrupted\n";
         return text.str();
     }
 }  // namespace parking

@@ -26,6 +26,7 @@ namespace parking
         bool merge{false};                ///< only put together what is there
         std::vector<std::string> inputs;  ///< to merge: files or folders; empty: the output folder
         bool fresh{false};
+        bool report{true};  ///< make the HTML report, too
         bool quiet{false};
     };
 

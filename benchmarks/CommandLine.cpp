@@ -24,7 +24,8 @@ namespace parking
     {
         std::vector<std::string> names;
         for (const auto &option : options.options())
-            names.push_back("--" + option->long_name());
+            if (positional.max_total_count() == 0 || option->long_name() != positional.name_for_position(0))
+                names.push_back("--" + option->long_name());
         try
         {
             po::variables_map values;

@@ -85,7 +85,6 @@ namespace parking
                                             : "results-" + fs::path(options.config).stem().string();
         requireStatisticsProgram();
         experiments_ = planExperiments(config_);
-        makeFolder(folder_);
     }
 
     std::string Comparison::runsFile() const
@@ -98,9 +97,12 @@ namespace parking
 
     json Comparison::header(const std::vector<std::string> &setups) const
     {
+        std::string program = fileDigest("/proc/self/exe");
+        for (const std::string &plugin : options_.plugins)
+            program += "+" + fileDigest(plugin);
         json result{
             {"fingerprint", fingerprint(config_, experiments_)},
-            {"program", fileDigest("/proc/self/exe")},
+            {"program", program},
             {"config", config_.file},
             {"host", ompl::machine::getHostname()},
             {"cpu", ompl::machine::getCPUInfo()},
@@ -131,6 +133,7 @@ namespace parking
     {
         UnitRunner runner(config_, experiments_, registry_, stop);
         runner.checkSettings();
+        makeFolder(folder_);
         std::vector<std::string> setups;
         for (std::size_t i = 0; i < experiments_.size(); ++i)
             setups.push_back(runner.setupText(i));
@@ -209,11 +212,11 @@ namespace parking
         };
         if (!options_.merge)
             return {runsFile()};
-        if (options_.inputs.empty())
+        std::error_code ignored;
+        if (options_.inputs.empty() && fs::is_directory(folder_, ignored))
             addFolder(folder_);
         for (const std::string &input : options_.inputs)
         {
-            std::error_code ignored;
             if (fs::is_directory(input, ignored))
                 addFolder(input);
             else
@@ -257,6 +260,8 @@ namespace parking
 
     ComparisonFiles Comparison::write()
     {
+        if (!options_.inputs.empty())
+            makeFolder(folder_);
         gather();
         ComparisonFiles files;
         files.folder = folder_;
@@ -310,7 +315,16 @@ namespace parking
         writeFileAtomically(files.table, summaryMarkdown(summaryRows));
         files.csv = (folder / "summary.csv").string();
         writeFileAtomically(files.csv, summaryCsv(summaryRows));
-        files.report = makeReport(folder_);
+        // Last, and whatever happens to it does not harm the results.
+        try
+        {
+            if (options_.report)
+                files.report = makeReport(folder_, inputs());
+        }
+        catch (const Error &error)
+        {
+            files.reportError = error.what();
+        }
         return files;
     }
 }  // namespace parking

@@ -21,7 +21,8 @@ namespace parking
         std::string database;
         std::string table;  ///< Markdown
         std::string csv;
-        std::string report;  ///< HTML; empty when there is no python3 to make it
+        std::string report;       ///< HTML; empty when there is no python3 to make it
+        std::string reportError;  ///< why there is none although there should be
         std::vector<std::string> pictures;
         std::size_t missing{0};  ///< runs that are not there
     };
@@ -30,11 +31,12 @@ namespace parking
     class Comparison
     {
     public:
-        /** \brief Reads the configuration and all scenarios, and makes the output folder. Throws parking::Error. */
+        /** \brief Reads the configuration and all scenarios. Throws parking::Error. */
         Comparison(const BenchmarkOptions &options, const PlannerRegistry &registry);
 
         /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
-            configuration count. A finished or different comparison in the same folder is set aside first.
+            configuration count. Makes the output folder, once all settings are found to be right. A finished or
+           different comparison in the same folder is set aside first.
 
             \param stop once true, ends before the next run
             \return whether all are done. Throws parking::Error. */

@@ -37,6 +37,7 @@ namespace parking
             add("track", "drive the path with the model predictive controller");
             add("json", po::value<std::string>()->value_name("FILE|-"), "write the result, - to standard output");
             add("svg", po::value<std::string>()->value_name("FILE"), "draw the result");
+            add("html", po::value<std::string>()->value_name("FILE"), "with --track: a page that shows the drive");
             add("plugin", po::value<Texts>()->value_name("LIB.so")->composing(), "load planners from a library");
             add("help", "this text");
             return options;
@@ -50,9 +51,11 @@ namespace parking
         const po::variables_map values =
             parseCommandLine(arguments, options, po::positional_options_description().add("scenario", 1));
         PlanOptions result;
+        if (values.count("plugin") > 0)
+            result.plugins = values["plugin"].as<Texts>();
         result.help = values.count("help") > 0;
         if (result.help)
-            return result;
+            return result;  // with the plug-ins, whose planners it names
         const auto text = [&values](const char *name)
         {
             return values[name].as<std::string>();
@@ -88,9 +91,12 @@ namespace parking
             result.json = text("json");
         if (given("svg"))
             result.svg = text("svg");
-        if (given("plugin"))
-            result.plugins = values["plugin"].as<Texts>();
-        if ((given("json") && result.json.empty()) || (given("svg") && result.svg.empty()))
+        if (given("html"))
+            result.html = text("html");
+        if (given("html") && !result.track)
+            throw Error("--html shows the drive and needs --track");
+        if ((given("json") && result.json.empty()) || (given("svg") && result.svg.empty()) ||
+            (given("html") && result.html.empty()))
             throw Error("the name of an output file is empty");
         return result;
     }

@@ -1,5 +1,9 @@
 #include "benchmarks/PlanResult.h"
 
+#include "automatic_parking/AutomaticParking.h"
+#include "automatic_parking/DriveAnimation.h"
+#include "automatic_parking/DriveFigure.h"
+#include "benchmarks/PathQuality.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/Svg.h"
 #include "parking_geometry/io/Text.h"
@@ -7,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 using nlohmann::json;
 
@@ -247,6 +252,9 @@ namespace parking
         figure.setMap(map);
         if (path.size() > 1)
             figure.addPlot(curvaturePlot(path, scenario.vehicle));
+        if (result.drive)
+            for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle))
+                figure.addPlot(plot);
         return figure.toString();
     }
 
@@ -255,16 +263,31 @@ namespace parking
         const PlanRun &run = result.first();
         if (!run.path)
             return;
-        try
+        const Scenario &scenario = problem.scenario();
+        ParkingParameters parameters;
+        Path path = run.path->states;
+        if (run.path->straight)
         {
-            ClosedLoop loop(problem.scenario().vehicle);
-            loop.setClearance([&problem](const Pose &pose) { return problem.footprint().clearance(pose); });
-            loop.setValidity([&problem](const Pose &pose) { return problem.footprint().isFree(pose); });
-            result.drive = loop.drive(run.path->states);
+            // A car that turns at the corners of a grid may leave the path by its turning circle.
+            path = asChords(path, scenario.vehicle);
+            parameters.drive.tracking.reference.maxCornerDeviation = 3.0 * scenario.vehicle.minTurningRadius();
         }
-        catch (const Error &error)
-        {
-            result.driveError = error.what();
-        }
+        ParkingResult driven = AutomaticParking(parameters).drive(scenario, path);
+        if (driven.status == ParkingStatus::NotDrivable)
+            result.driveError = driven.message;
+        else
+            result.drive = std::move(driven.legs.front().drive);
+    }
+
+    std::string resultHtml(const Problem &problem, const PlanResult &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        if (!result.drive)
+            throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
+        const Evaluation &figures = result.drive->evaluation;
+        return driveAnimation(scenario, result.first().path->states, result.drive->trajectory, scenario.name,
+                              result.planner + ", " + fixed(figures.drivenLength, 1) + " m in " +
+                                  fixed(figures.travelTime, 1) + " s, ends " +
+                                  fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path");
     }
 }  // namespace parking

@@ -40,9 +40,12 @@ namespace parking
     /** \brief The result for a reader in a hurry: a few lines. */
     std::string resultSummary(const Problem &problem, const PlanResult &result);
 
-    /** \brief Map, car along the path, driven track and curvature. */
+    /** \brief Map, car along the path, curvature; with a drive its track, speed, acceleration and steering angle. */
     std::string resultSvg(const Problem &problem, const PlanResult &result);
 
     /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
     void drivePath(const Problem &problem, PlanResult &result);
+
+    /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */
+    std::string resultHtml(const Problem &problem, const PlanResult &result);
 }  // namespace parking

@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace og = ompl::geometric;
@@ -67,6 +68,16 @@ namespace parking
             return (... || (dynamic_cast<const ompl::base::SpecificParam<Types> *>(&parameter) != nullptr));
         }
 
+        constexpr double GREATEST_INT = std::numeric_limits<short>::max();  // enough for any parameter with a sign
+
+        std::size_t greatest(const ompl::base::GenericParam &parameter)
+        {
+            if (isOneOf<unsigned short>(parameter))
+                return std::numeric_limits<unsigned short>::max();
+            return isOneOf<unsigned int>(parameter) ? std::numeric_limits<unsigned int>::max()
+                                                    : std::numeric_limits<std::size_t>::max();
+        }
+
         /** The text that \e parameter shall be set to, or an empty one when \e value is of another type than it.
 
             OMPL itself is content when a value begins like a number, and takes -1 for the largest unsigned one. */
@@ -84,13 +95,16 @@ namespace parking
             double number = 0.0;
             if (isOneOf<float, double, long double>(parameter))
                 return parseNumber(value, number) ? value : "";
+            // What is too large for the type would come out as another number.
             if (isOneOf<unsigned int, unsigned long, unsigned long long, unsigned short>(parameter))
             {
                 std::size_t count = 0;
-                return parseCount(value, count) ? value : "";
+                return parseCount(value, count) && count <= greatest(parameter) ? value : "";
             }
             if (isOneOf<int, long, long long, short>(parameter))
-                return parseNumber(value, number) && number == std::trunc(number) ? value : "";
+                return parseNumber(value, number) && number == std::trunc(number) && std::abs(number) <= GREATEST_INT
+                           ? value
+                           : "";
             return value;
         }
 

@@ -26,12 +26,15 @@ namespace parking
         }
     }  // namespace
 
-    std::string makeReport(const std::string &folder)
+    std::string makeReport(const std::string &folder, const std::vector<std::string> &runs)
     {
         const std::string script = findScript();
         if (script.empty() || !isProgram("python3"))
             return "";
-        const ProcessResult result = runProcess({"python3", script, folder});
+        std::vector<std::string> command{"python3", script, folder};
+        for (const std::string &file : runs)
+            command.insert(command.end(), {"--runs", file});
+        const ProcessResult result = runProcess(command);
         const std::string report = (fs::path(folder) / "report.html").string();
         if (result.status != 0)
             throw Error(report + ": cannot be made: " + lastLine(result.errors));

@@ -21,6 +21,12 @@ namespace parking
     {
         constexpr std::size_t FILE_LIMIT = std::size_t(4) << 30;  // bytes
         constexpr int FORMAT = 1;
+
+        bool hasContent(const std::string &file)
+        {
+            std::error_code ignored;
+            return std::filesystem::exists(file, ignored) && std::filesystem::file_size(file, ignored) > 0;
+        }
     }  // namespace
 
     std::pair<json, std::vector<RunRecord>> ResultStore::read(const std::string &file, std::size_t *end)
@@ -61,18 +67,19 @@ namespace parking
         return result;
     }
 
-    ResultStore::ResultStore(std::string file, const json &header, bool fresh) : file_(std::move(file)), header_(header)
+    ResultStore::ResultStore(std::string file, const json &header, bool fresh)
+      : file_(std::move(file)),
+        exists_(hasContent(file_)),
+        descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)),
+        header_(header)
     {
         header_["parking_benchmark"] = FORMAT;
-        std::error_code ignored;
         std::size_t end = 0;
-        const bool exists = std::filesystem::exists(file_, ignored) && std::filesystem::file_size(file_, ignored) > 0;
-        descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-        if (descriptor_ < 0)
+        if (descriptor_.value < 0)
             throw Error(file_ + ": cannot be written: " + std::strerror(errno));
-        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        if (flock(descriptor_.value, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             throw Error(file_ + ": another parking_benchmark is writing it at this moment");
-        if (exists && !fresh)
+        if (exists_ && !fresh)
         {
             auto [oldHeader, oldRecords] = read(file_, &end);
             if (oldHeader.value("fingerprint", "") != header_.value("fingerprint", ""))
@@ -86,16 +93,16 @@ namespace parking
                 records_.push_back(std::move(record));
             }
         }
-        if (ftruncate(descriptor_, static_cast<off_t>(end)) != 0 || lseek(descriptor_, 0, SEEK_END) < 0)
+        if (ftruncate(descriptor_.value, static_cast<off_t>(end)) != 0 || lseek(descriptor_.value, 0, SEEK_END) < 0)
             throw Error(file_ + ": cannot be written: " + std::strerror(errno));
         if (end == 0)
             writeLine(header_.dump());
     }
 
-    ResultStore::~ResultStore()
+    ResultStore::Descriptor::~Descriptor()
     {
-        if (descriptor_ >= 0)
-            close(descriptor_);
+        if (value >= 0)
+            close(value);
     }
 
     bool ResultStore::has(const std::string &experiment, const std::string &planner, std::size_t run) const
@@ -113,11 +120,11 @@ namespace parking
     void ResultStore::writeLine(const std::string &line)
     {
         const std::string text = line + "\n";
-        const off_t before = lseek(descriptor_, 0, SEEK_CUR);
+        const off_t before = lseek(descriptor_.value, 0, SEEK_CUR);
         std::size_t written = 0;
         while (written < text.size())
         {
-            const ssize_t count = write(descriptor_, text.data() + written, text.size() - written);
+            const ssize_t count = write(descriptor_.value, text.data() + written, text.size() - written);
             if (count >= 0)
             {
                 written += static_cast<std::size_t>(count);
@@ -127,8 +134,8 @@ namespace parking
                 continue;
             const std::string cause = std::strerror(errno);
             // A line cut short would be ignored by readers; better not to leave one.
-            if (ftruncate(descriptor_, before) == 0)
-                lseek(descriptor_, before, SEEK_SET);
+            if (ftruncate(descriptor_.value, before) == 0)
+                lseek(descriptor_.value, before, SEEK_SET);
             throw Error(file_ + ": cannot be written: " + cause);
         }
     }

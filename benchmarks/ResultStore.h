@@ -25,7 +25,6 @@ namespace parking
             \param fresh forget what is there
             Throws parking::Error when the file cannot be written, or holds the runs of another comparison. */
         ResultStore(std::string file, const nlohmann::json &header, bool fresh);
-        ~ResultStore();
         ResultStore(const ResultStore &) = delete;
         ResultStore &operator=(const ResultStore &) = delete;
 
@@ -55,10 +54,24 @@ namespace parking
     private:
         using Key = std::tuple<std::string, std::string, std::size_t>;
 
+        /** An open file; a member, so that it is closed when the constructor throws, too. */
+        struct Descriptor
+        {
+            explicit Descriptor(int number) : value(number)
+            {
+            }
+            ~Descriptor();
+            Descriptor(const Descriptor &) = delete;
+            Descriptor &operator=(const Descriptor &) = delete;
+
+            int value;
+        };
+
         void writeLine(const std::string &line);
 
         std::string file_;
-        int descriptor_{-1};
+        bool exists_{false};  ///< there was something in it
+        Descriptor descriptor_;
         nlohmann::json header_;
         std::vector<RunRecord> records_;
         std::map<Key, std::size_t> index_;

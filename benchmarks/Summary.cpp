@@ -84,7 +84,7 @@ namespace parking
                         cusps.push_back(record.number("cusps INTEGER"));
                         clearances.push_back(record.number("least clearance REAL"));
                     }
-                    else if (record.hasPath && record.exact)
+                    else if (record.number("densely valid BOOLEAN") == 0.0 && record.exact)
                         ++row.invalid;
                     else if (record.hasPath)
                         ++row.approximate;

@@ -2,6 +2,7 @@
 
 #include "benchmarks/BenchmarkOptions.h"
 #include "benchmarks/Comparison.h"
+#include "benchmarks/PluginLoader.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/Text.h"
 
@@ -52,7 +53,8 @@ namespace
     {
         using namespace parking;
         const BenchmarkOptions options = readBenchmarkOptions(arguments);
-        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        PlannerRegistry registry = PlannerRegistry::builtIn();
+        loadPlugins(registry, options.plugins);
         if (options.help)
         {
             std::cout << benchmarkHelp(registry);
@@ -86,11 +88,12 @@ namespace
             list("Report", {files.report});
         if (!std::cout.flush())
             throw Error("standard output cannot be written");
-        if (files.missing == 0)
-            return DONE;
-        std::cerr << "parking_benchmark: " << files.missing << " runs are missing; the results hold what there is"
-                  << std::endl;
-        return INCOMPLETE;
+        if (!files.reportError.empty())
+            std::cerr << "parking_benchmark: " << files.reportError << std::endl;
+        if (files.missing > 0)
+            std::cerr << "parking_benchmark: " << files.missing << " runs are missing; the results hold what there is"
+                      << std::endl;
+        return files.missing > 0 || !files.reportError.empty() ? INCOMPLETE : DONE;
     }
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include "benchmarks/CommandLine.h"
 #include "benchmarks/PlanOptions.h"
 #include "benchmarks/PlanResult.h"
+#include "benchmarks/PluginLoader.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/io/Text.h"
@@ -23,7 +24,8 @@ namespace
     {
         using namespace parking;
         const PlanOptions options = readPlanOptions(arguments);
-        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        PlannerRegistry registry = PlannerRegistry::builtIn();
+        loadPlugins(registry, options.plugins);
         if (options.help)
         {
             std::cout << planHelp(registry);
@@ -38,6 +40,8 @@ namespace
             requireWritable(options.json);
         if (!options.svg.empty())
             requireWritable(options.svg);
+        if (!options.html.empty())
+            requireWritable(options.html);
 
         const Problem problem(readScenario(options.scenario, {options.vehicle}), settings);
         PlanResult result;
@@ -50,6 +54,8 @@ namespace
 
         if (!options.svg.empty())
             writeFileAtomically(options.svg, resultSvg(problem, result));
+        if (!options.html.empty() && result.drive)
+            writeFileAtomically(options.html, resultHtml(problem, result));
         if (!options.json.empty())
         {
             const std::string text = resultJson(problem, options, result).dump(1) + "\n";

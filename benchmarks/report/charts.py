@@ -4,7 +4,7 @@ import math
 
 from order_statistics import median_ranks
 
-WIDTH, HEIGHT = 600.0, 320.0
+WIDTH, HEIGHT = 600.0, 300.0
 LEFT, RIGHT, TOP, BOTTOM = 58.0, 14.0, 14.0, 44.0
 COLOURS = 8      # that the style sheet has; further planners repeat them with other dashes
 DASHES = ('', '7 4', '2 3.5')
@@ -63,7 +63,7 @@ class Axis:
         return self.begin + share * (self.end - self.begin)
 
     def ticks(self):
-        if self.logarithmic:
+        if self.logarithmic and self.high > 1.5 * self.low:
             decades = math.log10(self.high / self.low)
             factors = (1,) if decades > 2.5 else (1, 2, 5) if decades > 0.7 else (1, 1.5, 2, 3, 4, 5, 6, 8)
             found = [factor * 10.0 ** exponent for exponent in range(math.floor(math.log10(self.low)),
@@ -71,7 +71,7 @@ class Axis:
                      for factor in factors]
         else:
             step = 10.0 ** math.floor(math.log10(self.high - self.low))
-            step = next(step * f for f in (0.1, 0.2, 0.25, 0.5, 1.0) if (self.high - self.low) / (step * f) <= 5.5)
+            step = next(step * f for f in (0.2, 0.25, 0.5, 1.0, 2.0) if (self.high - self.low) / (step * f) <= 5.5)
             found = [step * k for k in range(math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9) + 1)]
         return [value for value in found if self.low * (1 - 1e-9) <= value <= self.high * (1 + 1e-9)]
 
@@ -106,8 +106,8 @@ def _axes(x, y, x_label, y_label, x_text, y_text, grid_y=True):
     return ''.join(parts)
 
 
-def _frame(identifier, title, body, height=HEIGHT):
-    return (f'<svg class="chart" id="{identifier}" viewBox="0 0 {px(WIDTH)} {px(height)}" role="img" '
+def _frame(identifier, title, body, height=HEIGHT, width=WIDTH):
+    return (f'<svg class="chart" id="{identifier}" viewBox="0 0 {px(width)} {px(height)}" role="img" '
             f'aria-label="{text(title)}">{body}</svg>')
 
 
@@ -186,8 +186,21 @@ def median_curve(runs, low, high):
         if math.isinf(value):
             continue
         first, last = (costs[ranks[0] - 1], costs[ranks[1] - 1]) if ranks else (costs[0], costs[-1])
-        points.append((time, value, first, last))
+        if not points or points[-1][1:] != (value, first, last):
+            points.append((time, value, first, last))
     return points
+
+
+def _band(index, points, x, y):
+    """The interval over time, from where its upper end is finite."""
+    if not points:
+        return ''
+    upper = _step_path([(p[0], p[3]) for p in points], x, y)
+    lower = [f'V{px(y(points[-1][2]))}']
+    for k in range(len(points) - 1, 0, -1):
+        lower.append(f'H{px(x(points[k][0]))}V{px(y(points[k - 1][2]))}')
+    lower.append(f'H{px(x(points[0][0]))}Z')
+    return f'<path class="band {style_of(index)[0]}" data-p="{index}" d="{upper}{"".join(lower)}"/>'
 
 
 def cost_chart(identifier, title, runs_of, limit):
@@ -211,12 +224,7 @@ def cost_chart(identifier, title, runs_of, limit):
         if not points:
             continue
         name, dash = style_of(index)
-        upper = _step_path([(p[0], p[3]) for p in points], x, y)
-        backwards = [f'L{px(x.end)} {px(y(points[-1][2]))}']
-        for k in range(len(points) - 1, 0, -1):
-            backwards.append(f'H{px(x(points[k][0]))}V{px(y(points[k - 1][2]))}')
-        backwards.append(f'H{px(x(points[0][0]))}Z')
-        body.append(f'<path class="band {name}" data-p="{index}" d="{upper}{"".join(backwards)}"/>')
+        body.append(_band(index, [p for p in points if math.isfinite(p[3])], x, y))
         lines.append(f'<path class="curve {name}" data-p="{index}"{dash} '
                      f'd="{_step_path([p[:2] for p in points], x, y)}"/>')
         series.append({'p': index, 't': [round(p[0], 7) for p in points], 'y': [round(p[1], 3) for p in points],
@@ -231,10 +239,10 @@ def strip_chart(identifier, title, rows, limit):
     """Every run's first solution on an axis of time, a line of dots for each planner, with the median and its interval.
 
     rows: (index, name, runs, median, (low, high, certainty)) of each planner."""
-    pitch, names, missing = 26.0, 150.0, 62.0
+    pitch, names, missing, width = 24.0, 170.0, 70.0, 2.0 * WIDTH + 50.0
     height = TOP + pitch * len(rows) + BOTTOM
     low, high = time_range([run.time for row in rows for run in row[2]], limit)
-    x = Axis(low, high, names, WIDTH - missing, True)
+    x = Axis(low, high, names, width - missing, True)
     y = Axis(0.0, 1.0, height - BOTTOM, TOP, False)
     body = [_axes(x, y, 'time to the first solution (logarithmic)', '', tick_time, str, grid_y=False)]
     for line, (index, name, runs, middle, interval) in enumerate(rows):
@@ -258,7 +266,7 @@ def strip_chart(identifier, title, rows, limit):
                          f'data-tip="{text(name)}: median {shown_time(middle)}"/>')
         left = sum(not math.isfinite(run.time) for run in runs)
         if left:
-            parts.append(f'<text class="missing" x="{px(WIDTH - missing + 12)}" y="{px(at + 4)}" data-tip="{text(name)}: '
+            parts.append(f'<text class="missing" x="{px(width - missing + 12)}" y="{px(at + 4)}" data-tip="{text(name)}: '
                          f'{left} of {len(runs)} runs without a valid solution">∞ × {left}</text>')
         body.append(''.join(parts) + '</g>')
-    return _frame(identifier, title, ''.join(body), height)
+    return _frame(identifier, title, ''.join(body), height, width)

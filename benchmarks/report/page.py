@@ -49,7 +49,7 @@ def share_html(solved, count, interval):
     share = solved / count if count else 0.0
     return (f'<td class="share" data-sort="{share:.4f}" data-tip="{tip}"><span class="bar"><i style="width:'
             f'{100 * share:.1f}%"></i><u style="left:{100 * low:.1f}%;width:{100 * (high - low):.1f}%"></u></span>'
-            f'<b>{solved}</b>/{count}</td>')
+            f'<span class="of"><b>{solved}</b>/{count}</span></td>')
 
 
 def swatch(index):
@@ -106,7 +106,7 @@ def problem_table(results, cells, extra):
             f'{f"{shown_time(low)} – {shown_time(high)}" if math.isfinite(low) else "–"}</td>'
             f'<td{length_class}{sortable(cell.length)}><b>{shown(cell.length, 4)}{" m" if math.isfinite(cell.length) else ""}</b>'
             f'{interval_html(cell.length_interval, lambda v: shown(v, 4), cell.count)}</td>'
-            f'<td{sortable(cusps)}>{shown(cusps, 2) if cusps == cusps else "–"}</td>'
+            f'<td{sortable(cusps)}>{f"{cusps:g}" if cusps == cusps else "–"}</td>'
             f'<td{sortable(clearance)}>{f"{100 * clearance:.1f} cm" if clearance == clearance else "–"}</td>')
         for prop, _, factor, unit in extra:
             value = factor * cell.of_solved(prop)
@@ -134,24 +134,28 @@ def overall_rows(results, table):
 
 def overall_table(results, table):
     out = ['<div class="scroll"><table class="figures sortable"><thead><tr><th class=name>planner</th><th>runs solved'
-           '</th><th>problems always solved</th><th>invalid</th><th>first solution, median</th>'
-           '<th>length over the best known</th></tr></thead><tbody>']
+           '</th><th>always<br>solved</th><th>invalid</th><th>first solution,<br>median</th>'
+           '<th>length<br>over best</th></tr></thead><tbody>']
     rows = overall_rows(results, table)
-    best_share = max(row[3] / row[4] for row in rows)
-    best_time = min(row[7] for row in rows)
+    # Who was run on fewer problems than others is not to be compared with them.
+    most = max(row[1] for row in rows)
+    best_time = min(row[7] for row in rows if row[1] == most)
     for index, problems, always, solved, count, interval, invalid, time, time_interval, ratio, compared in rows:
         share = share_html(solved, count, interval)
-        if solved / count == best_share > 0:
-            share = share.replace('class="share"', 'class="share best"')
         tip = (f'median over {compared} problems of its median length, divided by the shortest solution that any planner '
                'found; infinite where it solves fewer than half of its runs')
         out.append(f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(results.planners[index])}</th>{share}'
-                   f'<td data-sort="{always / max(1, problems):.4f}">{always}/{problems}</td>'
+                   f'<td data-sort="{always / max(1, problems):.4f}" data-tip="{always} of {problems} problems solved in '
+                   f'every run">{always}/{problems}</td>'
                    f'<td data-sort="{invalid}">{f"<span class=invalid>▲ {invalid}</span>" if invalid else "0"}</td>'
-                   f'<td{" class=best" if time == best_time < math.inf else ""}{sortable(time)}><b>{shown_time(time)}</b>'
+                   f'<td{" class=best" if problems == most and time == best_time < math.inf else ""}'
+                   f'{sortable(time)}><b>{shown_time(time)}</b>'
                    f'{interval_html(time_interval, shown_time, count)}</td>'
                    f'<td{sortable(ratio)} data-tip="{tip}">{shown(ratio)}</td></tr>')
-    return ''.join(out) + '</tbody></table></div>'
+    note = ''
+    if any(row[1] < most for row in rows):
+        note = ('<p class="note">Each planner on the problems that it was run on: compare only those that share them.</p>')
+    return ''.join(out) + '</tbody></table></div>' + note
 
 
 def matrix(results, table):
@@ -248,13 +252,15 @@ def problem_section(results, number, problem, cells, extra, files, charts):
     rows = [(index, results.planners[index], cell.runs, cell.time, cell.time_interval) for index, cell in cells.items()
             if cell.solved]
     if rows:
-        out.append('<figure class="panel"><figcaption>First solution of every run; bar: median with its 95 % interval'
-                   f'</figcaption>{strip_chart(f"strip-{number}", problem, rows, results.time_limit)}</figure>')
+        out.append('<figure class="panel wide"><figcaption>First solution of every run; bar: median with its 95 % '
+                   f'interval</figcaption>{strip_chart(f"strip-{number}", problem, rows, results.time_limit)}</figure>')
     out.append('</div>')
     picture = read_picture(results.folder, problem)
     if picture is not None:
         out.append(f'<h3>Paths</h3><svg class="symbols" aria-hidden="true"><symbol id="map-{number}" viewBox="0 0 '
-                   f'{picture.width:g} {picture.height:g}">{picture.content}</symbol></svg><div class="gallery">')
+                   f'{picture.width:g} {picture.height:g}">{picture.content}</symbol></svg><p class="key"><span class="forward">forwards</span>, '
+                   '<span class="reverse">in reverse</span>; ○ change of direction; thin: solutions of the other runs. '
+                   'The number is that of solved runs.</p><div class="gallery">')
         for index, cell in cells.items():
             name = results.planners[index]
             out.append(card(problem, f'map-{number}', picture, index, name, cell.runs, files.get((problem, name))))
@@ -308,7 +314,7 @@ def report_page(results):
         'FILES': ''.join(f'<li><a href="{text(name)}">{text(name)}</a> {text(what)}</li>'
                          for name, what in links(results)),
         'DATA': json.dumps({'planners': results.planners, 'charts': charts},
-                           separators=(',', ':')).replace('</', '<\\/'),
+                           separators=(',', ':')).replace('<', '\\u003c'),
     }
     with open(os.path.join(HERE, 'report.html'), encoding='utf-8') as stream:
         page = stream.read()

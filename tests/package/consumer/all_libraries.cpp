@@ -7,6 +7,9 @@
 #include <parking_geometry/Error.h>
 #include <parking_geometry/io/ScenarioReader.h>
 #include <state_validity/FootprintChecker.h>
+#ifdef HAS_automatic_parking
+#include <automatic_parking/AutomaticParking.h>
+#endif
 #ifdef HAS_path_tracking
 #include <path_tracking/Mpc.h>
 #include <path_tracking/SpeedProfile.h>
@@ -45,7 +48,16 @@ int main(int argc, char **argv)
     drives = profile.duration() > 0.0 && !controller.solve(parking::MpcProblem()).usable;
 #endif
 
-    const bool right = startIsFree && !wallIsFree && readerRefuses && drives && !parking::parameterSetNames().empty();
+    bool parks = true;
+#ifdef HAS_automatic_parking
+    parking::Scenario scenario;
+    scenario.goals = {{8.0, 0.0, 0.0}};
+    scenario.bounds = {{-10.0, -10.0}, {20.0, 10.0}};
+    parks = parking::AutomaticParking().park(scenario).parked();
+#endif
+
+    const bool right =
+        startIsFree && !wallIsFree && readerRefuses && drives && parks && !parking::parameterSetNames().empty();
     std::cout << (right ? "all libraries answer\n" : "a library gives a wrong answer\n");
     return right ? 0 : 1;
 }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <ompl_improved_astar/ImprovedAStar.h>
+#include <parking_geometry/Vehicle.h>
+#include <state_validity/FclFootprintChecker.h>
+#include <state_validity/SweptMotionValidator.h>
+
+#include <memory>
+#include <vector>
+
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+#include <ompl/geometric/SimpleSetup.h>
+
+namespace parking_examples
+{
+    /** \brief A Reeds-Shepp space of 30 m by 30 m round the origin, for a car by name. */
+    inline std::shared_ptr<ompl::base::ReedsSheppStateSpace> spaceFor(const parking::Vehicle &car)
+    {
+        auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(car.minTurningRadius());
+        ompl::base::RealVectorBounds bounds(2);
+        bounds.setLow(-15.0);
+        bounds.setHigh(15.0);
+        space->setBounds(bounds);
+        return space;
+    }
+
+    /** \brief Tells OMPL of the obstacles: both what is valid, and how motions are swept. */
+    inline void setObstacles(const ompl::base::SpaceInformationPtr &si, const parking::ObstacleSet &obstacles,
+                             const parking::Vehicle &car)
+    {
+        si->setStateValidityChecker(std::make_shared<parking::FclFootprintChecker>(si, obstacles, car));
+        si->setMotionValidator(std::make_shared<parking::SweptMotionValidator>(si));
+        si->setup();
+    }
+
+    /** \brief A state of the space: metres, and radians counter-clockwise from +x. */
+    inline ompl::base::ScopedState<ompl::base::SE2StateSpace> state(const ompl::base::StateSpacePtr &space, double x,
+                                                                    double y, double yaw)
+    {
+        ompl::base::ScopedState<ompl::base::SE2StateSpace> result(space);
+        result->setXY(x, y);
+        result->setYaw(yaw);
+        return result;
+    }
+}  // namespace parking_examples

@@ -1,0 +1,381 @@
+#include "automatic_parking/AutomaticParking.h"
+
+#include "parking_geometry/Error.h"
+#include "tests/automatic_parking/ParkingProblems.h"
+#include "tests/parking_geometry/ExpectError.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using namespace parking_test;
+
+    void expectLegal(const ParkingResult &result, const Vehicle &vehicle)
+    {
+        ASSERT_GT(result.trajectory.size(), 2u);
+        for (std::size_t i = 1; i < result.trajectory.size(); ++i)
+        {
+            const TrajectoryPoint &before = result.trajectory[i - 1], &point = result.trajectory[i];
+            ASSERT_GT(point.t, before.t) << "point " << i;
+            EXPECT_LE(std::abs(point.v), vehicle.maxSpeed + 1e-9);
+            EXPECT_LE(std::abs(point.steering), vehicle.maxSteeringAngle + 1e-9);
+            EXPECT_LE(std::abs(point.v - before.v), (vehicle.maxAcceleration + 1e-6) * (point.t - before.t));
+            EXPECT_LE(std::abs(point.steering - before.steering),
+                      (vehicle.maxSteeringRate + 1e-6) * (point.t - before.t));
+            // No jumps, not even from one drive to the next.
+            EXPECT_LE(std::hypot(point.x - before.x, point.y - before.y),
+                      vehicle.maxSpeed * (point.t - before.t) + 1e-6);
+        }
+    }
+
+    TEST(AutomaticParkingTest, parksInOneCall)
+    {
+        const Scenario scenario = rowOfSlots();
+        const ParkingResult result = AutomaticParking().park(scenario);
+        ASSERT_TRUE(result.parked()) << result.message;
+        ASSERT_EQ(result.legs.size(), 1u);
+        EXPECT_TRUE(result.legs[0].plan.found);
+        EXPECT_TRUE(result.legs[0].drive.arrived);
+        EXPECT_GT(result.planningTime, 0.0);
+        expectLegal(result, scenario.vehicle);
+        EXPECT_LT(result.evaluation.finalPositionError, 0.01);
+        EXPECT_EQ(result.evaluation.collisions, 0u);
+        EXPECT_GT(result.evaluation.checkedPoses, 100u);
+        EXPECT_NEAR(result.trajectory.back().x, scenario.goals[0].x, 0.01);
+        EXPECT_NEAR(result.trajectory.back().y, scenario.goals[0].y, 0.01);
+        EXPECT_EQ(result.trajectory.back().v, 0.0);
+    }
+
+    TEST(AutomaticParkingTest, plansAnewWhenTheMapBlocksThePath)
+    {
+        const Scenario scenario = openGround(25.0);
+        AutomaticParking parking;
+        bool changed = false;
+        parking.setMapUpdate(
+            [&](double time, const Pose &) -> std::optional<Scenario>
+            {
+                if (changed || time < 3.0)
+                    return std::nullopt;
+                changed = true;
+                Scenario blocked = scenario;
+                blocked.polygons = {box(16.0, -1.0, 17.0, 1.0)};
+                return blocked;
+            });
+        const ParkingResult result = parking.park(scenario);
+        ASSERT_TRUE(result.parked()) << result.message;
+        ASSERT_EQ(result.legs.size(), 2u);
+        EXPECT_EQ(result.legs[1].reason, "the map has changed");
+        EXPECT_FALSE(result.legs[0].drive.arrived);
+        EXPECT_NEAR(result.legs[1].begin, result.legs[0].drive.trajectory.back().t, 1e-9);
+        EXPECT_LT(result.legs[0].drive.trajectory.back().x, 12.0);  // it stopped well before the box
+        EXPECT_EQ(result.evaluation.collisions, 0u);
+        expectLegal(result, scenario.vehicle);
+        double aside = 0.0;
+        for (const TrajectoryPoint &point : result.trajectory)
+            aside = std::max(aside, std::abs(point.y));
+        EXPECT_GT(aside, 1.5);
+        EXPECT_LT(result.evaluation.finalPositionError, 0.01);
+    }
+
+    TEST(AutomaticParkingTest, drivesOnWhenTheMapChangesElsewhere)
+    {
+        const Scenario scenario = openGround(25.0);
+        AutomaticParking parking;
+        int updates = 0;
+        parking.setMapUpdate(
+            [&](double time, const Pose &) -> std::optional<Scenario>
+            {
+                if (time < 6.0)
+                    return std::nullopt;
+                ++updates;
+                Scenario other = scenario;
+                // Beside the path, and where the car has been already.
+                other.polygons = {box(16.0, 3.0, 17.0, 6.0), box(-0.5, -0.5, 0.5, 0.5)};
+                return other;
+            });
+        const ParkingResult result = parking.park(scenario);
+        EXPECT_TRUE(result.parked()) << result.message;
+        EXPECT_EQ(result.legs.size(), 1u);
+        EXPECT_GT(updates, 10);
+    }
+
+    TEST(AutomaticParkingTest, followsAGoalThatMoves)
+    {
+        const Scenario scenario = openGround(20.0);
+        AutomaticParking parking;
+        parking.setMapUpdate(
+            [&](double time, const Pose &) -> std::optional<Scenario>
+            {
+                if (time < 2.0)
+                    return std::nullopt;
+                Scenario moved = scenario;
+                moved.goals = {{20.0, time < 7.5 ? 3.0 : -3.0, 0.0}};
+                return moved;
+            });
+        const ParkingResult result = parking.park(scenario);
+        ASSERT_TRUE(result.parked()) << result.message;
+        ASSERT_EQ(result.legs.size(), 3u);
+        EXPECT_NEAR(result.trajectory.back().y, -3.0, 0.01);
+        // It stopped in a bend, and goes on with the wheels as they were.
+        EXPECT_GT(std::abs(result.legs[1].drive.trajectory.back().steering), 0.05);
+        expectLegal(result, scenario.vehicle);
+    }
+
+    TEST(AutomaticParkingTest, standsSafelyWhenTheMapLeavesNoWay)
+    {
+        const Scenario scenario = openGround(25.0);
+        AutomaticParking parking;
+        parking.setMapUpdate(
+            [&](double time, const Pose &) -> std::optional<Scenario>
+            {
+                if (time < 3.0)
+                    return std::nullopt;
+                Scenario walled = scenario;
+                walled.polygons = {box(16.0, -15.0, 17.0, 15.0)};
+                return walled;
+            });
+        const ParkingResult result = parking.park(scenario);
+        EXPECT_EQ(result.status, ParkingStatus::NoPath) << result.message;
+        EXPECT_EQ(result.trajectory.back().v, 0.0);
+        EXPECT_EQ(result.evaluation.collisions, 0u);
+    }
+
+    TEST(AutomaticParkingTest, plansAnewWhenTheCarIsNotOnThePath)
+    {
+        const Scenario scenario = openGround(20.0);
+        // It stands 40 cm beside where it is believed to stand, which the first measurement tells.
+        const ParkingResult result = AutomaticParking().park(scenario, Pose{0.0, 0.4, 0.0});
+        ASSERT_TRUE(result.parked()) << result.message;
+        ASSERT_EQ(result.legs.size(), 2u);
+        EXPECT_NE(result.legs[1].reason.find("40 cm beside the path"), std::string::npos) << result.legs[1].reason;
+        EXPECT_NEAR(result.legs[1].plan.path.front().pose.y, 0.4, 0.01);
+        EXPECT_LT(result.evaluation.finalPositionError, 0.01);
+        // Less than the bound is the controller's business.
+        EXPECT_EQ(AutomaticParking().park(scenario, Pose{0.0, 0.2, 0.0}).legs.size(), 1u);
+        EXPECT_EQ(AutomaticParking().park(scenario, Pose{0.0, 0.0, 0.4}).legs.size(), 2u);
+    }
+
+    TEST(AutomaticParkingTest, givesUpWhenNoReplanningIsLeft)
+    {
+        ParkingParameters parameters;
+        parameters.maxReplans = 0;
+        const ParkingResult result = AutomaticParking(parameters).park(openGround(20.0), Pose{0.0, 0.4, 0.0});
+        EXPECT_EQ(result.status, ParkingStatus::Stopped);
+        EXPECT_NE(result.message.find("no replanning is left"), std::string::npos) << result.message;
+        EXPECT_EQ(result.trajectory.back().v, 0.0);
+    }
+
+    TEST(AutomaticParkingTest, aGoalThatIsMissedIsTriedAgain)
+    {
+        ParkingParameters parameters;
+        parameters.goalTolerance = 1e-9;  // nobody stands so well
+        parameters.maxReplans = 2;
+        const ParkingResult result = AutomaticParking(parameters).park(rowOfSlots());
+        EXPECT_EQ(result.status, ParkingStatus::MissedGoal);
+        EXPECT_EQ(result.legs.size(), 3u);
+        EXPECT_NE(result.message.find("from the goal"), std::string::npos) << result.message;
+    }
+
+    TEST(AutomaticParkingTest, aFailingSolverIsASafeStop)
+    {
+        AutomaticParking parking;
+        int calls = 0;
+        parking.setSolve(
+            [&calls](const MpcProblem &)
+            {
+                ++calls;
+                MpcSolution solution;
+                solution.message = "out of order";
+                return solution;
+            });
+        const ParkingResult result = parking.park(rowOfSlots());
+        EXPECT_EQ(result.status, ParkingStatus::Stopped);
+        EXPECT_NE(result.message.find("out of order"), std::string::npos) << result.message;
+        EXPECT_GT(result.evaluation.solverFailures, 0u);
+        EXPECT_EQ(result.trajectory.back().v, 0.0);
+        EXPECT_EQ(result.legs.size(), 1u);
+        EXPECT_LT(calls, 10);
+    }
+
+    TEST(AutomaticParkingTest, saysWhyItDoesNotEvenBegin)
+    {
+        Scenario scenario = openGround();
+        scenario.polygons = {box(-1.0, -0.5, 0.0, 0.5)};
+        const ParkingResult start = AutomaticParking().park(scenario);
+        EXPECT_EQ(start.status, ParkingStatus::InvalidStart);
+        EXPECT_TRUE(start.trajectory.empty());
+        EXPECT_FALSE(start.message.empty());
+        scenario.polygons = {box(14.0, -0.5, 15.0, 0.5)};
+        EXPECT_EQ(AutomaticParking().park(scenario).status, ParkingStatus::InvalidGoal);
+        scenario.polygons = {box(6.0, -15.0, 8.0, 15.0)};
+        EXPECT_EQ(AutomaticParking().park(scenario).status, ParkingStatus::NoPath);
+    }
+
+    TEST(AutomaticParkingTest, drivesGivenPathsAndReportsCollisions)
+    {
+        Scenario scenario = openGround();
+        const Path path = ArcPath{scenario.start, {{0.0, 15.0}}}.sample(0.1);
+        const ParkingResult good = AutomaticParking().drive(scenario, path);
+        EXPECT_TRUE(good.parked()) << good.message;
+        EXPECT_NEAR(good.evaluation.drivenLength, 15.0, 0.01);
+        scenario.polygons = {box(8.0, -0.1, 8.2, 0.1)};
+        const ParkingResult bad = AutomaticParking().drive(scenario, path);
+        EXPECT_EQ(bad.status, ParkingStatus::Collision);
+        EXPECT_GT(bad.evaluation.collisions, 0u);
+        EXPECT_EQ(bad.legs.at(0).plan.clearance, 0.0);
+    }
+
+    TEST(AutomaticParkingTest, pathsThatNobodyCanDriveAreRefused)
+    {
+        const Scenario scenario = openGround();
+        const double nan = std::nan("");
+        const auto refused = [&](const Path &path, const char *why)
+        {
+            const ParkingResult result = AutomaticParking().drive(scenario, path);
+            EXPECT_EQ(result.status, ParkingStatus::NotDrivable);
+            EXPECT_NE(result.message.find(why), std::string::npos) << result.message;
+            EXPECT_TRUE(result.trajectory.empty());
+        };
+        const PathState begin{{0.0, 0.0, 0.0}, 0.0, 0.0, 1};
+        refused({}, "at least 2");
+        refused({begin}, "at least 2");
+        refused({begin, begin, begin}, "one place");
+        refused({begin, {{1.0, nan, 0.0}, 1.0, 0.0, 1}}, "finite");
+        refused({begin, {{1.0, 0.0, 0.0}, 1.0, 0.0, 0}}, "direction");
+        refused({begin, {{1.0, 0.0, 0.0}, 1.0, 5.0, 1}}, "curvature");
+    }
+
+    TEST(AutomaticParkingTest, gridPathsAreDrivenByTheSameController)
+    {
+        // Chords of a grid with both ways of writing their headings, a turn on the spot, another heading at the end.
+        Scenario scenario = openGround(30.0);
+        Path path;
+        const auto add = [&path](double x, double y, double yaw, double curvature)
+        {
+            path.push_back({{x, y, yaw}, 0.0, curvature, 1});
+        };
+        add(0.0, 0.0, 0.0, 0.0);
+        add(0.0, 0.0, 0.25 * PI, 1e9);
+        for (int i = 1; i <= 20; ++i)
+            add(0.5 * i, 0.5 * i, 0.25 * PI, i == 20 ? -300.0 : 0.0);
+        for (int i = 1; i <= 20; ++i)
+            add(10.0 + 0.5 * i, 10.0, 0.0, i == 1 ? -700.0 : 0.0);
+        path.back().pose.yaw = -0.5;
+        path.back().curvature = 50.0;
+        const ParkingResult refused = AutomaticParking().drive(scenario, path);
+        EXPECT_EQ(refused.status, ParkingStatus::NotDrivable);
+        const Path chords = asChords(path, scenario.vehicle);
+        ASSERT_EQ(chords.size(), 41u);
+        for (const PathState &state : chords)
+            EXPECT_EQ(state.curvature, 0.0);
+        EXPECT_EQ(chords.back().pose.yaw, -0.5);
+        ParkingParameters parameters;
+        parameters.drive.tracking.reference.maxCornerDeviation = 10.0;
+        const ParkingResult result = AutomaticParking(parameters).drive(scenario, chords);
+        ASSERT_TRUE(result.parked()) << result.message;
+        EXPECT_LT(result.evaluation.finalPositionError, 0.03);
+        EXPECT_LT(result.evaluation.finalYawError, 0.04);
+        EXPECT_LT(result.evaluation.maxCrossTrack, 0.01);
+        EXPECT_GT(result.evaluation.cornerDeviation, 0.1);
+        expectLegal(result, scenario.vehicle);
+    }
+
+    TEST(AutomaticParkingTest, asChordsKeepsArcsThatTheCarCanDrive)
+    {
+        const double most = 1.0 / Vehicle().minTurningRadius();
+        const Path wide = ArcPath{{1.0, 2.0, 0.3}, {{0.5 * most, 4.0}}}.sample(0.1);
+        const Path kept = asChords(wide, Vehicle());
+        ASSERT_EQ(kept.size(), wide.size());
+        for (std::size_t i = 1; i < kept.size(); ++i)
+            EXPECT_NEAR(kept[i].curvature, 0.5 * most, 1e-4);
+        const Path tight = asChords(ArcPath{{1.0, 2.0, 0.3}, {{2.0 * most, 4.0}}}.sample(0.1), Vehicle());
+        EXPECT_EQ(tight[5].curvature, 0.0);
+        EXPECT_TRUE(asChords({}, Vehicle()).empty());
+    }
+
+    TEST(AutomaticParkingTest, aMapThatMakesNoSenseIsASafeStop)
+    {
+        const Scenario scenario = openGround();
+        const auto stops = [&](const char *why, auto change)
+        {
+            AutomaticParking parking;
+            parking.setMapUpdate(
+                [&](double time, const Pose &) -> std::optional<Scenario>
+                {
+                    if (time < 2.0)
+                        return std::nullopt;
+                    Scenario other = scenario;
+                    change(other);
+                    return other;
+                });
+            const ParkingResult result = parking.park(scenario);
+            EXPECT_EQ(result.status, ParkingStatus::Stopped);
+            EXPECT_NE(result.message.find(why), std::string::npos) << result.message;
+            EXPECT_EQ(result.legs.size(), 1u);
+            EXPECT_EQ(result.trajectory.back().v, 0.0);
+            EXPECT_GT(result.trajectory.back().x, 0.1);
+            EXPECT_LT(result.trajectory.back().x, 10.0);
+        };
+        stops("worldOffset", [](Scenario &s) { s.worldOffset = {1.0, 0.0}; });
+        stops("no goal", [](Scenario &s) { s.goals.clear(); });
+        stops("bounds", [](Scenario &s) { s.bounds.max = s.bounds.min; });
+    }
+
+    TEST(AutomaticParkingTest, figuresOfSeveralDrivesAreThoseOfOne)
+    {
+        Evaluation a, b;
+        a.travelTime = 10.0;
+        a.drivenLength = 5.0;
+        a.meanAbsSteering = 0.2;
+        a.meanAbsAcceleration = 1.0;
+        a.maxCrossTrack = 0.04;
+        a.minClearance = 0.3;
+        a.collisions = 1;
+        a.finalPositionError = 1.0;
+        b.travelTime = 30.0;
+        b.drivenLength = 7.0;
+        b.meanAbsSteering = 0.4;
+        b.meanAbsAcceleration = 0.2;
+        b.maxCrossTrack = 0.03;
+        b.minClearance = 0.2;
+        b.standstills = 2;
+        b.finalPositionError = 0.01;
+        const Evaluation all = combined({a, b});
+        EXPECT_DOUBLE_EQ(all.travelTime, 40.0);
+        EXPECT_DOUBLE_EQ(all.drivenLength, 12.0);
+        EXPECT_DOUBLE_EQ(all.meanAbsSteering, 0.35);
+        EXPECT_DOUBLE_EQ(all.meanAbsAcceleration, 0.4);
+        EXPECT_DOUBLE_EQ(all.maxCrossTrack, 0.04);
+        EXPECT_DOUBLE_EQ(all.minClearance, 0.2);
+        EXPECT_EQ(all.collisions, 1u);
+        EXPECT_EQ(all.standstills, 3u);
+        EXPECT_DOUBLE_EQ(all.finalPositionError, 0.01);
+        EXPECT_EQ(combined({}).travelTime, 0.0);
+    }
+
+    TEST(AutomaticParkingTest, refusesBadParameters)
+    {
+        const auto refused = [](const char *field, auto change)
+        {
+            expectError(
+                [&]
+                {
+                    ParkingParameters parameters;
+                    change(parameters);
+                    AutomaticParking parking(parameters);
+                },
+                {field});
+        };
+        refused("replanCrossTrack", [](auto &p) { p.replanCrossTrack = 0.0; });
+        refused("replanHeadingError", [](auto &p) { p.replanHeadingError = -1.0; });
+        refused("goalTolerance", [](auto &p) { p.goalTolerance = std::nan(""); });
+        refused("goalYawTolerance", [](auto &p) { p.goalYawTolerance = 0.0; });
+        refused("horizon", [](auto &p) { p.drive.tracking.mpc.horizon = 0; });
+        refused("acrossWeight", [](auto &p) { p.drive.tracking.mpc.acrossWeight = -1.0; });
+        refused("timeLimit", [](auto &p) { p.planning.timeLimit = -1.0; });
+    }
+}  // namespace

@@ -1,0 +1,128 @@
+#include "automatic_parking/DriveAnimation.h"
+
+#include "automatic_parking/DriveFigure.h"
+#include "parking_geometry/Error.h"
+#include "tests/automatic_parking/ParkingProblems.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using namespace parking_test;
+
+    Trajectory someDrive()
+    {
+        Trajectory drive;
+        for (int i = 0; i < 50; ++i)
+            drive.push_back({0.1 * i, 0.2 * i, 0.0, 0.0, 2.0, 0.0, 0.01 * i, 0.1});
+        drive.back().v = -0.5;
+        return drive;
+    }
+
+    Path somePath()
+    {
+        return ArcPath{{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}}.sample(0.5);
+    }
+
+    std::size_t count(const std::string &text, const std::string &what)
+    {
+        std::size_t found = 0;
+        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+            ++found;
+        return found;
+    }
+
+    TEST(DriveAnimationTest, holdsAllThatItNeeds)
+    {
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "A drive", "in words");
+        EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0u);
+        EXPECT_EQ(count(page, "A drive"), 2u);
+        EXPECT_EQ(count(page, "in words"), 1u);
+        for (const char *part : {"id=\"play\"", "type=\"range\"", "id=\"car\"", "planned, forwards", "planned, reverse",
+                                 "\"wheelbase\":2.8", "</html>"})
+            EXPECT_NE(page.find(part), std::string::npos) << part;
+        // Every mark was replaced.
+        for (const char *mark : {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@WIDTH@", "@HEIGHT@",
+                                 "@LEGEND@", "@DRIVEN@", "@REVERSE@", "@FORWARD@"})
+            EXPECT_EQ(page.find(mark), std::string::npos) << mark;
+        // Nothing is fetched: the only address is the name of SVG's namespace.
+        EXPECT_EQ(count(page, "://"), count(page, "http://www.w3.org/2000/svg"));
+        for (const char *reference : {"src=", "href=", "@import", "url(", "fetch("})
+            EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+    }
+
+    TEST(DriveAnimationTest, writesEveryPointShortly)
+    {
+        Trajectory drive = someDrive();
+        drive[1].x = 0.123456789;
+        drive[2].yaw = -1e-9;
+        const std::string page = driveAnimation(openGround(), {}, drive, "t");
+        const std::size_t begin = page.find("\"x\":[") + 5;
+        const std::string x = page.substr(begin, page.find(']', begin) - begin);
+        EXPECT_EQ(std::count(x.begin(), x.end(), ','), 49);
+        EXPECT_EQ(x.rfind("0,0.1235,0.4,0.6,", 0), 0u) << x;
+        EXPECT_EQ(page.find("-0,"), std::string::npos);
+        const std::size_t data = page.find("id=\"data\"");
+        EXPECT_EQ(page.substr(data, page.find("</script>", data) - data).find("e-"), std::string::npos);
+    }
+
+    TEST(DriveAnimationTest, textsCannotBecomeMarkup)
+    {
+        const std::string page =
+            driveAnimation(openGround(), {}, someDrive(), "</title><script>alert(1)</script>", "@DATA@ & <b>");
+        EXPECT_EQ(count(page, "<script"), 2u);
+        EXPECT_EQ(page.find("<b></p>"), std::string::npos);
+        EXPECT_NE(page.find("@DATA@ &amp; &lt;b&gt;"), std::string::npos);
+    }
+
+    TEST(DriveAnimationTest, refusesNonsense)
+    {
+        const Scenario scenario = openGround();
+        expectError([&] { driveAnimation(scenario, {}, {}, "t"); }, {"0 points"});
+        expectError([&] { driveAnimation(scenario, {}, {someDrive().front()}, "t"); }, {"1 points"});
+        Trajectory drive = someDrive();
+        drive[7].yaw = std::nan("");
+        expectError([&] { driveAnimation(scenario, {}, drive, "t"); }, {"point 7", "finite"});
+        drive = someDrive();
+        drive[9].t = 0.0;
+        expectError([&] { driveAnimation(scenario, {}, drive, "t"); }, {"point 9", "earlier"});
+    }
+
+    TEST(DriveAnimationTest, isWrittenWholeOrNotAtAll)
+    {
+        const TemporaryFolder folder;
+        const std::string file = folder.path("drive.html");
+        writeDriveAnimation(file, openGround(), {}, someDrive(), "t");
+        EXPECT_EQ(contentOf(file), driveAnimation(openGround(), {}, someDrive(), "t"));
+        expectError([&]
+                    { writeDriveAnimation(folder.path("no/folder/drive.html"), openGround(), {}, someDrive(), "t"); },
+                    {"no/folder"});
+    }
+
+    TEST(DriveFigureTest, showsPathDriveAndPlots)
+    {
+        const std::string figure = driveFigure(openGround(), somePath(), someDrive(), "A drive", "below").toString();
+        for (const char *part : {"A drive", "below", "driven", "Speed", "Acceleration", "Steering angle", "degrees"})
+            EXPECT_NE(figure.find(part), std::string::npos) << part;
+        const std::string plain = driveFigure(openGround(), somePath(), {}, "A plan").toString();
+        EXPECT_EQ(plain.find("Steering angle"), std::string::npos);
+    }
+
+    TEST(DriveFigureTest, plotsWhatTheCarDid)
+    {
+        const std::vector<SvgPlot> plots = drivePlots(someDrive(), Vehicle());
+        ASSERT_EQ(plots.size(), 3u);
+        EXPECT_DOUBLE_EQ(plots[2].series[0].y[10], 0.1 * 180.0 / PI);
+        EXPECT_DOUBLE_EQ(plots[0].series[0].x[10], 1.0);
+        EXPECT_DOUBLE_EQ(plots[1].limits[1], Vehicle().maxAcceleration);
+        ASSERT_EQ(plots[0].bands.size(), 1u);
+        EXPECT_DOUBLE_EQ(plots[0].bands[0].begin, 4.9);
+    }
+}  // namespace

@@ -1,0 +1,199 @@
+#include "automatic_parking/ParkingPlanner.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "tests/automatic_parking/ParkingProblems.h"
+#include "tests/parking_geometry/ExpectError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using namespace parking_test;
+
+    void expectAt(const Pose &pose, const Pose &wanted)
+    {
+        EXPECT_NEAR(pose.x, wanted.x, 1e-6);
+        EXPECT_NEAR(pose.y, wanted.y, 1e-6);
+        EXPECT_NEAR(wrapAngle(pose.yaw - wanted.yaw), 0.0, 1e-6);
+    }
+
+    TEST(ParkingPlannerTest, entersASlotByApproachAndManoeuvre)
+    {
+        const Scenario scenario = rowOfSlots();
+        const ParkingPlan plan = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(plan.found) << plan.message;
+        ASSERT_FALSE(plan.manoeuvre.segments.empty());
+        expectAt(plan.approach.start, scenario.start);
+        expectAt(plan.approach.end(), plan.manoeuvre.start);
+        expectAt(plan.manoeuvre.end(), plan.goal);
+        expectAt(plan.goal, scenario.goals.front());
+        expectAt(plan.path.front().pose, scenario.start);
+        expectAt(plan.path.back().pose, plan.goal);
+        EXPECT_EQ(plan.path.back().direction, -1);
+        EXPECT_TRUE(ParkingWorld(scenario).isFree(plan.path));
+        EXPECT_NE(plan.message.find("manoeuvre"), std::string::npos);
+    }
+
+    TEST(ParkingPlannerTest, withoutManoeuvresTheSearchGoesAllTheWay)
+    {
+        PlanningParameters parameters;
+        parameters.manoeuvres = false;
+        const Scenario scenario = rowOfSlots();
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
+        ASSERT_TRUE(plan.found) << plan.message;
+        EXPECT_TRUE(plan.manoeuvre.segments.empty());
+        expectAt(plan.arcs.end(), scenario.goals.front());
+    }
+
+    TEST(ParkingPlannerTest, thePathIsSmoothAndJoinedByArcs)
+    {
+        const Scenario scenario = rowOfSlots();
+        const ParkingPlan plan = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(plan.found);
+        ASSERT_FALSE(plan.smooth.path.empty());
+        EXPECT_TRUE(plan.smooth.stops.empty());
+        const double most = 1.0 / scenario.vehicle.minTurningRadius();
+        for (std::size_t i = 1; i < plan.path.size(); ++i)
+        {
+            const PathState &before = plan.path[i - 1], &state = plan.path[i];
+            EXPECT_LE(std::abs(state.curvature), most * (1.0 + 1e-6));
+            const Pose end =
+                advance(before.pose, state.curvature, state.direction * (state.arcLength - before.arcLength));
+            EXPECT_NEAR(std::hypot(end.x - state.pose.x, end.y - state.pose.y), 0.0, 1e-3) << "state " << i;
+            if (i > 1 && before.direction == state.direction)
+            {
+                EXPECT_LT(std::abs(state.curvature - before.curvature), 0.1 * most) << "state " << i;
+            }
+        }
+    }
+
+    TEST(ParkingPlannerTest, keepsAGapWhereThereIsRoom)
+    {
+        const Scenario scenario = rowOfSlots();
+        const ParkingPlan plan = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(plan.found);
+        EXPECT_GE(plan.gap, 0.25);
+        EXPECT_GE(plan.clearance, 0.24);
+        // Stated and true clearance agree: the body enlarged by a little less fits, by a little more does not.
+        const auto fits = [&](double gap)
+        {
+            const auto checker = ParkingWorld(scenario).enlarged(gap);
+            return queriesOf(checker).isPathFree(plan.path);
+        };
+        EXPECT_TRUE(fits(0.7 * plan.clearance));
+        EXPECT_FALSE(fits(1.05 * plan.clearance + 0.01));
+    }
+
+    TEST(ParkingPlannerTest, goesThroughWhereTheGapDoesNot)
+    {
+        // A gate that leaves 4 cm on either side of the car.
+        Scenario scenario = openGround();
+        const double half = 0.5 * scenario.vehicle.width + 0.04;
+        scenario.polygons = {box(6.0, half, 8.0, 15.0), box(6.0, -15.0, 8.0, -half)};
+        const ParkingPlan plan = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(plan.found) << plan.message;
+        EXPECT_GE(plan.gap, 0.015);
+        EXPECT_LE(plan.gap, 0.04);
+        EXPECT_LE(plan.clearance, 0.0401);
+        EXPECT_GT(plan.clearance, 0.01);
+    }
+
+    TEST(ParkingPlannerTest, aWideGapIsWorthSomeWayButNotAnyWay)
+    {
+        // The same gate, wide enough for 10 cm on either side, and a way round it.
+        Scenario scenario = openGround();
+        const double half = 0.5 * scenario.vehicle.width + 0.1;
+        scenario.polygons = {box(6.0, half, 8.0, 6.0), box(6.0, -15.0, 8.0, -half)};
+        const ParkingPlan direct = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(direct.found);
+        EXPECT_LT(pathLength(direct.path), 16.0);
+        PlanningParameters parameters;
+        parameters.gapWorth = 100.0;
+        const ParkingPlan round = ParkingPlanner(parameters).plan(scenario);
+        ASSERT_TRUE(round.found);
+        EXPECT_GT(round.clearance, 0.2);
+        EXPECT_GT(pathLength(round.path), 16.0);
+    }
+
+    TEST(ParkingPlannerTest, saysWhyThereIsNoPath)
+    {
+        Scenario scenario = openGround();
+        scenario.polygons = {box(-1.0, -0.5, 0.0, 0.5)};
+        EXPECT_EQ(ParkingPlanner().plan(scenario).failure, ParkingStatus::InvalidStart);
+        scenario.polygons = {box(14.0, -0.5, 15.0, 0.5)};
+        EXPECT_EQ(ParkingPlanner().plan(scenario).failure, ParkingStatus::InvalidGoal);
+        scenario.polygons = {box(6.0, -15.0, 8.0, 15.0)};
+        const ParkingPlan none = ParkingPlanner().plan(scenario);
+        EXPECT_FALSE(none.found);
+        EXPECT_EQ(none.failure, ParkingStatus::NoPath);
+        EXPECT_NE(none.message.find("no path"), std::string::npos) << none.message;
+        EXPECT_TRUE(none.path.empty());
+    }
+
+    TEST(ParkingPlannerTest, repeatsItself)
+    {
+        const Scenario scenario = readScenario(bundledFile("parallel"));
+        const ParkingPlan a = ParkingPlanner().plan(scenario), b = ParkingPlanner().plan(scenario);
+        ASSERT_TRUE(a.found);
+        ASSERT_EQ(a.path.size(), b.path.size());
+        for (std::size_t i = 0; i < a.path.size(); ++i)
+        {
+            EXPECT_EQ(a.path[i].pose.x, b.path[i].pose.x);
+            EXPECT_EQ(a.path[i].pose.y, b.path[i].pose.y);
+        }
+    }
+
+    TEST(ParkingPlannerTest, theClearanceIsTheLeastAlongThePath)
+    {
+        const Scenario scenario = readScenario(bundledFile("perpendicular"));
+        const ParkingWorld world(scenario);
+        const ParkingPlan plan = ParkingPlanner().plan(scenario, world);
+        ASSERT_TRUE(plan.found);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 1; i < plan.path.size(); ++i)
+        {
+            const double length = plan.path[i].arcLength - plan.path[i - 1].arcLength;
+            for (double s = 0.0; s < length; s += 0.002)
+                least =
+                    std::min(least, world.footprint().exactClearance(advance(
+                                        plan.path[i - 1].pose, plan.path[i].curvature, plan.path[i].direction * s)));
+        }
+        EXPECT_NEAR(plan.clearance, least, 0.001 + 0.01 * least);
+    }
+
+    TEST(ParkingPlannerTest, refusesBadInput)
+    {
+        const auto refused = [](const char *field, auto change)
+        {
+            expectError(
+                [&]
+                {
+                    PlanningParameters parameters;
+                    change(parameters);
+                    ParkingPlanner planner(parameters);
+                },
+                {field});
+        };
+        const double nan = std::nan("");
+        refused("timeLimit", [](auto &p) { p.timeLimit = 0.0; });
+        refused("gaps", [](auto &p) { p.gaps.clear(); });
+        refused("gap", [](auto &p) { p.gaps = {-0.1}; });
+        refused("radiusFactor", [](auto &p) { p.radiusFactor = 0.9; });
+        refused("gapWorth", [nan](auto &p) { p.gapWorth = nan; });
+        refused("gearChangePenalty", [](auto &p) { p.gearChangePenalty = -1.0; });
+        refused("steeringChangePenalty", [](auto &p) { p.steeringChangePenalty = -1.0; });
+        refused("clearanceWeight", [nan](auto &p) { p.clearanceWeight = nan; });
+        Scenario scenario = openGround();
+        scenario.goals.clear();
+        expectError([&] { ParkingPlanner().plan(scenario); }, {"no goal"});
+        scenario = openGround();
+        scenario.vehicle.wheelbase = -1.0;
+        expectError([&] { ParkingPlanner().plan(scenario); }, {"wheelbase"});
+    }
+}  // namespace

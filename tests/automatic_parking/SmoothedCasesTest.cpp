@@ -1,0 +1,119 @@
+// Planner, manoeuvre and smoother over every bundled scenario and every TPCAP case: how many stretches between two
+// changes of direction end with continuous curvature, and is what comes out drivable and free?
+//
+// Continuous means: within a stretch the exact pieces of the path meet with equal curvature (1e-9 1/m), and from state
+// to state the curvature changes no faster than the wheels turn at the speed that the path allows there. A stretch with
+// a stop in it, where the car stands to steer, does not count as continuous.
+
+#include "automatic_parking/ParkingPlanner.h"
+
+#include "parking_geometry/io/ScenarioReader.h"
+#include "tests/parking_geometry/SmoothPathChecks.h"
+#include "tests/support/PolygonOracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::PolygonOracle;
+
+namespace
+{
+    std::vector<std::string> casesIn(const std::string &folder, const std::string &extension)
+    {
+        std::vector<std::string> files;
+        if (std::filesystem::is_directory(folder))
+            for (const auto &entry : std::filesystem::directory_iterator(folder))
+                if (entry.path().extension() == extension &&
+                    entry.path().stem().string().find("_map") == std::string::npos)
+                    files.push_back(entry.path().string());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+
+    struct Count
+    {
+        std::size_t cases{0}, solved{0}, gears{0}, continuous{0};
+        double largestChange{0.0};
+    };
+
+    void smoothCase(const std::string &file, Count &count)
+    {
+        SCOPED_TRACE(file);
+        const Scenario scenario = readScenario(file);
+        const Vehicle &car = scenario.vehicle;
+        PlanningParameters parameters;
+        parameters.timeLimit = 60.0;  // the searches end by expansions on any machine
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
+        ++count.cases;
+        if (!plan.found)
+            return;
+        ++count.solved;
+        const std::size_t gears = plan.arcs.cusps() + 1;
+        count.gears += gears;
+        ASSERT_FALSE(plan.smooth.path.empty()) << "the smoother's result was refused";
+        ASSERT_EQ(plan.smooth.gears.size(), gears);
+        EXPECT_TRUE(plan.smooth.free);
+        parking_test::expectDrivable(plan.smooth, plan.arcs, car, parameters.smoothing);
+
+        // Pieces meet with equal curvature unless the car stands between them.
+        std::size_t jumps = 0;
+        const std::vector<ClothoidSegment> &pieces = plan.smooth.pieces.segments;
+        for (std::size_t i = 1; i < pieces.size(); ++i)
+            jumps += pieces[i - 1].length * pieces[i].length > 0.0 &&
+                     std::abs(pieces[i - 1].endCurvature() - pieces[i].curvature) > 1e-9;
+        EXPECT_LE(jumps, plan.smooth.stops.size());
+        count.continuous += plan.smooth.continuousGears();
+
+        const double change = std::abs(pathLength(plan.smooth.path) / plan.smooth.lengthBefore - 1.0);
+        EXPECT_LT(change, 0.03);
+        count.largestChange = std::max(count.largestChange, change);
+
+        const PolygonOracle oracle(scenario);
+        std::size_t hits = 0;
+        for (const PathState &state : plan.smooth.pieces.sampleEvenly(0.005))
+            hits += !oracle.isFree(state.pose, car, -1e-6);
+        EXPECT_EQ(hits, 0u);
+        std::printf("%-28s %2zu stretches, %2zu continuous, length %6.2f m, %+.2f %%\n", scenario.name.c_str(), gears,
+                    plan.smooth.continuousGears(), plan.smooth.lengthBefore,
+                    100.0 * (pathLength(plan.smooth.path) / plan.smooth.lengthBefore - 1.0));
+    }
+
+    void report(const Count &count)
+    {
+        const double share = 100.0 * static_cast<double>(count.continuous) / static_cast<double>(count.gears);
+        std::printf(
+            "%zu of %zu cases solved; %zu of %zu stretches continuous (%.1f %%); length changes by at most %.2f %%\n",
+            count.solved, count.cases, count.continuous, count.gears, share, 100.0 * count.largestChange);
+        EXPECT_GE(share, 95.0);
+    }
+}  // namespace
+
+TEST(SmoothedCases, BundledScenariosEndCurvatureContinuous)
+{
+    Count count;
+    for (const std::string &file : casesIn(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios", ".yaml"))
+        if (file.find("unreachable") == std::string::npos)
+            smoothCase(file, count);
+    EXPECT_GE(count.cases, 10u);
+    EXPECT_EQ(count.solved, count.cases);
+    report(count);
+}
+
+TEST(SmoothedCases, TpcapCasesEndCurvatureContinuous)
+{
+    const std::vector<std::string> files = casesIn(std::string(PARKING_SHARED_DATA) + "/tpcap", ".csv");
+    if (files.empty())
+        GTEST_SKIP() << "no TPCAP cases in " << PARKING_SHARED_DATA << "/tpcap";
+    Count count;
+    for (const std::string &file : files)
+        smoothCase(file, count);
+    EXPECT_EQ(count.solved, count.cases);
+    report(count);
+}

@@ -1,0 +1,318 @@
+"""parking_benchmark from a .cfg file to its results: files, database, interrupting and going on, shards."""
+
+import csv
+import fcntl
+import glob
+import json
+import os
+import shutil
+import signal
+import sqlite3
+import subprocess
+import time
+import unittest
+import xml.etree.ElementTree
+
+from programs import BENCHMARK, SOURCE, ProgramTest, bundled, main
+
+# Planners that come to an end by themselves: with a generous limit their results do not depend on the machine's speed.
+CONFIG = '''
+[problem]
+scenario = {angled}
+scenario = {perpendicular}
+[benchmark]
+time_limit = 20
+run_count = 2
+seed = 3
+[planner]
+improved_astar=
+improved_astar.xy_resolution=0.3
+reeds_shepp=
+RRTConnect=
+RRTConnect=
+RRTConnect.name=short_steps
+RRTConnect.range=2
+'''.format(angled=bundled('angled45'), perpendicular=bundled('perpendicular'))
+PLANNERS = {'improved_astar', 'reeds_shepp', 'RRTConnect', 'short_steps'}
+RUNS = 2 * 2 * len(PLANNERS)
+
+
+def depends_on_the_clock(name):
+    return 'time' in name or 'memory' in name
+
+
+class BenchmarkTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write('set.cfg', CONFIG)
+
+    def records(self, *names):
+        """The runs in files of results, in a fixed order, without what depends on the machine's speed."""
+        runs = []
+        for name in names:
+            with open(self.path(name)) as stream:
+                next(stream)
+                for line in stream:
+                    run = json.loads(line)
+                    run['properties'] = {key: value for key, value in run['properties'].items()
+                                         if not depends_on_the_clock(key)}
+                    run['progress'] = [cost for _, cost in run['progress']]
+                    runs.append(run)
+        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['run']))
+
+    def query(self, database, statement):
+        with sqlite3.connect(self.path(database)) as connection:
+            cursor = connection.execute(statement)
+            return [column[0] for column in cursor.description], cursor.fetchall()
+
+    def database_runs(self, database):
+        """The rows of the database without times, in a fixed order."""
+        names, rows = self.query(database, '''
+            SELECT experiments.name AS problem, plannerConfigs.name AS planner, runs.* FROM runs
+            JOIN experiments ON runs.experimentid = experiments.id
+            JOIN plannerConfigs ON runs.plannerid = plannerConfigs.id
+            ORDER BY problem, planner, run''')
+        kept = [i for i, name in enumerate(names) if not depends_on_the_clock(name) and not name.endswith('id')]
+        return [[names[i] for i in kept]] + [[row[i] for i in kept] for row in rows]
+
+
+class Results(BenchmarkTest):
+    def test_a_comparison_leaves_log_database_tables_and_pictures(self):
+        self.write('set.cfg', CONFIG.replace('[planner]', 'save_paths = shortest\n[planner]'))
+        done = self.benchmark('set.cfg', '--output', 'out', '--quiet')
+        self.assertEqual(done.stderr, '')
+        self.assertEqual(len(self.records('out/runs.jsonl')), RUNS)
+        for name in ('angled45', 'perpendicular'):
+            log = self.read('out/%s.log' % name)
+            self.assertRegex(log, r'\AOMPL version [1-9][0-9.]+\nExperiment ' + name + '\n')
+            picture = xml.etree.ElementTree.fromstring(self.read('out/pictures/%s.svg' % name))
+            self.assertTrue(picture.tag.endswith('svg'))
+            self.assertIn(name, done.stdout)
+        for file in ('out/benchmark.db', 'out/summary.md', 'out/summary.csv'):
+            self.assertIn(file, done.stdout)
+        self.assertIn('improved_astar', self.read('out/summary.md'))
+        self.assertEqual(self.leftovers('out'), [])
+        with open(self.path('out/paths/angled45-improved_astar-0.csv')) as stream:
+            path = list(csv.DictReader(stream))
+        self.assertEqual(set(path[0]), {'x', 'y', 'yaw', 'direction', 'curvature'})
+        self.assertAlmostEqual(float(path[0]['x']), -11.5, delta=1e-4)
+
+    def leftovers(self, folder):
+        return [name for name in os.listdir(self.path(folder)) if '.new' in name or 'tmp' in name]
+
+    def test_the_database_has_the_schema_of_ompl(self):
+        self.benchmark('set.cfg', '--output', 'out', '--quiet')
+        names, _ = self.query('out/benchmark.db', 'SELECT * FROM experiments')
+        for name in ('id', 'name', 'totaltime', 'timelimit', 'memorylimit', 'runcount', 'version', 'hostname', 'cpuinfo',
+                     'date', 'seed', 'setup', 'ompl_version', 'fcl_version', 'project_version', 'cores'):
+            self.assertIn(name, names)
+        names, rows = self.query('out/benchmark.db', 'SELECT * FROM runs')
+        self.assertEqual(len(rows), RUNS)
+        for name in ('experimentid', 'plannerid', 'solved', 'time', 'memory', 'status', 'solution_length', 'success',
+                     'first_solution_time', 'path_length', 'cusps', 'densely_valid', 'least_clearance', 'seed', 'run'):
+            self.assertIn(name, names)
+        _, rows = self.query('out/benchmark.db', 'SELECT name FROM plannerConfigs')
+        self.assertEqual({name for name, in rows}, {'geometric_' + name for name in PLANNERS})
+        for table in ('enums', 'progress'):
+            self.query('out/benchmark.db', 'SELECT * FROM ' + table)
+        _, rows = self.query('out/benchmark.db', '''
+            SELECT settings FROM plannerConfigs WHERE name = 'geometric_short_steps' ''')
+        self.assertIn('range = 2', rows[0][0])
+        _, rows = self.query('out/benchmark.db', '''
+            SELECT COUNT(*) FROM runs JOIN plannerConfigs ON plannerid = plannerConfigs.id
+            WHERE name = 'geometric_improved_astar' AND success AND densely_valid AND path_length > 5''')
+        self.assertEqual(rows, [(4,)])
+
+    def test_time_outs_count_as_infinite(self):
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'reeds_shepp')
+        with open(self.path('out/summary.csv')) as stream:
+            for row in csv.DictReader(stream):
+                self.assertEqual((row['planner'], row['runs'], row['solved']), ('reeds_shepp', '2', '0'))
+                self.assertEqual(row['first_solution_median_s'], '')
+
+    def test_cost_over_time_is_in_the_database(self):
+        self.write('set.cfg', CONFIG.replace('improved_astar.xy_resolution=0.3', 'RRTstar='))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'RRTstar', '--time', 0.5, '--runs', 1)
+        _, rows = self.query('out/benchmark.db', 'SELECT runid, time, best_cost FROM progress ORDER BY runid, time')
+        costs = {}
+        for run, _, cost in rows:
+            if cost is not None:
+                costs.setdefault(run, []).append(cost)
+        self.assertTrue(costs)
+        for each in costs.values():
+            self.assertEqual(each, sorted(each, reverse=True))
+
+    def test_the_same_seed_gives_the_same_results(self):
+        for folder, seed in (('a', 3), ('b', 3), ('c', 4)):
+            self.benchmark('set.cfg', '--output', folder, '--quiet', '--seed', seed)
+        self.assertEqual(self.records('a/runs.jsonl'), self.records('b/runs.jsonl'))
+        self.assertNotEqual(self.records('a/runs.jsonl'), self.records('c/runs.jsonl'))
+
+    def test_each_problem_in_its_setting(self):
+        self.write('set.cfg', CONFIG.replace('scenario = %s\n' % bundled('angled45'),
+                                             'scenario = %s\n' % bundled('underground_garage')) + '''
+improved_astar=
+improved_astar.name=grid16
+improved_astar.motion_model=grid16
+improved_astar.only=underground*
+improved_astar.problem.space=se2
+improved_astar.problem.footprint=circle
+''')
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'grid16', '--planner',
+                       'improved_astar')
+        runs = self.records('out/runs.jsonl')
+        self.assertEqual([(run['experiment'], run['planner']) for run in runs],
+                         [('perpendicular', 'improved_astar'), ('underground_garage', 'improved_astar'),
+                          ('underground_garage_se2_circle', 'grid16')])
+        self.assertEqual([run['properties']['success BOOLEAN'] for run in runs], ['1', '1', '1'])
+
+    def test_simplified_and_driven_paths_are_reported_beside(self):
+        self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\n[planner]'))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect')
+        for run in self.records('out/runs.jsonl'):
+            for name in ('simplified path length REAL', 'simplified densely valid BOOLEAN',
+                         'driven to the end BOOLEAN', 'mean acceleration REAL', 'mean steering angle REAL'):
+                self.assertIn(name, run['properties'])
+            self.assertLessEqual(float(run['properties']['simplified path length REAL']),
+                                 float(run['properties']['path length REAL']) + 1e-6)
+
+    def test_a_folder_of_scenarios(self):
+        os.mkdir(self.path('cases'))
+        shutil.copy(bundled('angled45'), self.path('cases/b.yaml'))
+        self.write('cases/a10.csv', '0,0,0,5,0,0,0\n')
+        self.write('cases/a9.csv', '0,0,0,7,0,0,1,3,90,90,91,90,91,91\n')
+        self.write('cases/vehicle.yaml', 'wheelbase: 3\n')
+        self.benchmark('set.cfg', '--scenarios', 'cases', '--output', 'out', '--quiet', '--runs', 1, '--planner',
+                       'improved_astar')
+        runs = self.records('out/runs.jsonl')
+        self.assertEqual({run['experiment'] for run in runs}, {'a9', 'a10', 'b'})
+
+
+class GoingOn(BenchmarkTest):
+    def start_and_interrupt(self, finished, number):
+        """Interrupts a comparison once this many runs are finished."""
+        process = subprocess.Popen([BENCHMARK, 'set.cfg', '--no-report', '--output', 'out', '--runs', str(number)], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        file = self.path('out/runs.jsonl')
+        while process.poll() is None and time.monotonic() < deadline:
+            if os.path.exists(file) and len(self.read('out/runs.jsonl').splitlines()) > finished:
+                process.send_signal(signal.SIGINT)
+                break
+            time.sleep(0.002)
+        _, errors = process.communicate(timeout=60)
+        return process.returncode, errors
+
+    def test_interrupted_and_started_again(self):
+        number = 8
+        status, errors = self.start_and_interrupt(5, number)
+        self.assertEqual(status, 130, errors)
+        self.assertIn('goes on from there', errors)
+        kept = self.records('out/runs.jsonl')
+        self.assertGreaterEqual(len(kept), 5)
+        self.assertLess(len(kept), 8 * number)
+        # The last line was cut short, as a crash might leave it.
+        with open(self.path('out/runs.jsonl'), 'a') as stream:
+            stream.write('{"experiment": "angl')
+        done = self.benchmark('set.cfg', '--output', 'out', '--runs', number)
+        self.assertIn('Going on: %d of %d' % (len(kept), 8 * number), done.stderr)
+        self.benchmark('set.cfg', '--output', 'whole', '--runs', number, '--quiet')
+        self.assertEqual(self.records('out/runs.jsonl'), self.records('whole/runs.jsonl'))
+
+    def test_more_runs_are_added_to_what_there_is(self):
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
+        before = self.read('out/runs.jsonl')
+        done = self.benchmark('set.cfg', '--output', 'out', '--runs', 2)
+        self.assertIn('Going on: %d of %d' % (RUNS // 2, RUNS), done.stderr)
+        self.assertTrue(self.read('out/runs.jsonl').startswith(before))
+
+    def test_what_is_finished_or_different_is_set_aside(self):
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
+        first = self.read('out/runs.jsonl')
+        for extra in (['--runs', 1], ['--runs', 1, '--seed', 9], ['--runs', 2, '--fresh']):
+            with self.subTest(extra):
+                old = self.read('out/runs.jsonl')
+                done = self.benchmark('set.cfg', '--output', 'out', *extra)
+                self.assertIn('previous-runs.jsonl', done.stderr)
+                self.assertEqual(self.read('out/previous-runs.jsonl'), old)
+        self.assertNotEqual(self.read('out/runs.jsonl'), first)
+
+    def test_two_at_a_time_are_refused(self):
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
+        with open(self.path('out/runs.jsonl'), 'r+') as stream:
+            fcntl.flock(stream, fcntl.LOCK_EX)
+            self.refused_benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet', parts=['another'])
+
+
+class Shards(BenchmarkTest):
+    def test_shards_merged_are_one_run(self):
+        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
+        for i in (1, 2, 3):
+            done = self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--shard', '%d/3' % i)
+            self.assertIn('--merge', done.stdout)
+        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/runs-*.jsonl')))
+        self.assertEqual(parts, ['parts/runs-%d-of-3.jsonl' % i for i in (1, 2, 3)])
+        counts = [len(self.records(part)) for part in parts]
+        self.assertEqual(sum(counts), RUNS)
+        self.assertLessEqual(max(counts) - min(counts), 1)
+        self.benchmark('set.cfg', '--output', 'parts', '--merge')
+        self.assertEqual(self.records(*parts), self.records('whole/runs.jsonl'))
+        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+
+    def test_a_shard_that_is_missing(self):
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--shard', '1/2')
+        done = self.benchmark('set.cfg', '--output', 'out', '--merge', status=1)
+        self.assertIn('%d runs are missing' % (RUNS // 2), done.stderr)
+
+    def test_shards_from_elsewhere(self):
+        for i in (1, 2):
+            self.benchmark('set.cfg', '--output', 'host%d' % i, '--quiet', '--shard', '%d/2' % i)
+        self.benchmark('set.cfg', '--output', 'all', '--merge', '--from', 'host1', '--from',
+                       'host2/runs-2-of-2.jsonl')
+        self.assertEqual(len(self.database_runs('all/benchmark.db')), 1 + RUNS)
+        self.refused_benchmark('set.cfg', '--output', 'all', '--merge', '--from', 'host1', '--seed', 8,
+                               parts=['another comparison'])
+
+    @unittest.skipUnless(shutil.which('parallel'), 'GNU parallel is not installed')
+    def test_shards_under_gnu_parallel(self):
+        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
+        done = self.run_program('parallel', '--no-notice', '--will-cite', BENCHMARK, 'set.cfg', '--output', 'parts',
+                                '--quiet', '--no-report', '--shard', '{}/4', ':::', 1, 2, 3, 4)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
+        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+
+    def test_shards_as_a_slurm_job_array(self):
+        here = os.path.dirname(os.path.abspath(__file__))
+        started = self.run_program(os.path.join(here, 'start_slurm'), self.path('slurm'))
+        self.addCleanup(self.stop_slurm)
+        if started.returncode == 77:
+            self.skipTest(started.stderr.strip())
+        self.assertEqual(started.returncode, 0, started.stderr)
+        environment = dict(os.environ, SLURM_CONF=self.path('slurm/slurm.conf'), PARKING_BENCHMARK=BENCHMARK)
+        done = self.run_program('sbatch', '--array=3-6', '--wait', '--output=task-%a.txt',
+                                os.path.join(SOURCE, 'benchmarks', 'slurm_array'), 'set.cfg', 'parts', env=environment)
+        said = ''.join(self.read(name) for name in os.listdir(self.folder) if name.startswith('task-'))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr + said)
+        self.assertEqual(len(glob.glob(self.path('parts/runs-*-of-4.jsonl'))), 4)
+        self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
+        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
+        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+
+    def stop_slurm(self):
+        """Ends the processes that start_slurm has started, and only these; Slurm's own children end with them."""
+        if not os.path.exists(self.path('slurm/pids')):
+            return
+        pids = [int(pid) for pid in self.read('slurm/pids').split()]
+        for pid in reversed(pids):
+            try:
+                os.kill(pid, signal.SIGTERM)
+            except ProcessLookupError:
+                pass
+        deadline = time.monotonic() + 10
+        while time.monotonic() < deadline and any(os.path.exists('/proc/%d' % pid) for pid in pids):
+            time.sleep(0.1)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,159 @@
+"""parking_plan given what it cannot use: one line on standard error, exit status 2, and no file half written."""
+
+import os
+import subprocess
+
+from programs import PLAN, ProgramTest, bundled, main
+
+CASE = '0,0,0,5,5,0,1,4,2,2,3,2,3,3,2,3\n'
+MAP = 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n'
+ON_MAP = 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [8, 2, 0]\n'
+
+
+def pgm(width, height, cells=None):
+    return b'P5\n%d %d\n255\n' % (width, height) + (b'\xfe' * (width * height) if cells is None else cells)
+
+
+class Files(ProgramTest):
+    def test_cases(self):
+        for name, content, part in (('missing.csv', None, 'No such file'), ('empty.csv', '', 'empty'),
+                                    ('few.csv', CASE[:20], 'too few numbers'),
+                                    ('short.csv', CASE[:-8], 'too few numbers'),
+                                    ('two.csv', '0,0,0,5,5,0,1,2,2,2,3,3\n', '2 corners'),
+                                    ('nan.csv', CASE.replace('5,5', 'nan,5'), 'nan'),
+                                    ('word.csv', CASE.replace('5,5', 'five,5'), 'five')):
+            with self.subTest(name):
+                if content is not None:
+                    self.write(name, content)
+                self.refused_plan(name, '--json', 'out.json', parts=[name, part])
+                self.assertFalse(os.path.exists(self.path('out.json')))
+
+    def test_scenarios(self):
+        polygons = 'polygons:\n  - [[2, 2], [3, 2], [3, 3]]\n'
+        poses = 'start: [0, 0, 0]\ngoal: [9, 0, 0]\n'
+        for name, content, part in (
+                ('empty.yaml', '', 'empty'), ('torn.yaml', poses + 'polygons:\n  - [[2, 2], [3', 'torn.yaml:'),
+                ('two.yaml', poses + 'polygons:\n  - [[2, 2], [3, 3]]\n', '2 corners'),
+                ('nan.yaml', poses.replace('9', '.nan') + polygons, 'finite'),
+                ('short.yaml', poses.replace('9, ', '') + polygons, '3 numbers'),
+                ('key.yaml', poses.replace('goal', 'gaol') + polygons, "did you mean 'goal'"),
+                ('goalless.yaml', 'start: [0, 0, 0]\n' + polygons, 'goal'),
+                ('car.yaml', poses + polygons + 'vehicle: golf\n', "vehicle"),
+                ('mapless.yaml', ON_MAP.replace('map.yaml', 'nowhere.yaml'), 'No such file')):
+            with self.subTest(name):
+                self.write(name, content)
+                self.refused_plan(name, parts=[part])
+        self.refused_plan('/', parts=['folder'])
+
+    def test_maps(self):
+        self.write('on_map.yaml', ON_MAP)
+        for title, yaml, image, part in (
+                ('truncated', MAP, pgm(100, 100, b'\xfe' * 9999), 'truncated'),
+                ('other size', MAP, pgm(100, 100, b'\xfe' * 12000), '100 x 100'), ('none', MAP, None, 'No such file'),
+                ('no pixels', MAP, pgm(0, 0), '0 x 0'), ('no image', MAP, b'GIF89a', 'map.pgm'),
+                ('resolution 0', MAP.replace('0.1', '0'), pgm(100, 100), 'resolution'),
+                ('negative resolution', MAP.replace('0.1', '-0.1'), pgm(100, 100), 'resolution'),
+                ('resolution of planets', MAP.replace('0.1', '1e300'), pgm(100, 100), '100000 m'),
+                ('resolution of atoms', MAP.replace('0.1', '1e-300'), pgm(100, 100), 'outside the map'),
+                ('gigantic', MAP, pgm(100000000, 100000000, b''), 'map.pgm')):
+            with self.subTest(title):
+                self.write('map.yaml', yaml)
+                if image is None:
+                    if os.path.exists(self.path('map.pgm')):
+                        os.remove(self.path('map.pgm'))
+                else:
+                    self.write('map.pgm', image)
+                self.refused_plan('on_map.yaml', parts=[part])
+
+    def test_start_outside_the_map(self):
+        self.write('map.yaml', MAP)
+        self.write('map.pgm', pgm(100, 100))
+        self.write('on_map.yaml', ON_MAP.replace('[2,', '[20,'))
+        self.refused_plan('on_map.yaml', parts=['start outside the map'])
+
+
+class Unsolvable(ProgramTest):
+    """Not bad input, but a status of planning: exit status 4, one line that says why, and a whole result."""
+
+    def test_start_or_goal_in_collision(self):
+        for start, goal, status in (([0, 0, 0], [30, 0, 0], 'invalid_start'), ([-30, 0, 0], [0, 0, 0], 'invalid_goal')):
+            with self.subTest(status):
+                self.write('block.yaml', 'start: %s\ngoal: %s\npolygons: [[[-1, -1], [1, -1], [1, 1], [-1, 1]]]\n' %
+                           (start, goal))
+                arguments = ['block.yaml', '--set', 'approximate=0', '--time-limit', 1]
+                result = self.planned(*arguments, status=4)
+                self.assertEqual(result['status'], status)
+                done = self.plan(*arguments, status=4)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn('collision', done.stderr)
+
+
+class Options(ProgramTest):
+    def refused(self, *arguments, parts):
+        with self.subTest(arguments):
+            self.refused_plan(bundled('parallel'), *arguments, parts=parts)
+
+    def test_names(self):
+        self.refused('--planner', 'rrtstr', parts=["did you mean 'RRTstar'", 'reeds_shepp'])
+        self.refused('--set', 'xy_resolutoin=1', parts=["did you mean 'xy_resolution'", 'open_list'])
+        self.refused('--planner', 'RRTstar', '--set', 'rnge=1', parts=["did you mean 'range'"])
+        self.refused('--vehicle', 'vw_golf', parts=["did you mean 'vw_golf8'"])
+        self.refused('--space', 'se3', parts=["did you mean 'se2'"])
+        self.refused('--footprint', 'square', parts=['rectangle'])
+        self.refused('--run', 3, parts=["did you mean '--runs'"])
+        self.refused(bundled('perpendicular'), parts=['too many'])
+        self.refused_plan(parts=['no scenario'])
+
+    def test_numbers(self):
+        for option in ('--time-limit', '--circle-radius'):
+            for value in ('0', '-1', 'nan', 'inf', '1s', ''):
+                self.refused(option, value, parts=[option, 'positive'])
+        for value in ('0', '-1', '1.5', '99999999999', 'many'):
+            self.refused('--runs', value, parts=['--runs', 'whole number'])
+        self.refused('--seed', '0', parts=['--seed'])
+
+    def test_parameters(self):
+        for value in ('nan', '', '-1', 'coarse', '0.3m'):
+            self.refused('--set', 'xy_resolution=' + value, parts=['xy_resolution'])
+        # Not 8 after being cut to 32 bits.
+        for value in ('4294967304', '-4294967288', '1000000000000', '7.5'):
+            self.refused('--set', 'heading_bins=' + value, parts=['heading_bins', value])
+        self.refused('--set', 'open_list=heap', parts=['binary_heap'])
+        self.refused('--set', 'open_list', parts=['KEY=VALUE'])
+        self.refused('--set', '=3', parts=['KEY=VALUE'])
+        self.refused('--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle', parts=['SE2'])
+
+
+class Output(ProgramTest):
+    def test_files_that_cannot_be_written(self):
+        self.write('file', 'x')
+        for option in ('--json', '--svg'):
+            for name in ('nowhere/out', 'file/out', '/', ''):
+                with self.subTest(option=option, name=name):
+                    self.refused_plan(bundled('angled45'), option, name)
+            self.refused_plan(bundled('angled45'), option, '/dev/full', parts=['No space left'])
+        self.assertEqual(os.listdir(self.folder), ['file'])
+
+    def test_standard_output_that_is_full(self):
+        with open('/dev/full', 'w') as full:
+            for extra in ([], ['--json', '-']):
+                done = subprocess.run([PLAN, bundled('angled45')] + extra, stdout=full, stderr=subprocess.PIPE,
+                                      text=True, timeout=60, check=False)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn('standard output', done.stderr)
+
+    def test_a_read_only_folder(self):
+        if os.geteuid() == 0:
+            self.skipTest('root may write everywhere')
+        os.mkdir(self.path('locked'), 0o555)
+        self.refused_plan(bundled('angled45'), '--json', 'locked/out.json', parts=['locked/out.json'])
+
+    def test_an_old_result_stays_when_there_is_no_new_one(self):
+        self.write('out.json', 'old')
+        self.refused_plan(bundled('angled45'), '--json', 'out.json', '--set', 'heading_bins=0')
+        self.refused_plan('missing.yaml', '--json', 'out.json')
+        self.assertEqual(self.read('out.json'), 'old')
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,148 @@
+"""parking_plan on the problems that come with the project: exit status, and what its results say."""
+
+import json
+import math
+import os
+import xml.etree.ElementTree
+
+from programs import ProgramTest, bundled, bundled_scenarios, main
+
+UNSOLVABLE = {'unreachable'}
+MAX_GAP = 0.1 + 1e-9  # metres between states of a path
+
+
+def wrapped(angle):
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def without_times(result):
+    """A result without what depends on the machine's speed."""
+    kept = {key: value for key, value in result.items() if not key.endswith('_time_ms')}
+    kept['runs'] = [{key: value for key, value in run.items() if not key.endswith('_ms')} for run in result['runs']]
+    return kept
+
+
+class Bundled(ProgramTest):
+    def check_path(self, result):
+        """First = start, states near each other and joined by the arcs that they tell of, length and cusps as stated."""
+        path = result['path']
+        for key in ('x', 'y', 'yaw'):
+            self.assertEqual(path[0][key], result['start'][key])
+        radius = result['vehicle']['min_turning_radius']
+        length, cusps = 0.0, 0
+        for before, state in zip(path, path[1:]):
+            chord = math.hypot(state['x'] - before['x'], state['y'] - before['y'])
+            turn = wrapped(state['yaw'] - before['yaw'])
+            curvature = state['curvature']
+            self.assertIn(state['direction'], (1, -1))
+            self.assertLessEqual(abs(curvature), (1.0 + 1e-3) / radius)
+            arc = chord if abs(turn) < 1e-9 else chord * (0.5 * turn) / math.sin(0.5 * turn)
+            self.assertLessEqual(arc, MAX_GAP)
+            self.assertAlmostEqual(turn, curvature * arc * state['direction'], delta=1e-5)
+            # The chord lies in the direction half way between both headings.
+            heading = before['yaw'] + 0.5 * turn + (0.0 if state['direction'] > 0 else math.pi)
+            self.assertAlmostEqual(before['x'] + chord * math.cos(heading), state['x'], delta=1e-5)
+            self.assertAlmostEqual(before['y'] + chord * math.sin(heading), state['y'], delta=1e-5)
+            length += arc
+        for before, state in zip(path[1:], path[2:]):
+            cusps += before['direction'] != state['direction']
+        self.assertAlmostEqual(length, result['length_m'], delta=1e-3)
+        self.assertEqual(cusps, result['cusps'])
+        self.assertTrue(result['recheck']['valid'], result['recheck'])
+        self.assertGreaterEqual(result['min_clearance_m'], 0.0)
+
+    def test_every_problem_is_solved_exactly_but_the_unreachable_one(self):
+        names = bundled_scenarios()
+        self.assertGreaterEqual(len(names), 11)
+        for name in names:
+            with self.subTest(name):
+                solvable = name not in UNSOLVABLE
+                result = self.planned(bundled(name), status=0 if solvable else 3)
+                self.assertEqual(result['format'], 1)
+                self.assertEqual(result['scenario'], name)
+                self.assertEqual(result['planner'], 'improved_astar')
+                self.assertEqual(result['status'], 'exact' if solvable else 'approximate')
+                self.assertEqual(result['parameters']['motion_model'], 'car')
+                for field in ('wheelbase', 'front_overhang', 'rear_overhang', 'width', 'max_steering_angle'):
+                    self.assertGreater(result['vehicle'][field], 0.0)
+                self.assertEqual(len(result['planning_time_ms']), 1)
+                self.assertGreaterEqual(result['map_loading_time_ms'], 0.0)
+                for count in ('expanded', 'generated', 'state_checks', 'exact_checks'):
+                    self.assertGreaterEqual(result['search'][count], 0)
+                self.check_path(result)
+                last = result['path'][-1]
+                ends = [{key: last[key] for key in ('x', 'y', 'yaw')}]
+                self.assertEqual(ends[0] in result['goals'], solvable)
+
+    def test_the_same_seed_and_input_give_the_same_result(self):
+        for planner, name in (('improved_astar', 'narrow_parallel'), ('improved_astar', 'underground_garage'),
+                              ('RRTConnect', 'perpendicular')):
+            with self.subTest(planner=planner, name=name):
+                first, second = (self.planned(bundled(name), '--planner', planner, '--seed', 7) for _ in range(2))
+                self.assertGreater(len(first['path']), 2)
+                self.assertEqual(without_times(first), without_times(second))
+        other = self.planned(bundled('perpendicular'), '--planner', 'RRTConnect', '--seed', 8)
+        self.assertNotEqual(other['path'], first['path'])
+
+    def test_an_approximate_path_ends_near_the_goal(self):
+        result = self.planned(bundled('unreachable'), status=3)
+        last, goal = result['path'][-1], result['goals'][0]
+        distance = math.hypot(last['x'] - goal['x'], last['y'] - goal['y'])
+        self.assertAlmostEqual(result['goal_distance_m'], distance, delta=1e-6)
+        start = result['start']
+        self.assertLess(distance, 0.5 * math.hypot(start['x'] - goal['x'], start['y'] - goal['y']))
+
+    def test_grid_models_plan_for_a_disc_in_the_plane(self):
+        for model in ('grid8', 'grid16'):
+            with self.subTest(model):
+                result = self.planned(bundled('underground_garage'), '--set', 'motion_model=' + model)
+                self.assertEqual((result['status'], result['space'], result['footprint']), ('exact', 'se2', 'circle'))
+                self.assertTrue(result['recheck']['valid'])
+                self.assertGreater(result['circle_radius_m'], 0.5)
+
+    def test_several_runs(self):
+        result = self.planned(bundled('angled45'), '--runs', 3, '--planner', 'RRTConnect')
+        self.assertEqual(len(result['planning_time_ms']), 3)
+        self.assertEqual(len(result['runs']), 3)
+        self.assertEqual(result['runs'][0]['length_m'], result['length_m'])
+        self.assertGreater(len({run['length_m'] for run in result['runs']}), 1)  # each with a seed of its own
+
+    def test_a_planner_that_finds_nothing(self):
+        result = self.planned(bundled('tight_parallel'), '--planner', 'reeds_shepp', status=4)
+        self.assertIn(result['status'], ('timeout', 'infeasible'))
+        self.assertEqual(result['path'], [])
+        self.assertIsNone(result['length_m'])
+
+    def test_time_limit_of_planners_that_go_on_improving(self):
+        result = self.planned(bundled('angled45'), '--planner', 'RRTstar', '--time-limit', 0.3, '--seed', 3)
+        self.assertGreater(result['planning_time_ms'][0], 290.0)
+        self.assertLess(result['planning_time_ms'][0], 3000.0)  # the machine may be busy
+
+    def test_the_drive(self):
+        result = self.planned(bundled('perpendicular'), '--track')
+        self.assertEqual(result['tracking']['collisions'], 0)
+        for field in ('travel_time_s', 'mean_abs_acceleration', 'mean_abs_steering_deg', 'max_position_error_m',
+                      'final_position_error_m', 'final_yaw_error_rad'):
+            self.assertGreaterEqual(result['tracking'][field], 0.0)
+        for field in ('median', 'p99', 'max'):
+            self.assertGreater(result['tracking']['mpc_solve_ms'][field], 0.0)
+        times = [point['t'] for point in result['trajectory']]
+        self.assertEqual(times, sorted(times))
+        self.assertAlmostEqual(times[-1], result['tracking']['travel_time_s'], delta=0.5)
+        self.assertEqual(set(result['trajectory'][0]), {'t', 'x', 'y', 'yaw', 'v', 'steering', 'acceleration'})
+
+    def test_files(self):
+        self.plan(bundled('parallel'), '--json', 'result.json', '--svg', 'result.svg')
+        self.assertEqual(json.loads(self.read('result.json'))['status'], 'exact')
+        picture = xml.etree.ElementTree.fromstring(self.read('result.svg'))
+        self.assertTrue(picture.tag.endswith('svg'))
+        self.assertEqual(sorted(os.listdir(self.folder)), ['result.json', 'result.svg'])
+
+    def test_help_names_all_planners(self):
+        text = self.plan('--help').stdout
+        for name in ('improved_astar', 'hybrid_astar', 'RRTstar', 'BITstar', 'reeds_shepp', 'tpcap', '--time-limit'):
+            self.assertIn(name, text)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,90 @@
+"""What the tests of the programs share: where the programs are, how they are run, where test files go."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = os.environ['PARKING_SOURCE_DIR']
+PLAN = os.environ['PARKING_PLAN']
+BENCHMARK = os.environ['PARKING_BENCHMARK']
+SHARED_DATA = os.environ['PARKING_SHARED_DATA']
+SCENARIOS = os.path.join(SOURCE, 'benchmarks', 'scenarios')
+VERIFY = os.path.join(os.path.dirname(SHARED_DATA.rstrip('/')), 'tools', 'verify_path.py')
+
+
+def bundled_scenarios():
+    """Names of the problems that come with the project."""
+    names = []
+    for name in sorted(os.listdir(SCENARIOS)):
+        if name.endswith('.yaml') and not name.endswith('_map.yaml'):
+            names.append(name[:-len('.yaml')])
+    return names
+
+
+def bundled(name):
+    return os.path.join(SCENARIOS, name + '.yaml')
+
+
+class ProgramTest(unittest.TestCase):
+    """A test in a folder of its own, which is the programs' working folder and gone afterwards."""
+
+    maxDiff = None
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix='parking_test_')
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        mode = 'wb' if isinstance(content, bytes) else 'w'
+        with open(self.path(name), mode) as stream:
+            stream.write(content)
+        return self.path(name)
+
+    def read(self, name):
+        with open(self.path(name)) as stream:
+            return stream.read()
+
+    def run_program(self, *command, timeout=120, **options):
+        return subprocess.run([str(part) for part in command], cwd=self.folder, capture_output=True, text=True,
+                              timeout=timeout, check=False, **options)
+
+    def plan(self, *arguments, status=0, **options):
+        """Runs parking_plan; its exit status must be this one."""
+        done = self.run_program(PLAN, *arguments, **options)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def planned(self, *arguments, status=0, **options):
+        """The JSON that parking_plan prints."""
+        return json.loads(self.plan(*arguments, '--json', '-', status=status, **options).stdout)
+
+    def benchmark(self, *arguments, status=0, **options):
+        """Runs parking_benchmark, without a report; its exit status must be this one."""
+        done = self.run_program(BENCHMARK, '--no-report', *arguments, **options)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def assert_refused(self, done, *parts):
+        """Exit status 2 and one line on standard error that has all of these parts in it; nothing else is said."""
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertEqual(done.stdout, '')
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for part in parts:
+            self.assertIn(part, done.stderr)
+
+    def refused_plan(self, *arguments, parts=(), **options):
+        self.assert_refused(self.run_program(PLAN, *arguments, **options), *parts)
+
+    def refused_benchmark(self, *arguments, parts=(), **options):
+        self.assert_refused(self.run_program(BENCHMARK, *arguments, **options), *parts)
+
+
+def main():
+    unittest.main(verbosity=2)

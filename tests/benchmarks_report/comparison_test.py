@@ -1,0 +1,97 @@
+"""The report of a real, small comparison: its table has what parking_benchmark's summary.csv has, and its pictures.
+
+usage: comparison_test.py PARKING_BENCHMARK SCENARIOS
+"""
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from made_results import MAKE_REPORT, REPORT
+
+sys.path.insert(0, REPORT)
+from gallery import read_picture  # noqa: E402
+from page import Cell  # noqa: E402
+from results import read_results  # noqa: E402
+
+SKIPPED = 77
+CONFIG = '''[problem]
+scenario = {scenarios}/perpendicular.yaml
+[benchmark]
+time_limit = 0.3
+run_count = 6
+[planner]
+improved_astar=
+RRTConnect=
+reeds_shepp=
+'''
+
+
+def close(value, text):
+    return value == float('inf') if text == '' else abs(value - float(text)) <= 1e-9 * max(1.0, abs(value))
+
+
+def main(program, scenarios):
+    if shutil.which('ompl_benchmark_statistics') is None:
+        print('Skipped: ompl_benchmark_statistics (Debian package ompl-demos) is not installed')
+        return SKIPPED
+    faults = []
+    with tempfile.TemporaryDirectory() as folder:
+        config = os.path.join(folder, 'small.cfg')
+        with open(config, 'w', encoding='utf-8') as stream:
+            stream.write(CONFIG.format(scenarios=scenarios))
+        output = os.path.join(folder, 'results')
+        subprocess.run([program, config, '--output', output, '--quiet'], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([sys.executable, '-B', MAKE_REPORT, output], check=True, stdout=subprocess.DEVNULL)
+        results = read_results(output)
+        with open(os.path.join(output, 'summary.csv'), encoding='utf-8', newline='') as stream:
+            rows = list(csv.DictReader(stream))
+        if len(rows) != 3 or results.planners != [row['planner'] for row in rows]:
+            faults.append(f'rows {rows}, planners {results.planners}')
+        for row in rows:
+            cell = Cell(results.of(row['problem'], row['planner']))
+            if (str(cell.solved), str(cell.count), str(cell.invalid)) != (row['solved'], row['runs'], row['invalid']):
+                faults.append(f'{row["planner"]}: {cell.solved}/{cell.count}, {cell.invalid} invalid, not {row}')
+            for value, name in ((cell.time, 'median'), (cell.quartiles[0], 'q1'), (cell.quartiles[1], 'q3'),
+                                (cell.time_interval[0], 'ci_low'), (cell.time_interval[1], 'ci_high')):
+                if not close(value, row[f'first_solution_{name}_s']):
+                    faults.append(f'{row["planner"]}: {name} {value}, not {row[f"first_solution_{name}_s"]}')
+        picture = read_picture(output, 'perpendicular')
+        if picture is None:
+            faults.append('the picture of the problem has no map that paths can be drawn on')
+        else:
+            # A stored path is drawn where the program itself has drawn it.
+            with open(os.path.join(output, 'runs.jsonl'), encoding='utf-8') as stream:
+                record = next(each for each in map(json.loads, list(stream)[1:]) if 'path' in each)
+            x, y, _ = record['path']['start']
+            place = f'{(x - picture.left) * picture.scale:.2f}'.rstrip('0').rstrip('.')
+            height = f'{(picture.top - y) * picture.scale:.2f}'.rstrip('0').rstrip('.')
+            with open(os.path.join(output, 'pictures', 'perpendicular.svg'), encoding='utf-8') as stream:
+                drawing = stream.read()
+            if f'<polyline points="{place},{height} ' not in drawing:
+                faults.append(f'no path begins at {place},{height} in the picture')
+            if '<polyline points="' + place in picture.content:
+                faults.append('the map still has paths on it')
+        # Parts of a comparison that are put together elsewhere have a report with all runs and their paths.
+        parts = []
+        for part in ('1/2', '2/2'):
+            parts += ['--from', os.path.join(folder, part[0])]
+            subprocess.run([program, config, '--output', parts[-1], '--shard', part, '--runs', '2', '--quiet'], check=True,
+                           stdout=subprocess.DEVNULL)
+        whole = os.path.join(folder, 'whole')
+        subprocess.run([program, config, '--output', whole, '--merge', *parts, '--runs', '2', '--quiet'], check=True,
+                       stdout=subprocess.DEVNULL)
+        with open(os.path.join(whole, 'report.html'), encoding='utf-8') as stream:
+            report = stream.read()
+        if 'class="forward"' not in report or '<b>6</b><span>runs</span>' not in report:
+            faults.append('the report of merged parts lacks runs or paths')
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(*sys.argv[1:]))
