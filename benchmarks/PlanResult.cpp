@@ -3,7 +3,6 @@
 #include "automatic_parking/AutomaticParking.h"
 #include "automatic_parking/DriveAnimation.h"
 #include "automatic_parking/DriveFigure.h"
-#include "benchmarks/PathQuality.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/Svg.h"
 #include "parking_geometry/io/Text.h"

@@ -84,8 +84,14 @@ namespace ompl::geometric
         const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
         if (parameters_.approximate && query_->car.approximate(target, stop, nearest))
         {
-            query_->bestArcs = nearest;
-            return report(parking::pathStates(nearest, spacing), true);
+            std::vector<Pose> poses = parking::pathStates(nearest, spacing);
+            // Up to where the motion validator agrees. With a checker that takes long there is no time for that once
+            // the planner has been told to stop.
+            if (query_->footprintEnvironment || !ptc)
+                for (std::size_t i = 1; i < poses.size(); ++i)
+                    if (!query_->stateEnvironment->isMotionFree(poses[i - 1], poses[i]))
+                        poses.resize(i);
+            return report(poses, true);
         }
         return ob::PlannerStatus::TIMEOUT;
     }

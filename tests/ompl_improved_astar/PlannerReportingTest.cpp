@@ -282,6 +282,7 @@ namespace
         benchmark.addPlanner(anytime);
         ompl::tools::Benchmark::Request request(0.3, 1000.0, 3);
         request.displayProgress = false;
+        request.saveConsoleOutput = false;
         request.simplify = false;
         request.timeBetweenUpdates = 0.02;
         benchmark.benchmark(request);
