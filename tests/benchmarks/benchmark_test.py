@@ -100,6 +100,18 @@ class Results(BenchmarkTest):
     def leftovers(self, folder):
         return [name for name in os.listdir(self.path(folder)) if '.new' in name or 'tmp' in name]
 
+    def test_nothing_is_left_in_the_working_folder_even_while_it_runs(self):
+        self.write('set.cfg', CONFIG + 'RRTstar=\n')
+        process = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--no-report', '--runs', '1',
+                                    '--time', '1.5', '--planner', 'RRTstar'], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL)
+        seen = set()
+        while process.poll() is None:
+            seen.update(os.listdir(self.folder))
+            time.sleep(0.02)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(seen, {'set.cfg', 'out'})
+
     def test_the_database_has_the_schema_of_ompl(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet')
         names, _ = self.query('out/benchmark.db', 'SELECT * FROM experiments')
