@@ -4,6 +4,7 @@
 #include "benchmarks/ExperimentLog.h"
 #include "benchmarks/Machine.h"
 #include "benchmarks/Progress.h"
+#include "benchmarks/QuietChildren.h"
 #include "benchmarks/ReportScript.h"
 #include "benchmarks/ResultStore.h"
 #include "benchmarks/Summary.h"
@@ -100,12 +101,17 @@ namespace parking
         std::string program = fileDigest("/proc/self/exe");
         for (const std::string &plugin : options_.plugins)
             program += "+" + fileDigest(plugin);
+        const std::string cpu = []
+        {
+            const QuietChildren quiet;
+            return ompl::machine::getCPUInfo();
+        }();
         json result{
             {"fingerprint", fingerprint(config_, experiments_)},
             {"program", program},
             {"config", config_.file},
             {"host", ompl::machine::getHostname()},
-            {"cpu", ompl::machine::getCPUInfo()},
+            {"cpu", cpu},
             {"machine", machineText()},
             {"parameters", machineParameters()},
             {"seed", config_.seed},

@@ -1,6 +1,7 @@
 #include "benchmarks/UnitRunner.h"
 
 #include "benchmarks/PathQuality.h"
+#include "benchmarks/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/Text.h"
 #include "path_tracking/ClosedLoop.h"
@@ -156,6 +157,7 @@ namespace parking
             prepared.measured->setStop(&stop_);
         }
 
+        const QuietChildren quiet;
         ompl::tools::Benchmark benchmark(*prepared.setup, record.experiment);
         benchmark.addPlanner(prepared.planner);
         // clear() has thrown samplers away; those that solve() makes shall not depend on how many were made before. And
