@@ -12,7 +12,7 @@ namespace parking::search
         constexpr std::uint64_t LEAST_AFTERTHOUGHT = 5;
         // And so many more for a solution twice as long as the way looked, in proportion, the solution is longer than
         // the way looked.
-        constexpr double AFTERTHOUGHT_PER_EXCESS = 60.0;
+        constexpr double AFTERTHOUGHT_PER_EXCESS = 35.0;
         constexpr double MOST_EXCESS = 1.0;
         constexpr double SHORT = 1.03;
         // Knots of the first shortening: their distance in turning radii, and no more than so many on long paths.
