@@ -9,6 +9,7 @@
 #include <ompl/util/Exception.h>
 
 #include <cmath>
+#include <limits>
 
 namespace ompl::geometric
 {
@@ -17,9 +18,10 @@ namespace ompl::geometric
         using parking::MotionModel;
         using parking::search::OpenListKind;
 
-        double checked(const char *name, double value, double least, const char *meaning)
+        double checked(const char *name, double value, double least, const char *meaning,
+                       double most = std::numeric_limits<double>::max())
         {
-            if (!(value >= least) || !std::isfinite(value))
+            if (!(value >= least && value <= most))
                 throw Exception("ImprovedAStar",
                                 std::string(name) + " must be " + meaning + ", not " + parking::formatNumber(value));
             return value;
@@ -90,8 +92,8 @@ namespace ompl::geometric
 
     void ImprovedAStar::setXyResolution(double resolution)
     {
-        parameters_.xyResolution =
-            checked("xy_resolution", resolution, 0.0, "a number of metres of at least 0 (0 chooses one)");
+        parameters_.xyResolution = checked("xy_resolution", resolution, 0.0,
+                                           "a number of metres of at least 0 (0 chooses one) and at most 100", 100.0);
     }
 
     double ImprovedAStar::getXyResolution() const

@@ -109,6 +109,7 @@ namespace
         const Bad all[] = {{"turning_radius", "0", "positive number of metres"},
                            {"turning_radius", "-1", "positive number of metres"},
                            {"xy_resolution", "-0.1", "at least 0"},
+                           {"xy_resolution", "100.5", "at most 100"},
                            {"heading_bins", "7", "between 8 and 1440"},
                            {"heading_bins", "1441", "between 8 and 1440"},
                            {"steering_angles", "1", "odd number between 3 and 21"},
