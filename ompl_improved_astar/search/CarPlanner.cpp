@@ -10,11 +10,11 @@ namespace parking::search
         // After the first solution the search goes on for this part of its expansions, and at least so many.
         constexpr double AFTERTHOUGHT = 0.2;
         constexpr std::uint64_t LEAST_AFTERTHOUGHT = 5;
-        // And so many more for a solution twice as long as the way looked, in proportion, the solution is longer than
-        // the way looked.
+        // And so many more when the solution is twice as long as the way looked, or more; in proportion when it is
+        // less.
         constexpr double AFTERTHOUGHT_PER_EXCESS = 35.0;
         constexpr double MOST_EXCESS = 1.0;
-        constexpr double SHORT = 1.03;
+        constexpr double SHORT = 1.03;  // hardly longer than the bare curve: nothing to look for
         // Knots of the first shortening: their distance in turning radii, and no more than so many on long paths.
         constexpr double SPACING = 0.5;
         constexpr double MOST_KNOTS = 24.0;
