@@ -1,7 +1,6 @@
 #include "state_validity/EdgeIndex.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -87,8 +86,6 @@ namespace parking
         Eight nx, ny;         // unit normals
         double x, y, ex, ey;  // the box round them: middle and half lengths
         std::size_t edges;    // distinct ones
-        std::size_t points;   // distinct ends
-        std::array<double, 2 * BLOCK_SIZE> px, py;
 
         /** How far the oriented box is from the block's box at least, along the axes of the former. */
         double gap(const OrientedBox &box) const
@@ -212,7 +209,6 @@ namespace parking
         {
             Block &block = list->blocks[k];
             block.edges = std::min(BLOCK_SIZE, pieces.size() - k * BLOCK_SIZE);
-            block.points = 0;
             Eigen::Vector2d low(INFINITE, INFINITE), high(-INFINITE, -INFINITE);
             for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
             {
@@ -227,16 +223,6 @@ namespace parking
                 block.ny[at] = piece.normal.y();
                 low = low.cwiseMin(a.cwiseMin(b));
                 high = high.cwiseMax(a.cwiseMax(b));
-                for (const Eigen::Vector2d *point : {&a, &b})
-                {
-                    bool known = false;
-                    for (std::size_t j = 0; j < block.points && !known; ++j)
-                        known = block.px[j] == point->x() && block.py[j] == point->y();
-                    if (known)
-                        continue;
-                    block.px[block.points] = point->x();
-                    block.py[block.points++] = point->y();
-                }
             }
             block.x = 0.5 * (low.x() + high.x());
             block.y = 0.5 * (low.y() + high.y());
@@ -310,11 +296,15 @@ namespace parking
             {
                 if (!front.mayMeet(block.x, block.y, block.ex, block.ey))
                     continue;
-                for (std::size_t i = 0; i < block.points; ++i)
-                    front.meetPoint(block.px[i], block.py[i]);
+                // Most edges of the block lie beside the way and are passed over, all eight at a time.
+                const Eight gaps = front.gap(block.ax, block.ay, block.bx, block.by);
                 for (std::size_t i = 0; i < block.edges; ++i)
                 {
                     const auto k = static_cast<Eigen::Index>(i);
+                    if (gaps[k] > 0.0)
+                        continue;
+                    front.meetPoint(block.ax[k], block.ay[k]);
+                    front.meetPoint(block.bx[k], block.by[k]);
                     front.meetEdge(block.ax[k], block.ay[k], block.bx[k], block.by[k], block.nx[k], block.ny[k]);
                 }
             }

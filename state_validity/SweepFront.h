@@ -37,6 +37,19 @@ namespace parking
         /** \brief Can anything within the axis-parallel box round (x, y) with the half lengths ex, ey be met? */
         bool mayMeet(double x, double y, double ex, double ey) const;
 
+        /** \brief For arrays of edges from (ax, ay) to (bx, by): how far each is at least from a box round all that is
+           swept. Those above 0 cannot be met. */
+        template <class Array>
+        Array gap(const Array &ax, const Array &ay, const Array &bx, const Array &by) const
+        {
+            const Array aux = ax - mx_, auy = ay - my_, bux = bx - mx_, buy = by - my_;
+            const Array alongA = aux * mdx_ + auy * mdy_, alongB = bux * mdx_ + buy * mdy_;
+            const Array acrossA = auy * mdx_ - aux * mdy_, acrossB = buy * mdx_ - bux * mdy_;
+            const Array alongGap = (alongA.min(alongB) - high_).max(low_ - alongA.max(alongB));
+            const Array acrossGap = (acrossA.min(acrossB) - left_).max(right_ - acrossA.max(acrossB));
+            return alongGap.max(acrossGap);
+        }
+
         /** \brief Notes when the box meets the point, if it does before everything noted so far. */
         void meetPoint(double x, double y);
 
