@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace parking::search
@@ -14,16 +15,21 @@ namespace parking::search
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MAX_CELLS = 4000000;  // a world without walls must not fill the memory
 
+        /** Bits of a float that is not negative: numbers in the same order. */
+        std::uint32_t bitsOf(float value)
+        {
+            std::uint32_t bits = 0;
+            static_assert(sizeof(bits) == sizeof(value));
+            std::memcpy(&bits, &value, sizeof(bits));
+            return bits;
+        }
+
         struct Later
         {
             template <class Entry>
             bool operator()(const Entry &a, const Entry &b) const
             {
-                if (a.f != b.f)
-                    return a.f > b.f;
-                if (a.g != b.g)
-                    return a.g < b.g;
-                return a.row != b.row ? a.row > b.row : a.column > b.column;
+                return a.key > b.key;
             }
         };
     }  // namespace
@@ -95,7 +101,8 @@ namespace parking::search
 
     void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)
     {
-        open_.push_back({g + estimate(column, row), g, column, row});
+        const std::uint64_t f = bitsOf(g + estimate(column, row));
+        open_.push_back({(f << 32) | (0xffffffffu - bitsOf(g)), column, row});
         std::push_heap(open_.begin(), open_.end(), Later());
     }
 
@@ -124,22 +131,18 @@ namespace parking::search
                 continue;
             state.settled = true;
             ++settled_;
-            for (std::int32_t dr = -1; dr <= 1; ++dr)
-                for (std::int32_t dc = -1; dc <= 1; ++dc)
+            const float here = state.g;
+            const bool inside = cells_.forEachNeighbour(
+                settled.column, settled.row,
+                [this, here](CellState &next, std::int32_t column, std::int32_t row, bool diagonal)
                 {
-                    const std::int32_t column = settled.column + dc, row = settled.row + dr;
-                    if (!TiledGrid<CellState>::contains(column, row))
-                    {
-                        leftGrid_ = true;
-                        continue;
-                    }
-                    CellState &next = cells_.at(column, row);
-                    const float g = settled.g + (dc != 0 && dr != 0 ? DIAGONAL : 1.0f);
+                    const float g = here + (diagonal ? DIAGONAL : 1.0f);
                     if (next.settled || g >= next.g || !isOpen(next, column, row))
-                        continue;
+                        return;
                     next.g = g;
                     push(g, column, row);
-                }
+                });
+            leftGrid_ = leftGrid_ || !inside;
             return true;
         }
         return false;

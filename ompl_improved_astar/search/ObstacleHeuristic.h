@@ -69,10 +69,10 @@ namespace parking::search
             bool settled{false};
         };
 
+        /** Ordered by f, then by the larger g. */
         struct Entry
         {
-            float f;
-            float g;
+            std::uint64_t key;  // f in the upper half, what is left of the largest number by g in the lower
             std::int32_t column, row;
         };
 

@@ -44,6 +44,34 @@ namespace parking::search
             return (*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
         }
 
+        /** \brief Calls visit(cell, column, row, diagonal) for the eight neighbours, row by row.
+
+            \return false when some of them lie beyond the reach of the grid and were left out */
+        template <class Visit>
+        bool forEachNeighbour(std::int32_t column, std::int32_t row, const Visit &visit)
+        {
+            const auto c = static_cast<std::uint32_t>(column + REACH) % TILE,
+                       r = static_cast<std::uint32_t>(row + REACH) % TILE;
+            // Inside of a tile the neighbours lie at fixed distances in memory.
+            const bool within = c > 0 && r > 0 && c + 1 < TILE && r + 1 < TILE;
+            T *const cell = within ? &at(column, row) : nullptr;
+            bool all = true;
+            for (std::int32_t dr = -1; dr <= 1; ++dr)
+                for (std::int32_t dc = -1; dc <= 1; ++dc)
+                {
+                    if (dr == 0 && dc == 0)
+                        continue;
+                    const bool diagonal = dr != 0 && dc != 0;
+                    if (within)
+                        visit(*(cell + dr * TILE + dc), column + dc, row + dr, diagonal);
+                    else if (contains(column + dc, row + dr))
+                        visit(at(column + dc, row + dr), column + dc, row + dr, diagonal);
+                    else
+                        all = false;
+                }
+            return all;
+        }
+
         void clear()
         {
             for (const std::uint32_t place : touched_)

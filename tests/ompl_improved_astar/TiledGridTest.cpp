@@ -73,3 +73,58 @@ TEST(TiledGrid, referencesHoldWhileOthersAreMade)
     EXPECT_EQ(kept.value, 1);
     EXPECT_EQ(&kept, &grid.at(0, 0));
 }
+
+TEST(TiledGrid, neighboursAreTheEightAroundRowByRow)
+{
+    TestRandom random(5);
+    Grid grid;
+    const auto number = [](std::int32_t column, std::int32_t row)
+    {
+        return 10000 * row + column;
+    };
+    for (int i = 0; i < 3000; ++i)
+    {
+        // On both sides of the borders of tiles, and away from them.
+        const auto column = static_cast<std::int32_t>(random.index(100)) - 50;
+        const auto row = static_cast<std::int32_t>(random.index(100)) - 50;
+        std::vector<int> expected, visited;
+        for (std::int32_t r = row - 1; r <= row + 1; ++r)
+            for (std::int32_t c = column - 1; c <= column + 1; ++c)
+            {
+                grid.at(c, r).value = number(c, r);
+                if (c != column || r != row)
+                    expected.push_back(number(c, r));
+            }
+        const bool all = grid.forEachNeighbour(column, row,
+                                               [&](Content &cell, std::int32_t c, std::int32_t r, bool diagonal)
+                                               {
+                                                   ASSERT_EQ(&cell, &grid.at(c, r));
+                                                   ASSERT_EQ(diagonal, c != column && r != row);
+                                                   visited.push_back(cell.value);
+                                               });
+        ASSERT_TRUE(all);
+        ASSERT_EQ(visited, expected) << column << " " << row;
+    }
+}
+
+TEST(TiledGrid, neighboursBeyondTheReachAreLeftOut)
+{
+    Grid grid;
+    const std::int32_t last = Grid::REACH - 1;
+    const auto count = [&grid](std::int32_t column, std::int32_t row, int expected)
+    {
+        int visited = 0;
+        const bool all = grid.forEachNeighbour(column, row,
+                                               [&visited](Content &, std::int32_t c, std::int32_t r, bool)
+                                               {
+                                                   EXPECT_TRUE(Grid::contains(c, r));
+                                                   ++visited;
+                                               });
+        EXPECT_EQ(visited, expected);
+        EXPECT_EQ(all, expected == 8);
+    };
+    count(last, last, 3);
+    count(-Grid::REACH, 0, 5);
+    count(0, last, 5);
+    count(last - 1, -Grid::REACH + 1, 8);
+}
