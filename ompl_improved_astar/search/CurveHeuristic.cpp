@@ -11,7 +11,7 @@ namespace parking::search
         // Cells in units of the turning radius and of a whole turn, near the targets and farther away.
         constexpr double NEAR = 1.5, NEAR_CELL = 0.04, FAR_CELL = 0.16;
         constexpr int NEAR_HEADINGS = 180, FAR_HEADINGS = 60;
-        constexpr std::size_t SLOTS = 1u << 14;
+        constexpr std::size_t SLOTS = 1u << 13;
     }  // namespace
 
     CurveHeuristic::CurveHeuristic(const ReedsShepp &curves) : curves_(curves), slots_(SLOTS)
@@ -20,15 +20,20 @@ namespace parking::search
 
     void CurveHeuristic::reset(bool backwards)
     {
-        backwards_ = backwards;
         targets_.clear();
+        frames_.clear();
+        if (backwards == backwards_ && curves_.turningRadius() == radius_ && curves_.family() == family_)
+            return;
+        backwards_ = backwards;
+        radius_ = curves_.turningRadius();
+        family_ = curves_.family();
         ++generation_;
     }
 
     void CurveHeuristic::addTarget(const Pose &target)
     {
         targets_.push_back(target);
-        ++generation_;
+        frames_.push_back({std::cos(target.yaw), std::sin(target.yaw)});
     }
 
     double CurveHeuristic::exact(const Pose &pose) const
@@ -43,14 +48,25 @@ namespace parking::search
     {
         if (targets_.empty())
             return 0.0;
-        const Pose &frame = targets_.front();
-        const double dx = pose.x - frame.x, dy = pose.y - frame.y, radius = curves_.turningRadius();
-        const bool near = std::max(std::abs(dx), std::abs(dy)) < NEAR * radius;
-        const double cell = (near ? NEAR_CELL : FAR_CELL) * radius;
+        float shortest = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+        {
+            const auto &[cosine, sine] = frames_[i];
+            const double dx = pose.x - targets_[i].x, dy = pose.y - targets_[i].y;
+            shortest = std::min(shortest, tabulated({cosine * dx + sine * dy, cosine * dy - sine * dx,
+                                                     wrapAngle(pose.yaw - targets_[i].yaw)}));
+        }
+        return shortest;
+    }
+
+    float CurveHeuristic::tabulated(const Pose &relative)
+    {
+        const bool near = std::max(std::abs(relative.x), std::abs(relative.y)) < NEAR * radius_;
+        const double cell = (near ? NEAR_CELL : FAR_CELL) * radius_;
         const int headings = near ? NEAR_HEADINGS : FAR_HEADINGS;
-        const double turn = wrapAngle(pose.yaw - frame.yaw) / (2.0 * PI) * headings;
-        const auto column = static_cast<std::int64_t>(std::lround(dx / cell));
-        const auto row = static_cast<std::int64_t>(std::lround(dy / cell));
+        const double turn = relative.yaw / (2.0 * PI) * headings;
+        const auto column = static_cast<std::int64_t>(std::lround(relative.x / cell));
+        const auto row = static_cast<std::int64_t>(std::lround(relative.y / cell));
         const auto heading = static_cast<std::int64_t>((std::lround(turn) + headings) % headings);
         const std::uint64_t key = (static_cast<std::uint64_t>(column & 0xffffff) << 36) |
                                   (static_cast<std::uint64_t>(row & 0xffffff) << 12) |
@@ -58,9 +74,10 @@ namespace parking::search
         Slot &slot = slots_[((key ^ (key >> 29)) * 0x9e3779b97f4a7c15ull >> 32) & (SLOTS - 1)];
         if (slot.generation != generation_ || slot.key != key)
         {
-            const Pose centre{frame.x + static_cast<double>(column) * cell, frame.y + static_cast<double>(row) * cell,
-                              frame.yaw + static_cast<double>(heading) * 2.0 * PI / headings};
-            slot = {key, generation_, static_cast<float>(exact(centre))};
+            const Pose target, centre{static_cast<double>(column) * cell, static_cast<double>(row) * cell,
+                                      static_cast<double>(heading) * 2.0 * PI / headings};
+            const double length = backwards_ ? curves_.distance(target, centre) : curves_.distance(centre, target);
+            slot = {key, generation_, static_cast<float>(length)};
         }
         return slot.value;
     }

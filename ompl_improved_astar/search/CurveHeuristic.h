@@ -11,15 +11,16 @@ namespace parking::search
     /** \brief Length of the shortest curve of bounded curvature between a pose and the nearest of some targets, without
         regard to obstacles.
 
-        Poses are rounded to cells, finer near the targets, and the length of each cell is computed once, when first
-       asked for: what a table made in advance would hold, without its seconds of preparation. The values are those of
+        Poses are rounded to cells in the frame of the target, finer near it, and the length of each cell is computed
+       once, when first asked for: what a table made in advance for the vehicle would hold, without its seconds of
+       preparation. The table outlives queries and targets, as long as the curves are the same. The values are those of
        the cells' centres and therefore not a bound; exact() is. */
     class CurveHeuristic
     {
     public:
         explicit CurveHeuristic(const ReedsShepp &curves);
 
-        /** \brief Forgets targets and values.
+        /** \brief Forgets the targets, and the table where the curves have changed.
             \param backwards false: curves from the asked pose to a target; true: from a target to the asked pose */
         void reset(bool backwards);
 
@@ -44,10 +45,20 @@ namespace parking::search
             float value{0.0f};
         };
 
+        struct Frame
+        {
+            double cosine, sine;
+        };
+
+        float tabulated(const Pose &relative);
+
         const ReedsShepp &curves_;
         bool backwards_{false};
         std::vector<Pose> targets_;
+        std::vector<Frame> frames_;  // of the targets
         std::vector<Slot> slots_;
         std::uint32_t generation_{1};
+        double radius_{0.0};  // of the curves in the table, and their family
+        CurveFamily family_{CurveFamily::ReedsShepp};
     };
 }  // namespace parking::search

@@ -145,6 +145,34 @@ TEST(CurveHeuristic, forgetsValuesWithTheTargets)
     EXPECT_EQ(heuristic.targets().size(), 1u);
 }
 
+TEST(CurveHeuristic, whatItHasComputedForOtherTargetsDoesNotShow)
+{
+    // One object for many targets, both directions, other radii and other curves, against a new one each time.
+    ReedsShepp curves(3.0);
+    CurveHeuristic used(curves);
+    TestRandom random(9);
+    for (int round = 0; round < 40; ++round)
+    {
+        const CurveFamily family = random.chance(0.5) ? CurveFamily::Dubins : CurveFamily::ReedsShepp;
+        curves = ReedsShepp(random.chance(0.5) ? 3.0 : 4.5, family);
+        const bool backwards = random.chance(0.5);
+        CurveHeuristic fresh(curves);
+        used.reset(backwards);
+        fresh.reset(backwards);
+        for (std::uint32_t k = 0; k < 1 + random.index(3); ++k)
+        {
+            const Pose target = random.poseIn(-20.0, 20.0);
+            used.addTarget(target);
+            fresh.addTarget(target);
+        }
+        for (int i = 0; i < 500; ++i)
+        {
+            const Pose pose = random.poseIn(-30.0, 30.0);
+            ASSERT_EQ(used.approximate(pose), fresh.approximate(pose)) << round;
+        }
+    }
+}
+
 TEST(CostModel, pricesLengthGearSteeringAndCloseness)
 {
     DiscCarWorld world({-10.0, -10.0, 10.0, 10.0});
