@@ -42,7 +42,8 @@ namespace ompl::geometric
         parking::ArcPath bestArcs;
         bool hasArcs{false};
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
-        std::vector<parking::Pose> solution;  ///< what was reported last, when it was exact
+        base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length
+        std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both trees and of the solution
 
@@ -96,6 +97,7 @@ namespace ompl::geometric
             hasArcs = false;
             solution.clear();
             bestCost = base::Cost(std::numeric_limits<double>::infinity());
+            objective.reset();
         }
 
         void freeDataStates()

@@ -52,9 +52,9 @@ namespace ompl::geometric
         {
             auto path = std::make_shared<PathGeometric>(si_);
             std::vector<const ob::State *> states;
+            ob::ScopedState<> state(si_);
             for (const Pose &pose : parking::pathStates(arcs, spacing))
             {
-                ob::ScopedState<> state(si_);
                 parking::setPose(state.get(), pose);
                 path->append(state.get());
             }
@@ -65,6 +65,7 @@ namespace ompl::geometric
             query_->hasArcs = true;
             query_->bestArcs = arcs;
             query_->bestCost = cost;
+            query_->objective = objective;
             bestCost_.store(cost.value(), std::memory_order_relaxed);
             if (const ob::ReportIntermediateSolutionFn &report = pdef_->getIntermediateSolutionCallback())
             {
@@ -201,12 +202,14 @@ namespace ompl::geometric
             solution.setApproximate(difference);
         if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
         {
-            const ob::Cost cost = path->cost(objective);
+            // Of the car's path it is known already, and takes its time on a curve space.
+            const bool known = !approximate && query_->isCar() && query_->objective == objective;
+            const ob::Cost cost = known ? query_->bestCost : path->cost(objective);
             solution.setOptimized(objective, cost, !approximate && objective->isSatisfied(cost));
         }
         pdef_->addSolutionPath(solution);
-        OMPL_DEBUG("%s: %s path of length %.3f after %llu expansions", getName().c_str(),
-                   approximate ? "approximate" : "exact", path->length(),
+        OMPL_DEBUG("%s: %s path of %zu states after %llu expansions", getName().c_str(),
+                   approximate ? "approximate" : "exact", path->getStateCount(),
                    static_cast<unsigned long long>(expanded_.load()));
         return approximate ? ob::PlannerStatus::APPROXIMATE_SOLUTION : ob::PlannerStatus::EXACT_SOLUTION;
     }
