@@ -46,14 +46,22 @@ namespace parking
 
     double FootprintEnvironment::freeLength(const Pose &from, double curvature, double length)
     {
-        if (boundsMatter_)
+        const ArcSegment arc{curvature, length};
+        double free = 0.0;
+        freeLengths(from, &arc, 1, &free);
+        return free;
+    }
+
+    void FootprintEnvironment::freeLengths(const Pose &from, const ArcSegment *arcs, std::size_t count, double *free)
+    {
+        const FootprintChecker::SweepStart start = checker_.sweepStart(from, tolerance_, counts_);
+        for (std::size_t i = 0; i < count; ++i)
         {
-            const double inside = lengthInside(from, curvature, length);
-            if (inside < std::abs(length))
-                return std::min(
-                    inside, checker_.freeLength(from, curvature, std::copysign(inside, length), tolerance_, counts_));
+            const auto &[curvature, length] = arcs[i];
+            const double whole = std::abs(length);
+            const double inside = boundsMatter_ ? lengthInside(from, curvature, length) : whole;
+            free[i] = checker_.freeLength(start, curvature, std::copysign(std::min(inside, whole), length), counts_);
         }
-        return checker_.freeLength(from, curvature, length, tolerance_, counts_);
     }
 
     double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const
@@ -62,6 +70,10 @@ namespace parking
         const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
         if (!isInside(bounds_, from))
             return 0.0;
+        // Far from the walls, as most poses are: on no arc does the axle get farther than the arc is long.
+        if (from.x - bounds_.min.x() > whole && bounds_.max.x() - from.x > whole && from.y - bounds_.min.y() > whole &&
+            bounds_.max.y() - from.y > whole)
+            return whole;
         double driven = 0.0;
         while (driven < whole)
         {

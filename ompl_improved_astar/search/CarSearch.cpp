@@ -114,7 +114,7 @@ namespace parking::search
         if (!parameters_.analyticExpansion)
             return;
         for (const std::uint32_t other : trees_[1 - side].roots)
-            side == 0 ? connect(index, other, 1) : connect(other, index, 1);
+            side == 0 ? connect(index, other, CurveEnd::Goal) : connect(other, index, CurveEnd::Goal);
     }
 
     void CarSearch::push(int side, int level, std::uint32_t index)
@@ -241,49 +241,57 @@ namespace parking::search
             tree.bestClosed = index;
 
         const bool first = !node.expanded;
-        const int half = static_cast<int>(parameters_.steeringAngles / 2);
-        const std::size_t motions = 2 * parameters_.steeringAngles;
-        if (tree.freeLengths.size() < (index + 1) * motions)
-            tree.freeLengths.resize((index + 1) * motions);
+        collectMotions(side, node);
+        const std::size_t count = motions_.size(), slots = 2 * parameters_.steeringAngles;
+        if (tree.freeLengths.size() < (index + 1) * slots)
+            tree.freeLengths.resize((index + 1) * slots);
+        // How far each motion is free is found out once and serves the finer levels, too.
+        float *const known = &tree.freeLengths[index * slots];
         const double step = steps_[level];
+        if (!first)
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                if (static_cast<double>(known[i]) >= step)
+                    addChild(side, index, motions_[i].curvature, std::copysign(step, motions_[i].length), false);
+            return;
+        }
+        free_.resize(count);
+        environment_->freeLengths(node.pose, motions_.data(), count, free_.data());
         double mobility = 0.0;
-        std::size_t motion = index * motions;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const auto &[curvature, reach] = motions_[i];
+            const double free = free_[i];
+            known[i] = std::nextafter(static_cast<float>(free), 0.0f);
+            mobility = std::max(mobility, free);
+            if (free < shortest_)
+                continue;
+            addChild(side, index, curvature, std::copysign(free, reach), free >= reach_);
+            if (free > 1.1 * step)
+                addChild(side, index, curvature, std::copysign(step, reach), false);
+        }
+        tree.nodes[index].mobility = static_cast<float>(mobility);
+    }
+
+    void CarSearch::collectMotions(int side, const Node &node)
+    {
+        motions_.clear();
+        const int half = static_cast<int>(parameters_.steeringAngles / 2);
         for (int steer = -half; steer <= half; ++steer)
         {
             const double curvature = steer / (half * parameters_.turningRadius);
             for (const double gear : {1.0, -1.0})
             {
-                // How far each motion is free is found out once and serves the finer levels, too.
-                float &known = tree.freeLengths[motion++];
-                if (first)
-                    known = 0.0f;
                 // Roots of the goal's tree are left in the direction opposite to that in which the car arrives.
                 if (parameters_.forwardOnly && gear != (side == 0 ? 1.0 : -1.0))
                     continue;
-                if (node.parent != NO_NODE && curvature == node.curvature)
-                {
-                    // Back along the same arc leads nowhere new; on along it does only from where reach ended.
-                    if (gear * node.length < 0.0 || !node.farthest)
-                        continue;
-                }
-                if (!first)
-                {
-                    if (static_cast<double>(known) >= step)
-                        addChild(side, index, curvature, gear * step, false);
+                // Back along the same arc leads nowhere new; on along it does only from where reach ended.
+                if (node.parent != NO_NODE && curvature == node.curvature &&
+                    (gear * node.length < 0.0 || !node.farthest))
                     continue;
-                }
-                const double free = environment_->freeLength(node.pose, curvature, gear * reach_);
-                known = std::nextafter(static_cast<float>(free), 0.0f);
-                mobility = std::max(mobility, free);
-                if (free < shortest_)
-                    continue;
-                addChild(side, index, curvature, gear * free, free >= reach_);
-                if (free > 1.1 * step)
-                    addChild(side, index, curvature, gear * step, false);
+                motions_.push_back({curvature, gear * reach_});
             }
         }
-        if (first)
-            tree.nodes[index].mobility = static_cast<float>(mobility);
     }
 
     void CarSearch::addChild(int side, std::uint32_t parentIndex, double curvature, double length, bool farthest)

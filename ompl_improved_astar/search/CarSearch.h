@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/CellTable.h"
 #include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/CurveCheck.h"
 #include "ompl_improved_astar/search/CurveHeuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/ObstacleHeuristic.h"
@@ -201,10 +202,10 @@ namespace parking::search
         int chooseLevel(const Tree &tree) const;
         void step(int side, int level);
         void expand(int side, std::uint32_t index, int level);
+        void collectMotions(int side, const Node &node);
         void addChild(int side, std::uint32_t parent, double curvature, double length, bool farthest);
-        bool connect(std::uint32_t fromStart, std::uint32_t fromGoal, int checkedFrom);
+        bool connect(std::uint32_t fromStart, std::uint32_t fromGoal, CurveEnd sweptFrom);
         void connectAround(int side, std::uint32_t index);
-        bool isCurveFree(const ReedsSheppCurve &curve, const Pose &from, const Pose &to, int checkedFrom);
         void appendBranch(int side, std::uint32_t node, ArcPath &path) const;
         ArcPath pathFromStart(std::uint32_t node) const;
 
@@ -235,6 +236,8 @@ namespace parking::search
         StopFunction stop_;
         double loadingTime_{0.0};
         mutable SearchStatistics statistics_;
+        std::vector<ArcSegment> motions_;  // of the node that is expanded
+        std::vector<double> free_;
         std::vector<ReedsSheppCurve> candidates_;
         std::vector<std::pair<double, std::size_t>> order_;
     };

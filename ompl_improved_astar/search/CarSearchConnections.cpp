@@ -21,12 +21,13 @@ namespace parking::search
             return;
         const Tree &other = trees_[1 - side];
         for (const std::uint32_t root : other.roots)
-            side == 0 ? connect(index, root, 0) : connect(root, index, 1);
+            side == 0 ? connect(index, root, CurveEnd::Start) : connect(root, index, CurveEnd::Goal);
         if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.nodes[other.bestClosed].parent != NO_NODE)
-            side == 0 ? connect(index, other.bestClosed, 0) : connect(other.bestClosed, index, 1);
+            side == 0 ? connect(index, other.bestClosed, CurveEnd::Start)
+                      : connect(other.bestClosed, index, CurveEnd::Goal);
     }
 
-    bool CarSearch::connect(std::uint32_t fromStart, std::uint32_t fromGoal, int checkedFrom)
+    bool CarSearch::connect(std::uint32_t fromStart, std::uint32_t fromGoal, CurveEnd sweptFrom)
     {
         const Node &a = trees_[0].nodes[fromStart], &b = trees_[1].nodes[fromGoal];
         const double before = a.g + b.g;
@@ -50,7 +51,7 @@ namespace parking::search
         std::sort(order_.begin(), order_.end());
         for (const auto &[sum, i] : order_)
         {
-            if (!isCurveFree(candidates_[i], a.pose, b.pose, checkedFrom))
+            if (!isCurveFree(*environment_, a.pose, candidates_[i], b.pose, sweptFrom))
                 continue;
             ArcPath path = pathFromStart(fromStart);
             for (std::size_t k = 0; k < candidates_[i].count; ++k)
@@ -64,21 +65,6 @@ namespace parking::search
             return true;
         }
         return false;
-    }
-
-    bool CarSearch::isCurveFree(const ReedsSheppCurve &curve, const Pose &from, const Pose &to, int checkedFrom)
-    {
-        // Checked from the end where a collision is more likely.
-        Pose pose = checkedFrom == 0 ? from : to;
-        for (std::size_t k = 0; k < curve.count; ++k)
-        {
-            const ArcSegment &segment = curve.segments[checkedFrom == 0 ? k : curve.count - 1 - k];
-            const double length = checkedFrom == 0 ? segment.length : -segment.length;
-            if (environment_->freeLength(pose, segment.curvature, length) < std::abs(length))
-                return false;
-            pose = advance(pose, segment.curvature, length);
-        }
-        return true;
     }
 
     void CarSearch::appendBranch(int side, std::uint32_t index, ArcPath &path) const

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace parking::search
 {
@@ -115,11 +116,13 @@ namespace parking::search
             node.h = static_cast<float>(heuristic(side, node.pose));
             tree.cells.set(cellKey(node.pose, 0), root);
             push(side, 0, root);
-            double mobility = 0.0;
+            motions_.clear();
             for (const double steer : {-1.0, 0.0, 1.0})
                 for (const double gear : {-1.0, 1.0})
-                    mobility +=
-                        environment_->freeLength(node.pose, steer / parameters_.turningRadius, gear * steps_[0]);
+                    motions_.push_back({steer / parameters_.turningRadius, gear * steps_[0]});
+            free_.resize(motions_.size());
+            environment_->freeLengths(node.pose, motions_.data(), motions_.size(), free_.data());
+            const double mobility = std::accumulate(free_.begin(), free_.end(), 0.0);
             tree.rootMobility = std::min(tree.rootMobility, mobility);
         }
     }

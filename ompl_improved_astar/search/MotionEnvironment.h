@@ -3,6 +3,8 @@
 #include "parking_geometry/ArcPath.h"
 #include "parking_geometry/Pose.h"
 
+#include <cstddef>
+
 namespace parking::search
 {
     /** \brief What the search asks of the world. One search uses one environment from one thread.
@@ -24,6 +26,15 @@ namespace parking::search
             \param length signed metres
             \return between 0 and |length|; |length| itself when all of it is free */
         virtual double freeLength(const Pose &from, double curvature, double length) = 0;
+
+        /** \brief The same for several arcs from one pose, which may share some of the work.
+
+            \param free takes one length for each arc */
+        virtual void freeLengths(const Pose &from, const ArcSegment *arcs, std::size_t count, double *free)
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                free[i] = freeLength(from, arcs[i].curvature, arcs[i].length);
+        }
 
         /** \brief An upper bound of the distance between the point (x, y) and the nearest obstacle, in metres; infinite
             when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */

@@ -1,5 +1,7 @@
 #include "ompl_improved_astar/search/PathShortener.h"
 
+#include "ompl_improved_astar/search/CurveCheck.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,15 +72,7 @@ namespace parking::search
         for (const auto &candidate : order_)
         {
             const ReedsSheppCurve &curve = candidates_[candidate.second];
-            Pose pose = pieces_[i].from;
-            bool free = true;
-            for (std::size_t m = 0; m < curve.count && free; ++m)
-            {
-                const ArcSegment &segment = curve.segments[m];
-                free = environment_.freeLength(pose, segment.curvature, segment.length) >= std::abs(segment.length);
-                pose = advance(pose, segment.curvature, segment.length);
-            }
-            if (!free)
+            if (!isCurveFree(environment_, pieces_[i].from, curve, pieces_[j].from, CurveEnd::Start))
                 continue;
             ArcPath shorter{path.start, {}};
             for (std::size_t k = 0; k < i; ++k)

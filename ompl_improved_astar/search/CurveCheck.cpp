@@ -1,0 +1,31 @@
+#include "ompl_improved_astar/search/CurveCheck.h"
+
+#include "parking_geometry/ArcPath.h"
+
+#include <cmath>
+
+namespace parking::search
+{
+    bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
+                     CurveEnd first)
+    {
+        Pose pose = from;
+        for (std::size_t k = 0; k + 1 < curve.count; ++k)
+        {
+            pose = advance(pose, curve.segments[k].curvature, curve.segments[k].length);
+            if (!environment.isFree(pose))
+                return false;
+        }
+        const bool forwards = first == CurveEnd::Start;
+        pose = forwards ? from : to;
+        for (std::size_t k = 0; k < curve.count; ++k)
+        {
+            const ArcSegment &segment = curve.segments[forwards ? k : curve.count - 1 - k];
+            const double length = forwards ? segment.length : -segment.length;
+            if (environment.freeLength(pose, segment.curvature, length) < std::abs(length))
+                return false;
+            pose = advance(pose, segment.curvature, length);
+        }
+        return true;
+    }
+}  // namespace parking::search
