@@ -35,7 +35,7 @@ namespace parking
         bool shortening{true};
         bool approximate{true};
         double reversePenalty{0.0};
-        double gearChangePenalty{1.0};
+        double gearChangePenalty{0.5};
         double steeringChangePenalty{0.1};
         double clearanceWeight{0.0};
         bool analyticExpansion{true};

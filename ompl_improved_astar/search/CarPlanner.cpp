@@ -2,22 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking::search
 {
     namespace
     {
         // After the first solution the search goes on for this part of its expansions, and at least so many.
-        constexpr double AFTERTHOUGHT = 0.2;
-        constexpr std::uint64_t LEAST_AFTERTHOUGHT = 5;
+        constexpr double AFTERTHOUGHT = 0.3;
+        constexpr std::uint64_t LEAST_AFTERTHOUGHT = 8;
         // And so many more when the solution is twice as long as the way looked, or more; in proportion when it is
         // less.
         constexpr double AFTERTHOUGHT_PER_EXCESS = 35.0;
         constexpr double MOST_EXCESS = 1.0;
+        // It looks at what is cheap so far rather than at what is near: the part of the weights that remains.
+        constexpr double WEIGHTS_OF_AFTERTHOUGHT = 0.7;
         constexpr double SHORT = 1.03;  // hardly longer than the bare curve: nothing to look for
         // Knots of the first shortening: their distance in turning radii, and no more than so many on long paths.
         constexpr double SPACING = 0.5;
-        constexpr double MOST_KNOTS = 24.0;
+        constexpr double MOST_KNOTS = 20.0;
+        // A path still longer than it looked by this part is shortened once more, with other knots.
+        constexpr double LONG = 0.15;
+        constexpr double OTHER_SPACING = 0.48, OTHER_OFFSET = 0.15;
         // Later ones look at parts of the path up to so many turning radii long.
         constexpr double WIDEST = 12.0;
         // Expansions between two rounds of shortening while improving, and how the weights fall from round to round.
@@ -59,13 +65,28 @@ namespace parking::search
         return true;
     }
 
+    bool CarPlanner::shorten(ArcPath &path, double &cost, double spacing, double offset, double widest)
+    {
+        PathShortener shortener(*environment_, search_.curves(), parameters_.search.cost);
+        ArcPath shorter = path;
+        const bool isShorter = shortener.pass(shorter, spacing, offset, widest, stop_);
+        shortenerConnections_ += shortener.connections();
+        if (!isShorter)
+            return false;
+        // Clearance is sampled, so that the cost of the whole is not quite the sum of its parts'.
+        const double less = pathCost(parameters_.search.cost, shorter, *environment_);
+        if (!(less < cost))
+            return false;
+        path = std::move(shorter);
+        cost = less;
+        return true;
+    }
+
     bool CarPlanner::shortenBest(double spacing, double offset)
     {
         ArcPath path = bestPath_;
-        PathShortener shortener(*environment_, search_.curves(), parameters_.search.cost);
-        const bool shorter = shortener.pass(path, spacing, offset, WIDEST * parameters_.search.turningRadius, stop_);
-        shortenerConnections_ += shortener.connections();
-        return shorter && take(path, pathCost(parameters_.search.cost, path, *environment_));
+        double cost = bestCost_;
+        return shorten(path, cost, spacing, offset, WIDEST * parameters_.search.turningRadius) && take(path, cost);
     }
 
     bool CarPlanner::isShortestPossible(const ArcPath &path, double cost) const
@@ -86,46 +107,7 @@ namespace parking::search
             const SearchOutcome outcome = search_.run(stop);
             if (outcome != SearchOutcome::Improved)
                 return outcome == SearchOutcome::Stopped ? Outcome::Stopped : Outcome::Exhausted;
-            ArcPath best = search_.bestPath();
-            double cost = search_.bestCost();
-            // A single curve that cannot be beaten ends the matter, and little can be gained by going on with a path
-            // that is hardly longer than the shortest curve.
-            if (!isShortestPossible(best, cost))
-            {
-                const double little = SHORT * search_.shortestCurve();
-                const bool isShort = best.length() < little && cost < little + parameters_.search.turningRadius;
-                const std::uint64_t spent = search_.statistics().expanded;
-                const double expected = std::max(search_.shortestCurve(), search_.estimate());
-                const double excess = std::clamp(best.length() / expected - 1.0, 0.0, MOST_EXCESS);
-                const std::uint64_t end = spent + LEAST_AFTERTHOUGHT +
-                                          static_cast<std::uint64_t>(AFTERTHOUGHT * static_cast<double>(spent) +
-                                                                     AFTERTHOUGHT_PER_EXCESS * excess);
-                const StopFunction enough = [&]
-                {
-                    return search_.statistics().expanded >= end || (stop && stop());
-                };
-                while (!isShort && search_.run(enough) == SearchOutcome::Improved)
-                {
-                }
-                best = search_.bestPath();
-                cost = search_.bestCost();
-                if (parameters_.shorten)
-                {
-                    PathShortener shortener(*environment_, search_.curves(), parameters_.search.cost);
-                    const double spacing =
-                        std::max(SPACING * parameters_.search.turningRadius, best.length() / MOST_KNOTS);
-                    ArcPath shorter = best;
-                    // Clearance is sampled, so that the cost of the whole is not quite the sum of its parts'.
-                    if (shortener.pass(shorter, spacing, 0.0, INFINITE, stop))
-                        if (const double less = pathCost(parameters_.search.cost, shorter, *environment_); less < cost)
-                        {
-                            best = std::move(shorter);
-                            cost = less;
-                        }
-                    shortenerConnections_ += shortener.connections();
-                }
-            }
-            take(best, cost);
+            takeFirst();
         }
         else
         {
@@ -136,6 +118,55 @@ namespace parking::search
         if (goodEnough_ || !parameters_.anytime || isShortestPossible(bestPath_, bestCost_))
             return Outcome::Solved;
         return improve();
+    }
+
+    void CarPlanner::takeFirst()
+    {
+        // A single curve that cannot be beaten ends the matter, and little can be gained by going on with a path that
+        // is hardly longer than the shortest curve.
+        if (isShortestPossible(search_.bestPath(), search_.bestCost()))
+        {
+            take(search_.bestPath(), search_.bestCost());
+            return;
+        }
+        const double little = SHORT * search_.shortestCurve();
+        const bool isShort =
+            search_.bestPath().length() < little && search_.bestCost() < little + parameters_.search.turningRadius;
+        const double expected = std::max(search_.shortestCurve(), search_.estimate());
+        if (!isShort)
+            thinkAgain(search_.bestPath().length() / expected - 1.0);
+        ArcPath best = search_.bestPath();
+        double cost = search_.bestCost();
+        if (parameters_.shorten)
+        {
+            const double radius = parameters_.search.turningRadius, coarsest = best.length() / MOST_KNOTS;
+            shorten(best, cost, std::max(SPACING * radius, coarsest), 0.0, INFINITE);
+            if (best.length() > (1.0 + LONG) * expected)
+                shorten(best, cost, std::max(OTHER_SPACING * radius, coarsest), OTHER_OFFSET * radius, WIDEST * radius);
+        }
+        take(best, cost);
+    }
+
+    void CarPlanner::thinkAgain(double excess)
+    {
+        const auto lower = [](double weight)
+        {
+            return weight > 1.0 ? std::max(1.0, WEIGHTS_OF_AFTERTHOUGHT * weight) : weight;
+        };
+        weights_.far = lower(weights_.far);
+        weights_.near = lower(weights_.near);
+        search_.setWeights(weights_);
+        const std::uint64_t spent = search_.statistics().expanded;
+        const double more =
+            AFTERTHOUGHT * static_cast<double>(spent) + AFTERTHOUGHT_PER_EXCESS * std::clamp(excess, 0.0, MOST_EXCESS);
+        const std::uint64_t end = spent + LEAST_AFTERTHOUGHT + static_cast<std::uint64_t>(more);
+        const StopFunction enough = [this, end]
+        {
+            return search_.statistics().expanded >= end || (stop_ && stop_());
+        };
+        while (search_.run(enough) == SearchOutcome::Improved)
+        {
+        }
     }
 
     CarPlanner::Outcome CarPlanner::improve()

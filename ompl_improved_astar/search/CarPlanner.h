@@ -89,6 +89,9 @@ namespace parking::search
 
     private:
         bool take(const ArcPath &path, double cost);
+        void takeFirst();
+        void thinkAgain(double excess);
+        bool shorten(ArcPath &path, double &cost, double spacing, double offset, double widest);
         bool shortenBest(double spacing, double offset);
         bool isShortestPossible(const ArcPath &path, double cost) const;
         Outcome improve();

@@ -16,8 +16,8 @@ namespace parking::search
     /** \brief The weighting of the heuristic: f = g + (w + p) h (paper, section "Heuristic Function Optimization"). */
     struct HeuristicWeights
     {
-        double far{3.0};           ///< w where the target is farther than nearGoalDistance
-        double near{3.0};          ///< w nearer than that
+        double far{2.5};           ///< w where the target is farther than nearGoalDistance
+        double near{2.5};          ///< w nearer than that
         double nearDistance{5.0};  ///< metres, straight
         double tieBreak{1e-3};     ///< p
 
