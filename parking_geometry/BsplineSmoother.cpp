@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 
 #include <unsupported/Eigen/Splines>
 
@@ -18,6 +20,8 @@ namespace parking
 
         /** Points nearer to each other than this are one, metres. */
         constexpr double SAME_PLACE = 1e-9;
+
+        constexpr int MIN_DEGREE = 2, MAX_DEGREE = 5;
 
         /** Curves that hardly move with their parameter have no heading of their own. */
         constexpr double SLOW = 1e-9;
@@ -41,7 +45,7 @@ namespace parking
 
         void check(const BsplineOptions &options)
         {
-            if (options.degree < 2 || options.degree > 5)
+            if (options.degree < MIN_DEGREE || options.degree > MAX_DEGREE)
                 throw Error("B-spline: degree is " + std::to_string(options.degree) + "; it must be from 2 to 5");
             if (options.sampling < 1)
                 throw Error("B-spline: sampling is 0; it must be at least 1");
@@ -88,24 +92,34 @@ namespace parking
                 return {origin_[span], origin_[span + degree_]};
             }
 
+            /** What the shape of a span depends on: two spans of equal keys have the same states. Knots are uniform but
+                for the ends, whose distance counts while it is below the degree. */
+            std::vector<std::size_t> key(std::size_t span) const
+            {
+                std::vector<std::size_t> key(origin_.begin() + static_cast<std::ptrdiff_t>(span),
+                                             origin_.begin() + static_cast<std::ptrdiff_t>(span + degree_ + 1));
+                key.push_back(std::min(span, degree_));
+                key.push_back(std::min(spans_ - 1 - span, degree_));
+                return key;
+            }
+
             /** States of a span, at most \e step apart; both of its ends are among them. */
             Path sample(std::size_t span, double step) const
             {
                 double controlLength = 0.0;
                 for (std::size_t i = span; i < span + degree_; ++i)
                     controlLength += (control(i + 1) - control(i)).norm();
-                const double from = static_cast<double>(span) / static_cast<double>(spans_);
-                const double width = 1.0 / static_cast<double>(spans_);
+                const Polynomial polynomial = expand(span);
                 // The control polygon spans as many pieces as the degree says.
                 const double guess = 1.0 + std::ceil(controlLength / static_cast<double>(degree_) / step);
                 for (auto count = static_cast<std::size_t>(guess);; count += 1 + count / 4)
                 {
                     Path states;
+                    states.reserve(count + 1);
                     double longest = 0.0;
                     for (std::size_t i = 0; i <= count; ++i)
                     {
-                        const double share = static_cast<double>(i) / static_cast<double>(count);
-                        states.push_back(state(std::min(1.0, from + share * width)));
+                        states.push_back(state(polynomial, static_cast<double>(i) / static_cast<double>(count)));
                         if (i > 0)
                             longest = std::max(longest, std::hypot(states[i].pose.x - states[i - 1].pose.x,
                                                                    states[i].pose.y - states[i - 1].pose.y));
@@ -116,23 +130,45 @@ namespace parking
             }
 
         private:
+            /** Coefficients of a span by powers of the share of it that is behind. */
+            using Polynomial = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, MAX_DEGREE + 1>;
+
             Vector2d control(std::size_t i) const
             {
                 return spline_.ctrls().col(static_cast<Eigen::Index>(i));
             }
 
-            /** Heading NaN where the curve does not move. */
-            PathState state(double u) const
+            /** Within a span the spline is a polynomial: its derivatives at the beginning say all. */
+            Polynomial expand(std::size_t span) const
             {
-                const auto derivatives = spline_.derivatives(u, 2);
-                const Vector2d velocity = derivatives.col(1);
-                // A spline of degree 1, a line, has no second derivative.
-                const Vector2d acceleration =
-                    derivatives.cols() > 2 ? Vector2d(derivatives.col(2)) : Vector2d(0.0, 0.0);
+                const double width = 1.0 / static_cast<double>(spans_);
+                const auto order = static_cast<Eigen::Index>(degree_);
+                // The very knot, so that it counts as part of this span and not of the one before.
+                const double begin = static_cast<double>(span) / static_cast<double>(spans_);
+                Polynomial polynomial = spline_.derivatives(begin, order).matrix();
+                double scale = 1.0;
+                for (Eigen::Index k = 1; k <= order; ++k)
+                {
+                    scale *= width / static_cast<double>(k);
+                    polynomial.col(k) *= scale;
+                }
+                return polynomial;
+            }
+
+            /** Heading NaN where the curve does not move. */
+            PathState state(const Polynomial &polynomial, double share) const
+            {
+                Vector2d position(0.0, 0.0), velocity(0.0, 0.0), acceleration(0.0, 0.0);
+                for (Eigen::Index k = polynomial.cols() - 1; k >= 0; --k)
+                {
+                    acceleration = acceleration * share + 2.0 * velocity;
+                    velocity = velocity * share + position;
+                    position = position * share + polynomial.col(k);
+                }
                 const double speed = velocity.norm();
                 PathState result;
-                result.pose = {derivatives(0, 0), derivatives(1, 0), std::nan("")};
-                if (speed < SLOW)
+                result.pose = {position.x(), position.y(), std::nan("")};
+                if (speed * static_cast<double>(spans_) < SLOW)
                     return result;
                 result.pose.yaw = std::atan2(velocity.y(), velocity.x());
                 result.curvature =
@@ -210,6 +246,13 @@ namespace parking
         for (std::size_t i = 0; i < points.size(); i += options.sampling)
             multiplicity[i] = 1;
         multiplicity.back() = 1;
+        // Most spans stay as they are when others get more control points.
+        struct Span
+        {
+            Path states;
+            bool isAcceptable{false};
+        };
+        std::map<std::vector<std::size_t>, Span> known;
         BsplinePath result;
         for (bool again = true; again;)
         {
@@ -220,9 +263,11 @@ namespace parking
             std::vector<int> next = multiplicity;
             for (std::size_t span = 0; span < curve.spans(); ++span)
             {
-                Path states;
-                append(states, curve.sample(span, options.step));
-                if (states.size() < 2)
+                const auto [at, isNew] = known.try_emplace(curve.key(span));
+                Span &piece = at->second;
+                if (isNew)
+                    append(piece.states, curve.sample(span, options.step));
+                if (piece.states.size() < 2)
                     continue;
                 const auto [first, last] = curve.reach(span);
                 int least = through;
@@ -235,17 +280,19 @@ namespace parking
                 const bool isPolyline = least == through;
                 result.polylinePieces += isPolyline;
                 result.denserPieces += denser && !isPolyline;
-                if (isPolyline)
-                    for (PathState &state : states)
-                        state.curvature = 0.0;
                 // Pieces of the polyline itself are as they were given; others rise by one step where they fail.
-                if (!isPolyline && !isAcceptable(states, options, vehicle, world))
+                if (isPolyline)
+                    for (PathState &state : piece.states)
+                        state.curvature = 0.0;
+                else if (isNew)
+                    piece.isAcceptable = isAcceptable(piece.states, options, vehicle, world);
+                if (!isPolyline && !piece.isAcceptable)
                 {
                     for (std::size_t i = first; i <= last; ++i)
                         next[i] = std::max(next[i], least == 0 ? 1 : through);
                     again = true;
                 }
-                append(result.path, states);
+                append(result.path, piece.states);
             }
             multiplicity = next;
         }

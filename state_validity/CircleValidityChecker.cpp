@@ -54,8 +54,7 @@ namespace parking
             return 0.0;
         if (!field_.isOutside(local.x, local.y) && obstacles_.covers(local.x, local.y))
             return 0.0;
-        // A point is a box of no size.
-        return std::max(bound, std::min(edges_.distance({local.x, local.y, 1.0, 0.0, 0.0, 0.0}), edges_.reach()));
+        return std::max(bound, std::min(edges_.distance(local.x, local.y), edges_.reach()));
     }
 
     bool CircleValidityChecker::isFree(double x, double y) const

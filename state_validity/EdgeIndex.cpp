@@ -15,6 +15,8 @@ namespace parking
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
         // Rounding of rotated coordinates within a few kilometres of the frame, with room to spare.
         constexpr double ROUNDING = 1e-10;
+        // An edge that is cut off at its very end has no length left, by which nothing must be divided.
+        constexpr double LEAST_SQUARE = 1e-300;
 
         using Eight = Eigen::Array<double, BLOCK_SIZE, 1>;
 
@@ -110,6 +112,14 @@ namespace parking
             const Eight gapN = (nx * dax + ny * day).abs() - box.halfLength * (c * nx + s * ny).abs() -
                                box.halfWidth * (c * ny - s * nx).abs();
             return gapX.max(gapY).max(gapN).minCoeff();
+        }
+
+        /** The smallest squared distance between the point and the eight edges. */
+        double squaredDistance(double px, double py) const
+        {
+            const Eight dx = bx - ax, dy = by - ay, ux = px - ax, uy = py - ay;
+            const Eight share = ((ux * dx + uy * dy) / (dx * dx + dy * dy).max(LEAST_SQUARE)).max(0.0).min(1.0);
+            return ((ux - share * dx).square() + (uy - share * dy).square()).minCoeff();
         }
     };
 
@@ -340,6 +350,15 @@ namespace parking
             }
         }
         return first;
+    }
+
+    double EdgeIndex::distance(double x, double y) const
+    {
+        double smallest = INFINITE;  // squared
+        for (const Block &block : near(x, y).blocks)
+            if (squaredDistanceToBox(x - block.x, y - block.y, block.ex, block.ey) < smallest)
+                smallest = std::min(smallest, block.squaredDistance(x, y));
+        return std::sqrt(smallest);
     }
 
     double EdgeIndex::distance(const OrientedBox &box) const

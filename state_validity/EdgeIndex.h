@@ -52,6 +52,9 @@ namespace parking
             Infinite when no edge is within reach. */
         double distance(const OrientedBox &box) const;
 
+        /** \brief The same for the point (x, y). */
+        double distance(double x, double y) const;
+
         /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.
 
             \param sweep the motion; its half lengths take the place of those of \e box

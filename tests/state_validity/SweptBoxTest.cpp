@@ -4,6 +4,7 @@
 #include "state_validity/SweepFront.h"
 #include "tests/state_validity/RandomWorlds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -262,4 +263,39 @@ TEST(EdgeIndex, SeparationAndDistanceAreTheOracles)
     }
     EXPECT_GT(apart, 3000);
     EXPECT_GT(crossing, 3000);
+}
+
+/** Also for edges whose very corner lies on the border of what a bucket holds, so that no length of them is left. */
+TEST(EdgeIndex, PointDistancesAreThoseOfTheNearestEdge)
+{
+    Random random(15);
+    int near = 0;
+    for (int world = 0; world < 40; ++world)
+    {
+        const double reach = 1.5;
+        std::vector<Edge> edges;
+        for (int i = 0; i < 1 + world; ++i)
+            edges.push_back(anyEdge(random));
+        for (int i = -6; i <= 6; ++i)  // buckets are a metre wide and keep what is sqrt(2) / 2 m farther than the reach
+            edges.push_back({{i - reach + 0.5 - std::sqrt(0.5), 0.5 + i}, {i - 40.0, 0.5 + i}});
+        const EdgeIndex index(edges, {{-8.0, -8.0}, {8.0, 8.0}}, reach);
+        for (int i = 0; i < 1500; ++i)
+        {
+            const Eigen::Vector2d point(random.between(-8.0, 8.0), random.between(-8.0, 8.0));
+            double expected = std::numeric_limits<double>::infinity();
+            for (const Edge &edge : edges)
+            {
+                const Eigen::Vector2d along = edge.to - edge.from;
+                const double share = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+                expected = std::min(expected, (edge.from + share * along - point).norm());
+            }
+            const double distance = index.distance(point.x(), point.y());
+            ASSERT_GE(distance, expected - 1e-9);
+            if (expected > reach)
+                continue;
+            ++near;
+            ASSERT_NEAR(distance, expected, 1e-9);
+        }
+    }
+    EXPECT_GT(near, 20000);
 }
