@@ -10,7 +10,6 @@ namespace parking::search
     namespace
     {
         // Often, since a checker may take a tenth of a millisecond for each of the states that these ask for.
-        constexpr std::uint64_t EXPANSIONS_BETWEEN_STOPS = 1;
         constexpr std::int64_t CELLS_BETWEEN_STOPS = 8;
 
         struct Step
@@ -48,6 +47,7 @@ namespace parking::search
         loaded_ = 0;
         loadingTime_ = 0.0;
         turn_ = false;
+        unfinished_ = {0, NO_NODE, 0};
         path_.clear();
         statistics_ = {};
     }
@@ -174,9 +174,11 @@ namespace parking::search
                     path_ = {nodes_[start].pose, nodes_[goal].pose};
                     return Outcome::Found;
                 }
-        for (std::uint64_t turn = 1;; ++turn)
+        for (;;)
         {
-            if (turn % EXPANSIONS_BETWEEN_STOPS == 0 && stop && stop())
+            if (unfinished_.node != NO_NODE && !expand(stop))
+                return Outcome::Stopped;
+            if (stop && stop())
                 return Outcome::Stopped;
             const int side = chooseSide();
             if (side < 0)
@@ -198,7 +200,8 @@ namespace parking::search
             if (other != NO_NODE && (nodes_[other].closed || nodes_[other].parent == NO_NODE) &&
                 (side == 0 ? meets(entry.node, other) : meets(other, entry.node)))
                 return Outcome::Found;
-            expand(side, entry.node);
+            ++statistics_.expanded;
+            unfinished_ = {side, entry.node, 0};
         }
     }
 
@@ -212,12 +215,15 @@ namespace parking::search
         return environment_->isMotionFree(to, turned) && (!turns || environment_->isMotionFree(turned, from.pose));
     }
 
-    void GridSearch::expand(int side, std::uint32_t index)
+    bool GridSearch::expand(const StopFunction &stop)
     {
-        ++statistics_.expanded;
+        const int side = unfinished_.side;
+        const std::uint32_t index = unfinished_.node;
         const std::size_t directions = parameters_.sixteenNeighbours ? 16 : 8;
-        for (std::size_t direction = 0; direction < directions; ++direction)
+        for (std::size_t &direction = unfinished_.direction; direction < directions; ++direction)
         {
+            if (direction > 0 && stop && stop())
+                return false;
             const Node node = nodes_[index];
             const std::int32_t column = node.column + STEPS[direction].columns;
             const std::int32_t row = node.row + STEPS[direction].rows;
@@ -258,6 +264,8 @@ namespace parking::search
                 nodes_[known] = next;
             push(side, at);
         }
+        unfinished_.node = NO_NODE;
+        return true;
     }
 
     bool GridSearch::meets(std::uint32_t a, std::uint32_t b)

@@ -7,6 +7,7 @@
 #include "parking_geometry/Pose.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -114,13 +115,21 @@ namespace parking::search
             std::array<Occupancy, 16> byHeading{};
         };
 
+        /** An expansion that goes on with this direction; none without a node. */
+        struct Expansion
+        {
+            int side;
+            std::uint32_t node;
+            std::size_t direction;
+        };
+
         void addRoot(int side, const Pose &pose);
         bool isCellFree(Cell &cell, const Pose &pose, std::size_t direction);
         Outcome load(const StopFunction &stop);
         double remaining(int side, const Pose &pose) const;
         void push(int side, std::uint32_t node);
         int chooseSide();
-        void expand(int side, std::uint32_t node);
+        bool expand(const StopFunction &stop);
         bool isStepFree(int side, const Node &from, const Pose &to, double heading) const;
         bool meets(std::uint32_t a, std::uint32_t b);
         void appendToRoot(std::uint32_t node, std::vector<Pose> &poses) const;
@@ -139,6 +148,7 @@ namespace parking::search
         std::int32_t columns_{0}, rows_{0};
         std::int64_t loaded_{0};
         bool turn_{false};
+        Expansion unfinished_{0, NO_NODE, 0};
         double loadingTime_{0.0};
         std::vector<Pose> path_;
         SearchStatistics statistics_;

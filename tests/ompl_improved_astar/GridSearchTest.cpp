@@ -308,11 +308,15 @@ TEST(GridSearch, stopsAndGoesOnToTheSamePath)
                 {
                     int asked = 0;
                     outcome = grid.run([&asked] { return ++asked > 1; });
-                    ASSERT_LT(++pieces, 1000);
+                    ASSERT_LT(++pieces, 20000);
                 } while (outcome == Outcome::Stopped);
                 ASSERT_EQ(outcome, whole.outcome);
                 ASSERT_EQ(grid.statistics().expanded, whole.statistics.expanded);
+                ASSERT_EQ(grid.statistics().generated, whole.statistics.generated);
                 expectSamePath(grid.path(), whole.path);
+                // In the midst of expansions, too.
+                EXPECT_TRUE(eager || whole.statistics.expanded < 3 ||
+                            pieces > 4 * static_cast<int>(whole.statistics.expanded));
             }
 }
 
