@@ -174,7 +174,8 @@ namespace parking
                    {{"expanded", run.search.expanded},
                     {"generated", run.search.generated},
                     {"state_checks", run.search.stateChecks},
-                    {"exact_checks", run.search.exactChecks}}}};
+                    {"exact_checks", run.search.exactChecks},
+                    {"suboptimality_bound", number(run.suboptimalityBound)}}}};
         if (run.path)
             text["recheck"] = {{"valid", run.path->recheck.valid},
                                {"states", run.path->recheck.states},

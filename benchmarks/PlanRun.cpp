@@ -56,6 +56,14 @@ namespace parking
             return figures;
         }
 
+        double boundOf(ob::Planner &planner)
+        {
+            auto *improved = dynamic_cast<ompl::geometric::ImprovedAStar *>(&planner);
+            const bool holds = improved != nullptr && improved->getHeuristicWeightFar() == 1.0 &&
+                               improved->getHeuristicWeightNear() == 1.0;
+            return holds ? improved->suboptimalityBound() : std::numeric_limits<double>::infinity();
+        }
+
         double distanceToGoals(const Scenario &scenario, const Pose &pose)
         {
             double least = std::numeric_limits<double>::infinity();
@@ -109,6 +117,8 @@ namespace parking
         run.status = statusOf(status, ranOut);
         run.search = figuresOf(problem, *prepared.planner);
         const bool exact = run.status == PlanStatus::Exact;
+        if (exact)
+            run.suboptimalityBound = boundOf(*prepared.planner);
         if (!exact && run.status != PlanStatus::Approximate)
             return run;
         const auto *path =

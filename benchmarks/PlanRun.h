@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -44,6 +45,9 @@ namespace parking
         double firstSolutionTime{0.0};  ///< seconds; only with an exact solution
         double mapLoadingTime{0.0};     ///< seconds that the planner itself spent on finding out which cells are free
         SearchFigures search;
+        /** Cost of the solution over a lower bound of it in the discretised problem: of the improved A* with both
+            heuristic weights at 1; infinite otherwise. */
+        double suboptimalityBound{std::numeric_limits<double>::infinity()};
         std::optional<PlannedPath> path;  ///< with an exact or approximate solution
         double goalDistance{0.0};         ///< metres that the path ends from the nearest goal
     };

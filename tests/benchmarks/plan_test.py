@@ -74,6 +74,17 @@ class Bundled(ProgramTest):
                 ends = [{key: last[key] for key in ('x', 'y', 'yaw')}]
                 self.assertEqual(ends[0] in result['goals'], solvable)
 
+    def test_at_weight_one_the_bound_on_suboptimality_is_reported(self):
+        self.assertIsNone(self.planned(bundled('perpendicular'))['search']['suboptimality_bound'])
+        weights = ('--set', 'heuristic_weight_far=1', '--set', 'heuristic_weight_near=1')
+        first = self.planned(bundled('perpendicular'), *weights)
+        bound = first['search']['suboptimality_bound']
+        self.assertGreater(bound, 1.0)
+        # The bound holds for whatever is found later.
+        longer = self.planned(bundled('perpendicular'), *weights, '--set', 'anytime=1', '--time-limit', 1)
+        self.assertLessEqual(longer['search']['suboptimality_bound'], bound)
+        self.assertGreaterEqual(longer['length_m'] * bound, 0.99 * first['length_m'])
+
     def test_the_same_seed_and_input_give_the_same_result(self):
         for planner, name in (('improved_astar', 'narrow_parallel'), ('improved_astar', 'underground_garage'),
                               ('RRTConnect', 'perpendicular')):
