@@ -6,8 +6,8 @@
 #include <ompl/base/PlannerStatus.h>
 
 #include <cstdint>
-#include <map>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
