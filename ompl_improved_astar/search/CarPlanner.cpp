@@ -65,11 +65,12 @@ namespace parking::search
         return true;
     }
 
-    bool CarPlanner::shorten(ArcPath &path, double &cost, double spacing, double offset, double widest)
+    bool CarPlanner::shorten(ArcPath &path, double &cost, double spacing, double offset, double widest,
+                             CurveChoice choice)
     {
         PathShortener shortener(*environment_, search_.curves(), parameters_.search.cost);
         ArcPath shorter = path;
-        const bool isShorter = shortener.pass(shorter, spacing, offset, widest, stop_);
+        const bool isShorter = shortener.pass(shorter, spacing, offset, widest, choice, stop_);
         shortenerConnections_ += shortener.connections();
         if (!isShorter)
             return false;
@@ -86,7 +87,8 @@ namespace parking::search
     {
         ArcPath path = bestPath_;
         double cost = bestCost_;
-        return shorten(path, cost, spacing, offset, WIDEST * parameters_.search.turningRadius) && take(path, cost);
+        const double widest = WIDEST * parameters_.search.turningRadius;
+        return shorten(path, cost, spacing, offset, widest, CurveChoice::All) && take(path, cost);
     }
 
     bool CarPlanner::isShortestPossible(const ArcPath &path, double cost) const
@@ -140,9 +142,10 @@ namespace parking::search
         if (parameters_.shorten)
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / MOST_KNOTS;
-            shorten(best, cost, std::max(SPACING * radius, coarsest), 0.0, INFINITE);
+            shorten(best, cost, std::max(SPACING * radius, coarsest), 0.0, INFINITE, CurveChoice::Shortest);
             if (best.length() > (1.0 + LONG) * expected)
-                shorten(best, cost, std::max(OTHER_SPACING * radius, coarsest), OTHER_OFFSET * radius, WIDEST * radius);
+                shorten(best, cost, std::max(OTHER_SPACING * radius, coarsest), OTHER_OFFSET * radius, WIDEST * radius,
+                        CurveChoice::Shortest);
         }
         take(best, cost);
     }

@@ -91,7 +91,7 @@ namespace parking::search
         bool take(const ArcPath &path, double cost);
         void takeFirst();
         void thinkAgain(double excess);
-        bool shorten(ArcPath &path, double &cost, double spacing, double offset, double widest);
+        bool shorten(ArcPath &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
         bool shortenBest(double spacing, double offset);
         bool isShortestPossible(const ArcPath &path, double cost) const;
         Outcome improve();

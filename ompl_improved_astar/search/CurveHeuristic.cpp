@@ -1,7 +1,12 @@
 #include "ompl_improved_astar/search/CurveHeuristic.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace parking::search
@@ -11,23 +16,66 @@ namespace parking::search
         // Cells in units of the turning radius and of a whole turn, near the targets and farther away.
         constexpr double NEAR = 1.5, NEAR_CELL = 0.04, FAR_CELL = 0.16;
         constexpr int NEAR_HEADINGS = 180, FAR_HEADINGS = 60;
-        constexpr std::size_t SLOTS = 1u << 13;
+        // Of the far cells' columns and rows; what lies beyond is not tabulated.
+        constexpr double FARTHEST = 2047.0;
+        constexpr std::size_t SLOTS = 1u << 15;
+
+        /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
+           bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
+           slot taken by another takes it over. */
+        class Table
+        {
+        public:
+            /** \brief The length of the cell, computed by \e length() where it is not known. */
+            template <class Length>
+            float at(std::uint64_t key, const Length &length)
+            {
+                std::atomic<std::uint64_t> &slot =
+                    slots_[((key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32) & (SLOTS - 1)];
+                const std::uint64_t known = slot.load(std::memory_order_relaxed);
+                if (known >> 31 == key)
+                    return floatOf(static_cast<std::uint32_t>(known & 0x7fffffffu));
+                const auto value = static_cast<float>(length());
+                slot.store(key << 31 | bitsOf(value), std::memory_order_relaxed);
+                return value;
+            }
+
+        private:
+            static std::uint32_t bitsOf(float value)
+            {
+                std::uint32_t bits = 0;
+                static_assert(sizeof(bits) == sizeof(value));
+                std::memcpy(&bits, &value, sizeof(bits));
+                return bits & 0x7fffffffu;
+            }
+
+            static float floatOf(std::uint32_t bits)
+            {
+                float value = 0.0f;
+                std::memcpy(&value, &bits, sizeof(value));
+                return value;
+            }
+
+            std::array<std::atomic<std::uint64_t>, SLOTS> slots_{};
+        };
+
+        /** Reeds-Shepp curves are as long one way as the other; Dubins curves are not. */
+        Table &tableOf(CurveFamily family, bool backwards)
+        {
+            static Table tables[3];
+            return tables[family == CurveFamily::ReedsShepp ? 0 : backwards ? 1 : 2];
+        }
     }  // namespace
 
-    CurveHeuristic::CurveHeuristic(const ReedsShepp &curves) : curves_(curves), slots_(SLOTS)
+    CurveHeuristic::CurveHeuristic(const ReedsShepp &curves) : curves_(curves)
     {
     }
 
     void CurveHeuristic::reset(bool backwards)
     {
+        backwards_ = backwards;
         targets_.clear();
         frames_.clear();
-        if (backwards == backwards_ && curves_.turningRadius() == radius_ && curves_.family() == family_)
-            return;
-        backwards_ = backwards;
-        radius_ = curves_.turningRadius();
-        family_ = curves_.family();
-        ++generation_;
     }
 
     void CurveHeuristic::addTarget(const Pose &target)
@@ -44,41 +92,45 @@ namespace parking::search
         return shortest;
     }
 
-    double CurveHeuristic::approximate(const Pose &pose)
+    double CurveHeuristic::approximate(const Pose &pose) const
     {
         if (targets_.empty())
             return 0.0;
-        float shortest = std::numeric_limits<float>::infinity();
+        const double radius = curves_.turningRadius();
+        double shortest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < targets_.size(); ++i)
         {
             const auto &[cosine, sine] = frames_[i];
-            const double dx = pose.x - targets_[i].x, dy = pose.y - targets_[i].y;
-            shortest = std::min(shortest, tabulated({cosine * dx + sine * dy, cosine * dy - sine * dx,
-                                                     wrapAngle(pose.yaw - targets_[i].yaw)}));
+            const double dx = (pose.x - targets_[i].x) / radius, dy = (pose.y - targets_[i].y) / radius;
+            const Pose relative{cosine * dx + sine * dy, cosine * dy - sine * dx,
+                                wrapAngle(pose.yaw - targets_[i].yaw)};
+            shortest = std::min(shortest, tabulated(relative));
         }
-        return shortest;
+        return shortest * radius;
     }
 
-    float CurveHeuristic::tabulated(const Pose &relative)
+    double CurveHeuristic::tabulated(const Pose &relative) const
     {
-        const bool near = std::max(std::abs(relative.x), std::abs(relative.y)) < NEAR * radius_;
-        const double cell = (near ? NEAR_CELL : FAR_CELL) * radius_;
+        const double farther = std::max(std::abs(relative.x), std::abs(relative.y));
+        const bool near = farther < NEAR;
+        const double cell = near ? NEAR_CELL : FAR_CELL;
         const int headings = near ? NEAR_HEADINGS : FAR_HEADINGS;
-        const double turn = relative.yaw / (2.0 * PI) * headings;
-        const auto column = static_cast<std::int64_t>(std::lround(relative.x / cell));
-        const auto row = static_cast<std::int64_t>(std::lround(relative.y / cell));
-        const auto heading = static_cast<std::int64_t>((std::lround(turn) + headings) % headings);
-        const std::uint64_t key = (static_cast<std::uint64_t>(column & 0xffffff) << 36) |
-                                  (static_cast<std::uint64_t>(row & 0xffffff) << 12) |
-                                  (static_cast<std::uint64_t>(heading) << 1) | (near ? 1u : 0u);
-        Slot &slot = slots_[((key ^ (key >> 29)) * 0x9e3779b97f4a7c15ull >> 32) & (SLOTS - 1)];
-        if (slot.generation != generation_ || slot.key != key)
+        const double column = std::round(relative.x / cell), row = std::round(relative.y / cell);
+        const auto heading = (std::lround(relative.yaw / (2.0 * PI) * headings) + headings) % headings;
+        const auto length = [&]
         {
-            const Pose target, centre{static_cast<double>(column) * cell, static_cast<double>(row) * cell,
-                                      static_cast<double>(heading) * 2.0 * PI / headings};
-            const double length = backwards_ ? curves_.distance(target, centre) : curves_.distance(centre, target);
-            slot = {key, generation_, static_cast<float>(length)};
-        }
-        return slot.value;
+            const ReedsShepp unit(1.0, curves_.family());
+            const Pose target, centre{column * cell, row * cell, static_cast<double>(heading) * 2.0 * PI / headings};
+            return backwards_ ? unit.distance(target, centre) : unit.distance(centre, target);
+        };
+        if (!(farther < FARTHEST * FAR_CELL))
+            return length();
+        const auto twelveBits = [](double value)
+        {
+            return static_cast<std::uint64_t>(static_cast<std::int64_t>(value) & 0xfff);
+        };
+        const std::uint64_t key = (twelveBits(column) << 21) | (twelveBits(row) << 9) |
+                                  (static_cast<std::uint64_t>(heading) << 1) | (near ? 1u : 0u);
+        return tableOf(curves_.family(), backwards_).at(key, length);
     }
 }  // namespace parking::search

@@ -3,7 +3,6 @@
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/ReedsShepp.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace parking::search
@@ -13,21 +12,22 @@ namespace parking::search
 
         Poses are rounded to cells in the frame of the target, finer near it, and the length of each cell is computed
        once, when first asked for: what a table made in advance for the vehicle would hold, without its seconds of
-       preparation. The table outlives queries and targets, as long as the curves are the same. The values are those of
-       the cells' centres and therefore not a bound; exact() is. */
+       preparation. In units of the turning radius the table is the same for all vehicles: there is one for all objects
+       in all threads, which takes no locks. The values are those of the cells' centres and therefore not a bound;
+       exact() is. */
     class CurveHeuristic
     {
     public:
         explicit CurveHeuristic(const ReedsShepp &curves);
 
-        /** \brief Forgets the targets, and the table where the curves have changed.
+        /** \brief Forgets the targets; also to be called when the curves have changed.
             \param backwards false: curves from the asked pose to a target; true: from a target to the asked pose */
         void reset(bool backwards);
 
         void addTarget(const Pose &target);
 
         /** \brief Length in metres, up to the rounding of the pose. */
-        double approximate(const Pose &pose);
+        double approximate(const Pose &pose) const;
 
         /** \brief Length in metres, exactly: never more than the length of any drivable path. */
         double exact(const Pose &pose) const;
@@ -38,27 +38,16 @@ namespace parking::search
         }
 
     private:
-        struct Slot
-        {
-            std::uint64_t key{0};
-            std::uint32_t generation{0};
-            float value{0.0f};
-        };
-
         struct Frame
         {
             double cosine, sine;
         };
 
-        float tabulated(const Pose &relative);
+        double tabulated(const Pose &relative) const;
 
         const ReedsShepp &curves_;
         bool backwards_{false};
         std::vector<Pose> targets_;
         std::vector<Frame> frames_;  // of the targets
-        std::vector<Slot> slots_;
-        std::uint32_t generation_{1};
-        double radius_{0.0};  // of the curves in the table, and their family
-        CurveFamily family_{CurveFamily::ReedsShepp};
     };
 }  // namespace parking::search

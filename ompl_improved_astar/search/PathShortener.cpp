@@ -43,7 +43,7 @@ namespace parking::search
         pieces_.push_back({{0.0, 0.0}, pose});
     }
 
-    bool PathShortener::replace(std::size_t i, std::size_t j, ArcPath &path)
+    bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path)
     {
         const std::size_t count = pieces_.size() - 1;
         const ArcSegment *before = i > 0 ? &pieces_[i - 1].segment : nullptr;
@@ -53,12 +53,15 @@ namespace parking::search
         if (after)
             now += cost_.join(pieces_[j - 1].segment, *after);
         ++connectionCount_;
-        curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
+        if (choice == CurveChoice::All)
+            curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
+        else
+            candidates_.assign(1, curves_.shortest(pieces_[i].from, pieces_[j].from));
         order_.clear();
         for (std::size_t k = 0; k < candidates_.size(); ++k)
         {
             const ReedsSheppCurve &curve = candidates_[k];
-            if (curve.count == 0)
+            if (curve.count == 0 || curve.length >= now - LEAST_GAIN)
                 continue;
             double sum = curveCost(cost_, pieces_[i].from, curve, environment_);
             if (before)
@@ -89,7 +92,8 @@ namespace parking::search
         return false;
     }
 
-    bool PathShortener::pass(ArcPath &path, double spacing, double offset, double widest, const StopFunction &stop)
+    bool PathShortener::pass(ArcPath &path, double spacing, double offset, double widest, CurveChoice choice,
+                             const StopFunction &stop)
     {
         bool improved = false;
         cut(path, spacing, offset);
@@ -103,7 +107,7 @@ namespace parking::search
                 if (costBefore_[i + span] - costBefore_[i] > widest ||
                     std::hypot(a.x - b.x, a.y - b.y) >= costBefore_[i + span] - costBefore_[i] - LEAST_GAIN)
                     continue;
-                if (replace(i, i + span, path))
+                if (replace(i, i + span, choice, path))
                 {
                     improved = true;
                     cut(path, spacing, offset);

@@ -11,10 +11,17 @@
 
 namespace parking::search
 {
+    /** \brief Which curves between two knots are tried. */
+    enum class CurveChoice
+    {
+        Shortest,  ///< the shortest one: among the curves tried in vain most are the others
+        All        ///< every word, in the order of cost
+    };
+
     /** \brief Makes a drivable path cheaper by replacing parts of it with curves of bounded curvature.
 
-        The path is cut at knots; between two knots every word that is cheaper than the part it would replace is tried
-       in the order of its cost, and the first free one taken. The path stays free and drivable, keeps its ends and
+        The path is cut at knots; between two knots curves that are cheaper than the part they would replace are tried,
+       and the first free one taken. The path stays free and drivable, keeps its ends and
        never becomes more expensive. Deterministic. */
     class PathShortener
     {
@@ -32,7 +39,8 @@ namespace parking::search
             \param offset metres to the first knot within each piece, so that passes can differ
             \param widest pairs of knots farther apart than this along the path, in metres, are left out
             \return whether the path became cheaper */
-        bool pass(ArcPath &path, double spacing, double offset, double widest, const StopFunction &stop);
+        bool pass(ArcPath &path, double spacing, double offset, double widest, CurveChoice choice,
+                  const StopFunction &stop);
 
         std::uint64_t connections() const
         {
@@ -47,7 +55,7 @@ namespace parking::search
         };
 
         void cut(const ArcPath &path, double spacing, double offset);
-        bool replace(std::size_t i, std::size_t j, ArcPath &path);
+        bool replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;

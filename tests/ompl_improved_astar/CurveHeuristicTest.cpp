@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 #include <vector>
 
 using namespace parking;
@@ -127,6 +128,51 @@ TEST(CurveHeuristic, approximateGivesTheSameAnswerHoweverOftenAndInWhateverOrder
     for (std::size_t i = poses.size(); i-- > 0;)
         second[i] = b.approximate(poses[i]);
     EXPECT_EQ(first, second);
+}
+
+TEST(CurveHeuristic, threadsThatFillTheTableTogetherGetTheSameValues)
+{
+    // More cells than the table holds, so that threads overwrite each other's.
+    constexpr int COUNT = 60000, THREADS = 4;
+    const ReedsShepp curves(2.0);
+    std::vector<std::vector<double>> values(THREADS);
+    std::vector<std::thread> threads;
+    for (std::vector<double> &mine : values)
+        threads.emplace_back(
+            [&curves, &mine]
+            {
+                CurveHeuristic heuristic(curves);
+                heuristic.reset(true);
+                heuristic.addTarget({1.0, 2.0, 3.0});
+                TestRandom random(10);
+                for (int i = 0; i < COUNT; ++i)
+                    mine.push_back(heuristic.approximate(random.poseIn(-40.0, 40.0)));
+            });
+    for (std::thread &thread : threads)
+        thread.join();
+    for (const std::vector<double> &each : values)
+        ASSERT_EQ(each, values.front());
+    // And cells are told apart: what a slot held for another does not come out.
+    CurveHeuristic heuristic(curves);
+    heuristic.reset(true);
+    heuristic.addTarget({1.0, 2.0, 3.0});
+    TestRandom random(10);
+    for (int i = 0; i < COUNT; ++i)
+    {
+        const Pose pose = random.poseIn(-40.0, 40.0);
+        ASSERT_LT(std::abs(values.front()[static_cast<std::size_t>(i)] - heuristic.exact(pose)),
+                  0.8 * curves.turningRadius());
+    }
+}
+
+TEST(CurveHeuristic, lengthsFarBeyondTheTableAreStillLengths)
+{
+    const ReedsShepp curves(1.0);
+    CurveHeuristic heuristic(curves);
+    heuristic.reset(false);
+    heuristic.addTarget({0.0, 0.0, 0.0});
+    for (const double x : {300.0, 327.0, 328.0, 5000.0, 1e6, -1e6})
+        EXPECT_NEAR(heuristic.approximate({x, 0.5 * x, 1.0}), heuristic.exact({x, 0.5 * x, 1.0}), 1.0);
 }
 
 TEST(CurveHeuristic, forgetsValuesWithTheTargets)

@@ -50,6 +50,7 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         DiscCarWorld world = randomField(seed % 12);
         TestRandom random(seed);
         const bool forwardOnly = seed % 3 == 0;
+        const CurveChoice choice = seed % 2 == 0 ? CurveChoice::All : CurveChoice::Shortest;
         const ReedsShepp curves(RADIUS, forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
         const CostModel cost = model(1.0, 0.0);
         const ArcPath before = wander(world, random, forwardOnly);
@@ -57,7 +58,7 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         ArcPath path = before;
         PathShortener shortener(world, curves, cost);
         const double spacing = random.between(0.5, 3.0);
-        const bool changed = shortener.pass(path, spacing, random.between(0.0, spacing), INFINITE, nullptr);
+        const bool changed = shortener.pass(path, spacing, random.between(0.0, spacing), INFINITE, choice, nullptr);
         ASSERT_EQ(faultOf(path, world, {before.start}, {before.end()}, RADIUS, forwardOnly), "");
         const double old = pathCost(cost, before, world), now = pathCost(cost, path, world);
         if (changed)
@@ -70,7 +71,8 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         TestRandom same(seed);
         wander(world, same, forwardOnly);
         const double sameSpacing = same.between(0.5, 3.0);
-        PathShortener(world, curves, cost).pass(again, sameSpacing, same.between(0.0, sameSpacing), INFINITE, nullptr);
+        PathShortener(world, curves, cost)
+            .pass(again, sameSpacing, same.between(0.0, sameSpacing), INFINITE, choice, nullptr);
         ASSERT_EQ(again.segments.size(), path.segments.size());
         for (std::size_t i = 0; i < path.segments.size(); ++i)
             ASSERT_TRUE(again.segments[i].length == path.segments[i].length &&
@@ -91,7 +93,7 @@ TEST(PathShortener, pricesClearanceAsTheWholePathDoes)
         const CostModel cost = model(0.5, 2.0);
         ArcPath path = wander(world, random);
         const double old = pathCost(cost, path, world);
-        PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, nullptr);
+        PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr);
         ASSERT_LE(pathCost(cost, path, world), old + 1e-9);
     }
 }
@@ -104,8 +106,29 @@ TEST(PathShortener, straightensADetourInTheOpen)
     // An S that comes back to its line.
     ArcPath path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     const Pose end = path.end();
-    EXPECT_TRUE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, nullptr));
+    EXPECT_TRUE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
     EXPECT_NEAR(path.length(), std::hypot(end.x, end.y), 1e-6);
+}
+
+TEST(PathShortener, triesOtherCurvesThanTheShortestWhenAllowed)
+{
+    double before = 0.0, byShortest = 0.0, byAll = 0.0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        DiscCarWorld world = randomField(seed % 12);
+        TestRandom random(seed);
+        const ReedsShepp curves(RADIUS);
+        const CostModel cost = model(1.0, 0.0);
+        const ArcPath path = wander(world, random);
+        ArcPath one = path, other = path;
+        PathShortener(world, curves, cost).pass(one, 1.0, 0.0, INFINITE, CurveChoice::Shortest, nullptr);
+        PathShortener(world, curves, cost).pass(other, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr);
+        before += pathCost(cost, path, world);
+        byShortest += pathCost(cost, one, world);
+        byAll += pathCost(cost, other, world);
+    }
+    EXPECT_LT(byShortest, 0.8 * before);
+    EXPECT_LT(byAll, byShortest);
 }
 
 TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
@@ -115,7 +138,7 @@ TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
     const CostModel cost = model(1.0, 0.0);
     const ArcPath before{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     ArcPath path = before;
-    EXPECT_FALSE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, 0.5, nullptr));
+    EXPECT_FALSE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, 0.5, CurveChoice::All, nullptr));
     EXPECT_EQ(path.length(), before.length());
 }
 
@@ -132,7 +155,8 @@ TEST(PathShortener, takesNoCurveThatTheWorldRefuses)
     } world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
     ArcPath path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
-    EXPECT_FALSE(PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, nullptr));
+    EXPECT_FALSE(
+        PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
     EXPECT_EQ(path.segments.size(), 3u);
 }
 
@@ -144,7 +168,8 @@ TEST(PathShortener, leavesTrivialPathsAlone)
          std::vector<std::vector<ArcSegment>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
     {
         ArcPath path{{1.0, 2.0, 3.0}, segments};
-        EXPECT_FALSE(PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, nullptr));
+        EXPECT_FALSE(
+            PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
         EXPECT_EQ(path.segments.size(), segments.size());
     }
 }
@@ -158,7 +183,7 @@ TEST(PathShortener, stopsWhenTold)
     const ArcPath before = wander(world, random);
     ArcPath path = before;
     PathShortener shortener(world, curves, cost);
-    shortener.pass(path, 0.2, 0.0, INFINITE, [] { return true; });
+    shortener.pass(path, 0.2, 0.0, INFINITE, CurveChoice::All, [] { return true; });
     EXPECT_LE(shortener.connections(), 16u);
     EXPECT_LE(pathCost(cost, path, world), pathCost(cost, before, world));
 }
