@@ -142,10 +142,10 @@ namespace parking::search
         if (parameters_.shorten)
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / MOST_KNOTS;
-            shorten(best, cost, std::max(SPACING * radius, coarsest), 0.0, INFINITE, CurveChoice::Shortest);
+            shorten(best, cost, std::max(SPACING * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
             if (best.length() > (1.0 + LONG) * expected)
                 shorten(best, cost, std::max(OTHER_SPACING * radius, coarsest), OTHER_OFFSET * radius, WIDEST * radius,
-                        CurveChoice::Shortest);
+                        CurveChoice::Cheapest);
         }
         take(best, cost);
     }

@@ -67,6 +67,7 @@ namespace parking::search
             curveHeuristics_[side].reset(side == 1);
             aroundObstacles_[side] = false;
         }
+        confined_ = 1;
         prepared_ = false;
         provenUnreachable_ = false;
         hasTarget_ = false;
@@ -155,15 +156,11 @@ namespace parking::search
     {
         const bool empty[2] = {trees_[0].exhausted(), trees_[1].exhausted()};
         if (!parameters_.bidirectional)
-        {
-            const int side = parameters_.searchFromGoal && !trees_[1].roots.empty() ? 1 : 0;
-            return empty[side] ? -1 : side;
-        }
+            return empty[confined_] ? -1 : confined_;
         if (empty[0] && empty[1])
             return -1;
-        // The more confined side is the harder one to get away from: it gets most of the turns.
-        const int confined = trees_[1].rootMobility <= trees_[0].rootMobility + 0.5 * reach_ ? 1 : 0;
-        const int side = ++sideTurn_ % OTHER_SIDE_PERIOD == 0 ? 1 - confined : confined;
+        // The more confined side gets most of the turns.
+        const int side = ++sideTurn_ % OTHER_SIDE_PERIOD == 0 ? 1 - confined_ : confined_;
         return empty[side] ? 1 - side : side;
     }
 

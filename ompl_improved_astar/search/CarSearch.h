@@ -186,6 +186,8 @@ namespace parking::search
 
         void addRoot(int side, const Pose &pose);
         void prepareHeuristics();
+        void measureMobility(int side);
+        void guideRoundObstacles();
         double heuristicCell(int side) const;
         void resetObstacleHeuristic(int side, const Pose &toward);
         void aimAtTarget();
@@ -222,6 +224,7 @@ namespace parking::search
         std::array<double, LEVELS> headingScale_{};
         double reach_{0.0};
         double shortest_{0.0};
+        int confined_{1};  // the side that is harder to get away from, or the only one that is searched
         bool prepared_{false};
         bool provenUnreachable_{false};
         bool hasTarget_{false};

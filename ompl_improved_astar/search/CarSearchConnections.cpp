@@ -98,8 +98,8 @@ namespace parking::search
     double CarSearch::estimate() const
     {
         double least = INFINITE;
-        for (const std::uint32_t root : trees_[0].roots)
-            least = std::min<double>(least, trees_[0].nodes[root].h);
+        for (const std::uint32_t root : trees_[confined_].roots)
+            least = std::min<double>(least, trees_[confined_].nodes[root].h);
         return least;
     }
 

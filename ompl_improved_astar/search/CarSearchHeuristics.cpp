@@ -21,24 +21,53 @@ namespace parking::search
 
     void CarSearch::prepareHeuristics()
     {
+        for (int side = 0; side < 2; ++side)
+            measureMobility(side);
+        // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
+        confined_ = trees_[1].rootMobility <= trees_[0].rootMobility + 0.5 * reach_ ? 1 : 0;
+        if (!parameters_.bidirectional)
+            confined_ = parameters_.searchFromGoal && !trees_[1].roots.empty() ? 1 : 0;
         if (hasTarget_)
             aimAtTarget();
-        for (int side = 0; side < 2 && !hasTarget_; ++side)
-        {
-            const Tree &targets = trees_[1 - side];
-            aroundObstacles_[side] = false;
-            if (targets.roots.empty() || !parameters_.obstacleHeuristic)
-                continue;
-            const Pose &toward = trees_[side].roots.empty() ? targets.nodes[targets.roots.front()].pose
-                                                            : trees_[side].nodes[trees_[side].roots.front()].pose;
-            resetObstacleHeuristic(side, toward);
-            for (const std::uint32_t root : targets.roots)
-                obstacleHeuristics_[side].addTarget(targets.nodes[root].pose.x, targets.nodes[root].pose.y);
-        }
+        else
+            guideRoundObstacles();
         prepared_ = true;
         provenUnreachable_ = isProvenUnreachable();
         for (int side = 0; side < 2; ++side)
             prepareNodes(side);
+    }
+
+    void CarSearch::measureMobility(int side)
+    {
+        Tree &tree = trees_[side];
+        for (const std::uint32_t root : tree.roots)
+        {
+            const Node &node = tree.nodes[root];
+            if (node.queued)
+                continue;
+            motions_.clear();
+            for (const double steer : {-1.0, 0.0, 1.0})
+                for (const double gear : {-1.0, 1.0})
+                    motions_.push_back({steer / parameters_.turningRadius, gear * steps_[0]});
+            free_.resize(motions_.size());
+            environment_->freeLengths(node.pose, motions_.data(), motions_.size(), free_.data());
+            tree.rootMobility = std::min(tree.rootMobility, std::accumulate(free_.begin(), free_.end(), 0.0));
+        }
+    }
+
+    void CarSearch::guideRoundObstacles()
+    {
+        // Of the side that gets most of the turns only: flooding the map from the other end, too, would cost more than
+        // it spares.
+        aroundObstacles_ = {false, false};
+        const Tree &tree = trees_[confined_], &targets = trees_[1 - confined_];
+        if (targets.roots.empty() || !parameters_.obstacleHeuristic)
+            return;
+        const Pose &toward =
+            tree.roots.empty() ? targets.nodes[targets.roots.front()].pose : tree.nodes[tree.roots.front()].pose;
+        resetObstacleHeuristic(confined_, toward);
+        for (const std::uint32_t root : targets.roots)
+            obstacleHeuristics_[confined_].addTarget(targets.nodes[root].pose.x, targets.nodes[root].pose.y);
     }
 
     double CarSearch::heuristicCell(int side) const
@@ -85,13 +114,13 @@ namespace parking::search
     bool CarSearch::isProvenUnreachable()
     {
         // A disc inside of the car finds no way round the obstacles: neither will the car.
-        const Tree &tree = trees_[0];
-        if (!aroundObstacles_[0] || hasTarget_ || tree.roots.empty())
+        const Tree &tree = trees_[confined_];
+        if (!aroundObstacles_[confined_] || hasTarget_ || tree.roots.empty())
             return false;
         for (const std::uint32_t root : tree.roots)
         {
             const Pose &pose = tree.nodes[root].pose;
-            if (obstacleHeuristics_[0].distance(pose.x, pose.y, stop_) < INFINITE || (stop_ && stop_()))
+            if (obstacleHeuristics_[confined_].distance(pose.x, pose.y, stop_) < INFINITE || (stop_ && stop_()))
                 return false;
         }
         return true;
@@ -116,14 +145,6 @@ namespace parking::search
             node.h = static_cast<float>(heuristic(side, node.pose));
             tree.cells.set(cellKey(node.pose, 0), root);
             push(side, 0, root);
-            motions_.clear();
-            for (const double steer : {-1.0, 0.0, 1.0})
-                for (const double gear : {-1.0, 1.0})
-                    motions_.push_back({steer / parameters_.turningRadius, gear * steps_[0]});
-            free_.resize(motions_.size());
-            environment_->freeLengths(node.pose, motions_.data(), motions_.size(), free_.data());
-            const double mobility = std::accumulate(free_.begin(), free_.end(), 0.0);
-            tree.rootMobility = std::min(tree.rootMobility, mobility);
         }
     }
 

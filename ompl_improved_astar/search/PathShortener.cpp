@@ -16,14 +16,18 @@ namespace parking::search
     {
         pieces_.clear();
         Pose pose = path.start;
+        std::size_t arc = 0;
+        bool isPlain = false;
         const auto add = [&](const ArcSegment &segment)
         {
-            pieces_.push_back({segment, pose});
+            pieces_.push_back({segment, pose, arc, isPlain});
             pose = advance(pose, segment.curvature, segment.length);
         };
         for (const ArcSegment &segment : path.segments)
         {
             const double length = std::abs(segment.length), sign = segment.length < 0.0 ? -1.0 : 1.0;
+            const double lock = std::abs(segment.curvature) * curves_.turningRadius();
+            isPlain = lock == 0.0 || (lock > 1.0 - 1e-9 && std::abs(segment.curvature) * length <= 0.5 * PI);
             double done = 0.0;
             double next = std::min(length, offset > 0.0 ? offset : spacing);
             while (done < length)
@@ -35,12 +39,21 @@ namespace parking::search
                 done = next;
                 next = std::min(length, next + spacing);
             }
+            ++arc;
         }
         costBefore_.assign(pieces_.size() + 1, 0.0);
         for (std::size_t k = 0; k < pieces_.size(); ++k)
             costBefore_[k + 1] = costBefore_[k] + cost_.drive(pieces_[k].from, pieces_[k].segment, environment_) +
                                  (k > 0 ? cost_.join(pieces_[k - 1].segment, pieces_[k].segment) : 0.0);
-        pieces_.push_back({{0.0, 0.0}, pose});
+        pieces_.push_back({{0.0, 0.0}, pose, arc, false});
+    }
+
+    bool PathShortener::isShortest(std::size_t i, std::size_t j) const
+    {
+        // Two such arcs one after the other, driven the same way, are the shortest curve between their ends.
+        const Piece &first = pieces_[i], &last = pieces_[j - 1];
+        return last.arc - first.arc < 2 && first.isPlain && last.isPlain &&
+               first.segment.length * last.segment.length > 0.0;
     }
 
     bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path)
@@ -53,15 +66,12 @@ namespace parking::search
         if (after)
             now += cost_.join(pieces_[j - 1].segment, *after);
         ++connectionCount_;
-        if (choice == CurveChoice::All)
-            curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
-        else
-            candidates_.assign(1, curves_.shortest(pieces_[i].from, pieces_[j].from));
+        curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
         order_.clear();
         for (std::size_t k = 0; k < candidates_.size(); ++k)
         {
             const ReedsSheppCurve &curve = candidates_[k];
-            if (curve.count == 0 || curve.length >= now - LEAST_GAIN)
+            if (curve.count == 0)
                 continue;
             double sum = curveCost(cost_, pieces_[i].from, curve, environment_);
             if (before)
@@ -71,6 +81,8 @@ namespace parking::search
             if (sum < now - LEAST_GAIN)
                 order_.emplace_back(sum, k);
         }
+        if (choice == CurveChoice::Cheapest && order_.size() > 1)
+            order_.assign(1, *std::min_element(order_.begin(), order_.end()));
         std::sort(order_.begin(), order_.end());
         for (const auto &candidate : order_)
         {
@@ -102,6 +114,8 @@ namespace parking::search
             {
                 if (stop && (connectionCount_ & 15u) == 0 && stop())
                     return improved;
+                if (isShortest(i, i + span))
+                    continue;
                 // A straight line bounds what any curve can gain.
                 const Pose &a = pieces_[i].from, &b = pieces_[i + span].from;
                 if (costBefore_[i + span] - costBefore_[i] > widest ||

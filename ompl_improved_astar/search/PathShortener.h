@@ -14,7 +14,7 @@ namespace parking::search
     /** \brief Which curves between two knots are tried. */
     enum class CurveChoice
     {
-        Shortest,  ///< the shortest one: among the curves tried in vain most are the others
+        Cheapest,  ///< the cheapest one: among the curves tried in vain most are the others
         All        ///< every word, in the order of cost
     };
 
@@ -52,9 +52,12 @@ namespace parking::search
         {
             ArcSegment segment;
             Pose from;
+            std::size_t arc;  ///< which one of the path it is a part of
+            bool isPlain;     ///< that arc is straight or at full lock for a quarter of a turn at most
         };
 
         void cut(const ArcPath &path, double spacing, double offset);
+        bool isShortest(std::size_t i, std::size_t j) const;
         bool replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path);
 
         MotionEnvironment &environment_;

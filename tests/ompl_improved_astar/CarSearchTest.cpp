@@ -202,6 +202,7 @@ TEST(CarSearch, obstacleHeuristicGuidesAndCanBeLeftOut)
     {
         CarProblem problem = maze(wall);
         CarParameters parameters = carParameters();
+        parameters.inscribedRadius = problem.world.radius;
         const Result guided = solve(problem, parameters);
         EXPECT_EQ(guided.outcome, SearchOutcome::Improved);
         EXPECT_GT(guided.statistics.heuristicCells, 0u);

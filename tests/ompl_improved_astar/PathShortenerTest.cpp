@@ -50,7 +50,7 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         DiscCarWorld world = randomField(seed % 12);
         TestRandom random(seed);
         const bool forwardOnly = seed % 3 == 0;
-        const CurveChoice choice = seed % 2 == 0 ? CurveChoice::All : CurveChoice::Shortest;
+        const CurveChoice choice = seed % 2 == 0 ? CurveChoice::All : CurveChoice::Cheapest;
         const ReedsShepp curves(RADIUS, forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
         const CostModel cost = model(1.0, 0.0);
         const ArcPath before = wander(world, random, forwardOnly);
@@ -110,9 +110,9 @@ TEST(PathShortener, straightensADetourInTheOpen)
     EXPECT_NEAR(path.length(), std::hypot(end.x, end.y), 1e-6);
 }
 
-TEST(PathShortener, triesOtherCurvesThanTheShortestWhenAllowed)
+TEST(PathShortener, triesOtherCurvesThanTheCheapestWhenAllowed)
 {
-    double before = 0.0, byShortest = 0.0, byAll = 0.0;
+    double before = 0.0, byCheapest = 0.0, byAll = 0.0;
     for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
         DiscCarWorld world = randomField(seed % 12);
@@ -121,14 +121,50 @@ TEST(PathShortener, triesOtherCurvesThanTheShortestWhenAllowed)
         const CostModel cost = model(1.0, 0.0);
         const ArcPath path = wander(world, random);
         ArcPath one = path, other = path;
-        PathShortener(world, curves, cost).pass(one, 1.0, 0.0, INFINITE, CurveChoice::Shortest, nullptr);
+        PathShortener(world, curves, cost).pass(one, 1.0, 0.0, INFINITE, CurveChoice::Cheapest, nullptr);
         PathShortener(world, curves, cost).pass(other, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr);
         before += pathCost(cost, path, world);
-        byShortest += pathCost(cost, one, world);
+        byCheapest += pathCost(cost, one, world);
         byAll += pathCost(cost, other, world);
     }
-    EXPECT_LT(byShortest, 0.8 * before);
-    EXPECT_LT(byAll, byShortest);
+    EXPECT_LT(byCheapest, 0.8 * before);
+    EXPECT_LT(byAll, byCheapest);
+}
+
+/** The shortener does not look at such parts. */
+TEST(PathShortener, twoQuarterTurnsTheSameWayAreTheShortestCurve)
+{
+    const ReedsShepp curves(RADIUS);
+    TestRandom random(4);
+    for (int i = 0; i < 20000; ++i)
+    {
+        const double gear = random.chance(0.5) ? 1.0 : -1.0;
+        ArcPath path{random.poseIn(-10.0, 10.0), {}};
+        for (int arc = 0; arc < 2; ++arc)
+        {
+            const double lock = static_cast<double>(random.index(3)) - 1.0;
+            const double longest = lock == 0.0 ? 4.0 * RADIUS : 0.5 * PI * RADIUS;
+            path.segments.push_back({lock / RADIUS, gear * random.between(0.0, longest)});
+        }
+        ASSERT_GE(curves.distance(path.start, path.end()), path.length() - 1e-6);
+    }
+    // A hair more than that, and there may be a shorter one.
+    const ArcPath wide{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 1.8 * RADIUS}, {1.0 / RADIUS, 1.8 * RADIUS}}};
+    EXPECT_LT(curves.distance(wide.start, wide.end()), wide.length() - 0.1);
+}
+
+TEST(PathShortener, shortensOneWideTurn)
+{
+    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    const ReedsShepp curves(RADIUS);
+    const CostModel cost = model(0.0, 0.0);
+    for (const double curvature : {1.0 / RADIUS, 0.4 / RADIUS})
+    {
+        ArcPath path{{0.0, 0.0, 0.0}, {{curvature, 4.0 / std::abs(curvature)}}};
+        const double before = path.length();
+        EXPECT_TRUE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::Cheapest, nullptr));
+        EXPECT_LT(path.length(), 0.95 * before);
+    }
 }
 
 TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
