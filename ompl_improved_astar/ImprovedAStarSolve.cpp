@@ -24,6 +24,8 @@ namespace ompl::geometric
         using parking::Pose;
         using parking::search::GridSearch;
 
+        constexpr unsigned int STATES_BETWEEN_STOPS = 8;  // while smoothing
+
         bool isSamePose(const Pose &pose, const ob::State *state)
         {
             const Pose other = parking::poseOf(state);
@@ -133,9 +135,10 @@ namespace ompl::geometric
         if (points.size() < 3)
             return poses;
         parking::FootprintQueries world;
-        world.isFree = [this, &ptc](const Pose &pose)
+        world.isFree = [this, &ptc, asked = 0u, stopped = false](const Pose &pose) mutable
         {
-            return !ptc && query_->stateEnvironment->isFree(pose);
+            stopped = stopped || (++asked % STATES_BETWEEN_STOPS == 0 && ptc);
+            return !stopped && query_->stateEnvironment->isFree(pose);
         };
         parking::BsplineOptions options;
         options.maxCurvature = 1.0 / parameters_.turningRadius;
