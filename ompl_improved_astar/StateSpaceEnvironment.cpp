@@ -68,6 +68,11 @@ namespace parking
         return si_->satisfiesBounds(state_.get()) && si_->isValid(state_.get());
     }
 
+    bool StateSpaceEnvironment::isPassable(const Pose &pose)
+    {
+        return !(checkedStates_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()) && isFree(pose);
+    }
+
     double StateSpaceEnvironment::clearance(const Pose &pose)
     {
         if (!clearanceKnown_)

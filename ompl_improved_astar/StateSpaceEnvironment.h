@@ -47,6 +47,7 @@ namespace parking
         }
 
         bool isFree(const Pose &pose) override;
+        bool isPassable(const Pose &pose) override;
         double clearance(const Pose &pose) override;
         double freeLength(const Pose &from, double curvature, double length) override;
         double roomAt(double x, double y) override;

@@ -13,7 +13,7 @@ namespace parking::search
         for (std::size_t k = 0; k + 1 < curve.count; ++k)
         {
             pose = advance(pose, curve.segments[k].curvature, curve.segments[k].length);
-            if (!environment.isFree(pose))
+            if (!environment.isPassable(pose))
                 return false;
         }
         const bool forwards = first == CurveEnd::Start;

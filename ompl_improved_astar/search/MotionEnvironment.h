@@ -40,8 +40,16 @@ namespace parking::search
             when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
-        /** \brief Did freeLength() or acceptPath() say less than they would have, because the time was up? The search
-            then comes back to what it was at. */
+        /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is
+         * up.
+         */
+        virtual bool isPassable(const Pose &pose)
+        {
+            return isFree(pose);
+        }
+
+        /** \brief Did freeLength(), isPassable() or acceptPath() say less than they would have, because the time was
+           up? The search then comes back to what it was at. */
         virtual bool wasInterrupted() const
         {
             return false;

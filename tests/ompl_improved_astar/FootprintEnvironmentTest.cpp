@@ -1,14 +1,20 @@
-// What the search asks of the world, answered by the footprint checker within the bounds of the state space.
+// What the search asks of the world, answered by the footprint checker within the bounds of the state space, and by any
+// other checker.
 
 #include "ompl_improved_astar/FootprintEnvironment.h"
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/CurveCheck.h"
 #include "tests/ompl_improved_astar/DiscCarWorld.h"
 #include "tests/state_validity/RandomWorlds.h"
 
 #include <gtest/gtest.h>
 
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 using namespace parking;
@@ -147,4 +153,36 @@ TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
     }
     EXPECT_GT(free, 500);
     EXPECT_GT(blocked, 3000);
+}
+
+/** A checker that takes its time must not be asked on and on when the time is up. */
+TEST(StateSpaceEnvironment, posesOfMotionsAreAskedForUntilTheTimeIsUpAndHardlyLonger)
+{
+    const auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(3.0);
+    ompl::base::RealVectorBounds bounds(2);
+    bounds.setLow(-10.0);
+    bounds.setHigh(10.0);
+    space->setBounds(bounds);
+    const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
+    int asked = 0;
+    si->setStateValidityChecker([&asked](const ompl::base::State *) { return ++asked > 0; });
+    si->setup();
+    StateSpaceEnvironment environment(si, 0.1, {}, false);
+    for (int i = 0; i < 100; ++i)
+        ASSERT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
+    EXPECT_EQ(asked, 100);
+    EXPECT_FALSE(environment.wasInterrupted());
+    environment.setStop([] { return true; });
+    asked = 0;
+    int free = 0;
+    for (int i = 0; i < 100; ++i)
+        free += environment.isPassable({0.0, 0.0, 0.0});
+    EXPECT_LE(asked, 8);
+    EXPECT_EQ(free, asked);
+    EXPECT_TRUE(environment.wasInterrupted());
+    // Whether a pose as such is free is another question.
+    EXPECT_TRUE(environment.isFree({0.0, 0.0, 0.0}));
+    environment.setStop(nullptr);
+    EXPECT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
+    EXPECT_FALSE(environment.isPassable({11.0, 0.0, 0.0}));
 }
