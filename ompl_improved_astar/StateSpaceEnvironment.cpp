@@ -15,6 +15,32 @@ namespace parking
         constexpr std::uint64_t STATES_BETWEEN_STOPS = 8;
         // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
         constexpr double RADIANS_PER_STATE = 0.8;
+
+        /** Calls visit(pose) for the states after the start, in order, until it returns false. \return false then */
+        template <class Visit>
+        bool forEachState(const ArcPath &path, const StateSpacing &spacing, const Visit &visit)
+        {
+            Pose pose = path.start;
+            for (const ArcSegment &segment : path.segments)
+            {
+                double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
+                const bool gentle =
+                    segment.curvature != 0.0 && std::abs(segment.curvature) < (1.0 - 1e-9) * spacing.sharpestCurvature;
+                const double dense = gentle ? spacing.onGentleArcs : spacing.everywhere;
+                if (dense > 0.0)
+                    pieces = std::max(pieces, std::ceil(std::abs(segment.length) / dense));
+                pieces = std::max(pieces, 1.0);
+                for (double i = 1.0; i <= pieces; i += 1.0)
+                {
+                    Pose next = advance(pose, segment.curvature, segment.length * i / pieces);
+                    next.yaw = wrapAngle(next.yaw);
+                    if (!visit(next))
+                        return false;
+                }
+                pose = advance(pose, segment.curvature, segment.length);
+            }
+            return true;
+        }
     }  // namespace
 
     Bounds spaceBounds(const ob::StateSpace &space)
@@ -26,24 +52,12 @@ namespace parking
     std::vector<Pose> pathStates(const ArcPath &path, const StateSpacing &spacing)
     {
         std::vector<Pose> poses{path.start};
-        Pose pose = path.start;
-        for (const ArcSegment &segment : path.segments)
-        {
-            double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
-            const bool gentle =
-                segment.curvature != 0.0 && std::abs(segment.curvature) < (1.0 - 1e-9) * spacing.sharpestCurvature;
-            const double dense = gentle ? spacing.onGentleArcs : spacing.everywhere;
-            if (dense > 0.0)
-                pieces = std::max(pieces, std::ceil(std::abs(segment.length) / dense));
-            pieces = std::max(pieces, 1.0);
-            for (double i = 1.0; i <= pieces; i += 1.0)
-            {
-                Pose next = advance(pose, segment.curvature, segment.length * i / pieces);
-                next.yaw = wrapAngle(next.yaw);
-                poses.push_back(next);
-            }
-            pose = advance(pose, segment.curvature, segment.length);
-        }
+        forEachState(path, spacing,
+                     [&poses](const Pose &pose)
+                     {
+                         poses.push_back(pose);
+                         return true;
+                     });
         return poses;
     }
 
@@ -114,10 +128,13 @@ namespace parking
 
     bool StateSpaceEnvironment::acceptPath(const ArcPath &path)
     {
-        const std::vector<Pose> poses = pathStates(path, stateSpacing_);
-        for (std::size_t i = 1; i < poses.size(); ++i)
-            if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
-                return false;
-        return true;
+        Pose from = path.start;
+        return forEachState(path, stateSpacing_,
+                            [this, &from](const Pose &to)
+                            {
+                                const bool free = !isTimeUp() && isMotionFree(from, to);
+                                from = to;
+                                return free;
+                            });
     }
 }  // namespace parking
