@@ -1,12 +1,13 @@
 #include "ompl_improved_astar/search/CurveHeuristic.h"
 
+#include "ompl_improved_astar/search/FloatBits.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 namespace parking::search
@@ -41,21 +42,6 @@ namespace parking::search
             }
 
         private:
-            static std::uint32_t bitsOf(float value)
-            {
-                std::uint32_t bits = 0;
-                static_assert(sizeof(bits) == sizeof(value));
-                std::memcpy(&bits, &value, sizeof(bits));
-                return bits & 0x7fffffffu;
-            }
-
-            static float floatOf(std::uint32_t bits)
-            {
-                float value = 0.0f;
-                std::memcpy(&value, &bits, sizeof(value));
-                return value;
-            }
-
             std::array<std::atomic<std::uint64_t>, SLOTS> slots_{};
         };
 

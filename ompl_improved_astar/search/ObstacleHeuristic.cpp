@@ -1,8 +1,9 @@
 #include "ompl_improved_astar/search/ObstacleHeuristic.h"
 
+#include "ompl_improved_astar/search/FloatBits.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace parking::search
@@ -14,15 +15,6 @@ namespace parking::search
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MAX_CELLS = 4000000;  // a world without walls must not fill the memory
-
-        /** Bits of a float that is not negative: numbers in the same order. */
-        std::uint32_t bitsOf(float value)
-        {
-            std::uint32_t bits = 0;
-            static_assert(sizeof(bits) == sizeof(value));
-            std::memcpy(&bits, &value, sizeof(bits));
-            return bits;
-        }
 
         struct Later
         {

@@ -10,6 +10,7 @@
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/SmoothPathChecks.h"
 #include "tests/support/PolygonOracle.h"
+#include "tests/support/ProblemFiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,21 +23,10 @@
 
 using namespace parking;
 using parking_test::PolygonOracle;
+using parking_test::solvableProblems;
 
 namespace
 {
-    std::vector<std::string> casesIn(const std::string &folder, const std::string &extension)
-    {
-        std::vector<std::string> files;
-        if (std::filesystem::is_directory(folder))
-            for (const auto &entry : std::filesystem::directory_iterator(folder))
-                if (entry.path().extension() == extension &&
-                    entry.path().stem().string().find("_map") == std::string::npos)
-                    files.push_back(entry.path().string());
-        std::sort(files.begin(), files.end());
-        return files;
-    }
-
     struct Count
     {
         std::size_t cases{0}, solved{0}, gears{0}, continuous{0};
@@ -98,9 +88,8 @@ namespace
 TEST(SmoothedCases, BundledScenariosEndCurvatureContinuous)
 {
     Count count;
-    for (const std::string &file : casesIn(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios", ".yaml"))
-        if (file.find("unreachable") == std::string::npos)
-            smoothCase(file, count);
+    for (const std::string &file : solvableProblems(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios", ".yaml"))
+        smoothCase(file, count);
     EXPECT_GE(count.cases, 10u);
     EXPECT_EQ(count.solved, count.cases);
     report(count);
@@ -108,7 +97,7 @@ TEST(SmoothedCases, BundledScenariosEndCurvatureContinuous)
 
 TEST(SmoothedCases, TpcapCasesEndCurvatureContinuous)
 {
-    const std::vector<std::string> files = casesIn(std::string(PARKING_SHARED_DATA) + "/tpcap", ".csv");
+    const std::vector<std::string> files = solvableProblems(std::string(PARKING_SHARED_DATA) + "/tpcap", ".csv");
     if (files.empty())
         GTEST_SKIP() << "no TPCAP cases in " << PARKING_SHARED_DATA << "/tpcap";
     Count count;

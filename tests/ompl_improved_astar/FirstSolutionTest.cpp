@@ -6,6 +6,7 @@
 #include "ompl_improved_astar/Parameters.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "tests/support/ProblemFiles.h"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,7 @@
 
 using namespace parking;
 using namespace parking::search;
+using parking_test::solvableProblems;
 
 namespace
 {
@@ -78,29 +80,16 @@ namespace
         EXPECT_LE(ratios[ratios.size() / 2], 1.08);
         EXPECT_GT(ratios.back(), 1.0 + 1e-6) << "improving never improves anything";
     }
-
-    std::vector<std::string> filesIn(const std::string &folder, const std::string &extension)
-    {
-        std::vector<std::string> files;
-        if (std::filesystem::is_directory(folder))
-            for (const auto &entry : std::filesystem::directory_iterator(folder))
-                if (const std::string stem = entry.path().stem().string(); entry.path().extension() == extension &&
-                                                                           stem.find("_map") == std::string::npos &&
-                                                                           stem != "unreachable")
-                    files.push_back(entry.path().string());
-        std::sort(files.begin(), files.end());
-        return files;
-    }
 }  // namespace
 
 TEST(FirstSolution, isNearlyAsShortAsWhatImprovingMakesOfIt)
 {
-    compare(filesIn(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios", ".yaml"));
+    compare(solvableProblems(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios", ".yaml"));
 }
 
 TEST(FirstSolution, isNearlyAsShortInTheTpcapCases)
 {
-    const std::vector<std::string> files = filesIn(std::string(PARKING_SHARED_DATA) + "/tpcap", ".csv");
+    const std::vector<std::string> files = solvableProblems(std::string(PARKING_SHARED_DATA) + "/tpcap", ".csv");
     if (files.empty())
         GTEST_SKIP() << "no TPCAP cases in " << PARKING_SHARED_DATA << "/tpcap";
     compare(files);
