@@ -1,8 +1,8 @@
 #include "automatic_parking/AutomaticParking.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/Text.h"
-#include "path_tracking/PathSections.h"
+#include "parking_geometry/text/Text.h"
+#include "path_tracking/reference/PathSections.h"
 
 #include <algorithm>
 #include <cmath>

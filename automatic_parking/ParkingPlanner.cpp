@@ -3,9 +3,9 @@
 #include "ompl_improved_astar/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/ReedsShepp.h"
-#include "parking_geometry/ReverseParking.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/curves/ReedsShepp.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <chrono>

@@ -2,9 +2,9 @@
 
 #include "automatic_parking/ParkingStatus.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/FootprintQueries.h"
-#include "parking_geometry/PathSmoother.h"
+#include "parking_geometry/smoothing/PathSmoother.h"
 #include "parking_geometry/Scenario.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ObstacleSet.h"

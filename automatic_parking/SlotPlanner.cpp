@@ -3,10 +3,10 @@
 #include "ompl_improved_astar/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/Kinematics.h"
-#include "parking_geometry/MultiMoveParking.h"
-#include "parking_geometry/SlotSurroundings.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/curves/Kinematics.h"
+#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
+#include "parking_geometry/text/Text.h"
 #include "state_validity/FootprintChecker.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/ParkingSlot.h"
-#include "parking_geometry/PathSmoother.h"
+#include "parking_geometry/smoothing/PathSmoother.h"
 #include "parking_geometry/Pose.h"
-#include "parking_geometry/ReverseParking.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/Vehicle.h"
 #include "state_validity/ObstacleSet.h"
 

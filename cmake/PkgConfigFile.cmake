@@ -44,11 +44,7 @@ function(parking_install_pkg_config)
   list(FILTER includes EXCLUDE REGEX "/eigen3$")  # comes with Requires: eigen3
   parking_include_flags(PC_DEPENDENCY_CFLAGS ${includes})
 
-  # Users of static libraries link what the sources need; with shared libraries it is the business of the loader.
   set(PC_REQUIRES "eigen3 >= 3.3, octomap")
-  if(NOT BUILD_SHARED_LIBS)
-    string(APPEND PC_REQUIRES ", yaml-cpp, libpng")
-  endif()
   file(RELATIVE_PATH PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
   string(REGEX REPLACE "/$" "" PC_PREFIX "${PC_PREFIX}")
 

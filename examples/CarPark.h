@@ -2,8 +2,8 @@
 
 #include <ompl_improved_astar/ImprovedAStar.h>
 #include <parking_geometry/Vehicle.h>
-#include <state_validity/FclFootprintChecker.h>
-#include <state_validity/SweptMotionValidator.h>
+#include <state_validity/ompl/FclFootprintChecker.h>
+#include <state_validity/ompl/SweptMotionValidator.h>
 
 #include <memory>
 #include <vector>

@@ -4,9 +4,9 @@
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/Vehicle.h"
-#include "parking_geometry/io/SvgFigure.h"
-#include "parking_geometry/io/SvgScenario.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/drawing/SvgFigure.h"
+#include "parking_geometry/drawing/SvgScenario.h"
+#include "parking_geometry/text/Text.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <cmath>

@@ -3,9 +3,9 @@
 //
 // usage: drive_into_slot [SCENARIO.yaml]   writes drive_into_slot.svg and drive_into_slot.html
 #include "automatic_parking/AutomaticParking.h"
-#include "automatic_parking/DriveAnimation.h"
-#include "automatic_parking/DriveFigure.h"
-#include "parking_geometry/SlotSurroundings.h"
+#include "automatic_parking/drawing/DriveAnimation.h"
+#include "automatic_parking/drawing/DriveFigure.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/io/ScenarioReader.h"
 
 #include <cstdio>

@@ -7,8 +7,8 @@
 #include <ompl/geometric/SimpleSetup.h>
 
 #include <ompl_improved_astar/ImprovedAStar.h>
-#include <state_validity/FclFootprintChecker.h>
-#include <state_validity/SweptMotionValidator.h>
+#include <state_validity/ompl/FclFootprintChecker.h>
+#include <state_validity/ompl/SweptMotionValidator.h>
 
 int main()
 {

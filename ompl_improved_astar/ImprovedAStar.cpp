@@ -1,9 +1,9 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
 #include "ompl_improved_astar/ImprovedAStarQuery.h"
-#include "state_validity/CircleValidityChecker.h"
-#include "state_validity/FclFootprintChecker.h"
-#include "state_validity/SweptMotionValidator.h"
+#include "state_validity/ompl/CircleValidityChecker.h"
+#include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/SweptMotionValidator.h"
 
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>

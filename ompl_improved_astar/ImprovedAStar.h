@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/Parameters.h"
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
 
 #include <ompl/base/Planner.h>

@@ -3,8 +3,8 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/NearestName.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
 
 #include <ompl/util/Exception.h>
 

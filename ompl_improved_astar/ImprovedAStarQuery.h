@@ -7,8 +7,8 @@
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "ompl_improved_astar/search/GridSearch.h"
-#include "state_validity/CurveSpace.h"
-#include "state_validity/OmplPose.h"
+#include "state_validity/ompl/CurveSpace.h"
+#include "state_validity/ompl/OmplPose.h"
 
 #include <ompl/base/SpaceInformation.h>
 

@@ -1,7 +1,7 @@
 // What ImprovedAStar does with its searches: runs them, and hands OMPL what they found.
 
 #include "ompl_improved_astar/ImprovedAStarQuery.h"
-#include "parking_geometry/BsplineSmoother.h"
+#include "parking_geometry/smoothing/BsplineSmoother.h"
 
 #include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/PlannerData.h>

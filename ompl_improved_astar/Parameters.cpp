@@ -1,7 +1,7 @@
 #include "ompl_improved_astar/Parameters.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/NearestName.h"
+#include "parking_geometry/text/NearestName.h"
 
 #include <tuple>
 

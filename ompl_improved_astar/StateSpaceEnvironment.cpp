@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 
-#include "state_validity/OmplPose.h"
+#include "state_validity/ompl/OmplPose.h"
 
 #include <algorithm>
 #include <cmath>

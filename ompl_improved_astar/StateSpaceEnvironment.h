@@ -3,7 +3,7 @@
 #include "ompl_improved_astar/search/GridEnvironment.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
 
 #include <ompl/base/ScopedState.h>

@@ -1,6 +1,6 @@
 #include "parking_geometry/FootprintQueries.h"
 
-#include "parking_geometry/Kinematics.h"
+#include "parking_geometry/curves/Kinematics.h"
 
 #include <algorithm>
 #include <cmath>

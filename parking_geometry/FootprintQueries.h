@@ -1,6 +1,6 @@
 #pragma once
 
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
 

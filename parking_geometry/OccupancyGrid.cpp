@@ -1,7 +1,7 @@
 #include "parking_geometry/OccupancyGrid.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/text/Text.h"
 
 #include <cmath>
 #include <new>

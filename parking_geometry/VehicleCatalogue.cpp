@@ -1,6 +1,6 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
-#include "parking_geometry/io/NearestName.h"
+#include "parking_geometry/text/NearestName.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "state_validity/DistanceField.h"
 #include "state_validity/EdgeIndex.h"
-#include "state_validity/FclWorld.h"
+#include "state_validity/fcl/FclWorld.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <array>

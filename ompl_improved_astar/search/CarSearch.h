@@ -1,15 +1,15 @@
 #pragma once
 
-#include "ompl_improved_astar/search/CellTable.h"
+#include "ompl_improved_astar/search/containers/CellTable.h"
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/CurveCheck.h"
-#include "ompl_improved_astar/search/CurveHeuristic.h"
+#include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/ObstacleHeuristic.h"
-#include "ompl_improved_astar/search/OpenList.h"
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "ompl_improved_astar/search/containers/OpenList.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/ArcPath.h"
-#include "parking_geometry/ReedsShepp.h"
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/ReedsShepp.h"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
-#include "parking_geometry/ReedsShepp.h"
+#include "parking_geometry/curves/ReedsShepp.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/search/CurveCheck.h"
 
-#include "parking_geometry/ArcPath.h"
+#include "parking_geometry/curves/ArcPath.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "parking_geometry/ReedsShepp.h"
+#include "parking_geometry/curves/ReedsShepp.h"
 
 namespace parking::search
 {

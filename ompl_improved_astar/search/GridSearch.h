@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ompl_improved_astar/search/GridEnvironment.h"
-#include "ompl_improved_astar/search/OpenList.h"
+#include "ompl_improved_astar/search/containers/OpenList.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "ompl_improved_astar/search/TiledGrid.h"
+#include "ompl_improved_astar/search/containers/TiledGrid.h"
 #include "parking_geometry/Pose.h"
 
 #include <array>

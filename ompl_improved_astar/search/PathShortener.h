@@ -3,8 +3,8 @@
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/ArcPath.h"
-#include "parking_geometry/ReedsShepp.h"
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "parking_geometry/io/Yaml.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/NearestName.h"
-#include "parking_geometry/io/Text.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <set>

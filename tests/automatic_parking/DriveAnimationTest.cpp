@@ -1,6 +1,6 @@
-#include "automatic_parking/DriveAnimation.h"
+#include "automatic_parking/drawing/DriveAnimation.h"
 
-#include "automatic_parking/DriveFigure.h"
+#include "automatic_parking/drawing/DriveFigure.h"
 #include "parking_geometry/Error.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 #include "tests/parking_geometry/ExpectError.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "parking_geometry/Scenario.h"
-#include "parking_geometry/SlotSurroundings.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #include "automatic_parking/SlotPlanner.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/SlotSurroundings.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/support/PolygonOracle.h"
 

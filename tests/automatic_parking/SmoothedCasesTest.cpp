@@ -8,7 +8,7 @@
 #include "automatic_parking/ParkingPlanner.h"
 
 #include "parking_geometry/io/ScenarioReader.h"
-#include "tests/parking_geometry/SmoothPathChecks.h"
+#include "tests/parking_geometry/smoothing/SmoothPathChecks.h"
 #include "tests/support/PolygonOracle.h"
 #include "tests/support/ProblemFiles.h"
 

@@ -4,9 +4,9 @@
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
-#include "state_validity/FclFootprintChecker.h"
-#include "state_validity/OmplPose.h"
-#include "state_validity/SweptMotionValidator.h"
+#include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/OmplPose.h"
+#include "state_validity/ompl/SweptMotionValidator.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "parking_geometry/FootprintQueries.h"
 
-#include "PolygonWorld.h"
-#include "RandomParking.h"
+#include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 

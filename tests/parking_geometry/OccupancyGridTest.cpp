@@ -1,6 +1,6 @@
 #include "parking_geometry/OccupancyGrid.h"
 
-#include "ExpectError.h"
+#include "tests/parking_geometry/ExpectError.h"
 
 #include <cmath>
 #include <limits>

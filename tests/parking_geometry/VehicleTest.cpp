@@ -1,7 +1,7 @@
 #include "parking_geometry/Vehicle.h"
 
-#include "ExpectError.h"
-#include "TemporaryFolder.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/io/ScenarioReader.h"
 

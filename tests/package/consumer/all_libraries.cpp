@@ -3,7 +3,7 @@
 #include <string>
 
 #include <ompl_improved_astar/Parameters.h>
-#include <parking_geometry/ArcPath.h>
+#include <parking_geometry/curves/ArcPath.h>
 #include <parking_geometry/Error.h>
 #include <parking_geometry/io/ScenarioReader.h>
 #include <state_validity/FootprintChecker.h>
@@ -11,8 +11,8 @@
 #include <automatic_parking/AutomaticParking.h>
 #endif
 #ifdef HAS_path_tracking
-#include <path_tracking/Mpc.h>
-#include <path_tracking/SpeedProfile.h>
+#include <path_tracking/control/Mpc.h>
+#include <path_tracking/reference/SpeedProfile.h>
 #endif
 
 int main(int argc, char **argv)

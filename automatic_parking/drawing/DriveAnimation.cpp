@@ -1,0 +1,154 @@
+#include "automatic_parking/drawing/DriveAnimation.h"
+
+#include "automatic_parking/drawing/DriveAnimationPage.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/drawing/SvgScenario.h"
+#include "parking_geometry/drawing/SvgText.h"
+#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/WriteFile.h"
+
+#include <cmath>
+#include <vector>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double UNIT = 1e-4;  // metres, radians and so on to which numbers are written
+
+        std::string number(double value)
+        {
+            const double rounded = std::round(value / UNIT);
+            // As whole multiples of the unit: a division by a power of ten rounds to the short decimal.
+            return formatNumber(rounded == 0.0 ? 0.0 : rounded / (1.0 / UNIT));
+        }
+
+        std::string column(const Trajectory &driven, double TrajectoryPoint::*field)
+        {
+            std::string text = "[";
+            for (const TrajectoryPoint &point : driven)
+                text += (text.size() > 1 ? "," : "") + number(point.*field);
+            return text + "]";
+        }
+
+        void checkDrive(const Trajectory &driven)
+        {
+            if (driven.size() < 2)
+                throw Error("animation: the drive has " + std::to_string(driven.size()) +
+                            " points; at least 2 are needed");
+            for (std::size_t i = 0; i < driven.size(); ++i)
+            {
+                const TrajectoryPoint &point = driven[i];
+                for (const double value :
+                     {point.t, point.x, point.y, point.yaw, point.v, point.acceleration, point.steering})
+                    if (!std::isfinite(value))
+                        throw Error("animation: point " + std::to_string(i) + " holds a number that is not finite");
+                if (i > 0 && point.t < driven[i - 1].t)
+                    throw Error("animation: point " + std::to_string(i) + " is earlier than the one before");
+            }
+        }
+
+        /** The planned path as thin lines, one per stretch between changes of direction. */
+        void drawPlan(SvgMap &map, const Path &planned)
+        {
+            std::vector<Eigen::Vector2d> line;
+            for (std::size_t i = 1; i < planned.size(); ++i)
+            {
+                if (line.empty())
+                    line.emplace_back(planned[i - 1].pose.x, planned[i - 1].pose.y);
+                line.emplace_back(planned[i].pose.x, planned[i].pose.y);
+                if (i + 1 < planned.size() && planned[i + 1].direction == planned[i].direction)
+                    continue;
+                SvgStyle style;
+                const bool reverse = planned[i].direction < 0;
+                style.stroke = reverse ? svg_colour::REVERSE : svg_colour::FORWARD;
+                style.strokeWidth = 2.5;
+                style.strokeOpacity = 0.55;
+                map.drawLine(SvgLayer::Lines, line, style);
+                map.addLegend({reverse ? "planned, reverse" : "planned, forwards", style, true});
+                line.clear();
+            }
+        }
+
+        std::string legendOf(const SvgMap &map)
+        {
+            std::string text;
+            for (const SvgLegendEntry &entry : map.legend())
+            {
+                const std::string mark = entry.line ? "<path d=\"M1 7H21\"" + attributes(entry.style) + "/>"
+                                                    : "<rect x=\"2\" y=\"1\" width=\"18\" height=\"12\" rx=\"2\"" +
+                                                          attributes(entry.style) + "/>";
+                text += "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\">" + mark + "</svg>" +
+                        escaped(entry.label) + "</li>\n";
+            }
+            return text + "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\"><path d=\"M1 7H21\" stroke=\"" +
+                   svg_colour::DRIVEN + "\" stroke-width=\"2\"/></svg>driven</li>\n";
+        }
+
+        void replace(std::string &text, const std::string &mark, const std::string &value)
+        {
+            for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
+                text.replace(at, mark.size(), value);
+        }
+    }  // namespace
+
+    std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+                               const std::string &title, const std::string &subtitle)
+    {
+        checkDrive(driven);
+        Path seen = planned;
+        for (const TrajectoryPoint &point : driven)
+            seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
+        SvgMap map(viewAround(scenario, seen));
+        drawScenario(map, scenario);
+        drawPlan(map, planned);
+
+        const Vehicle &car = scenario.vehicle;
+        std::string data = "{";
+        const auto add = [&data](const std::string &name, const std::string &value)
+        {
+            data += (data.size() > 1 ? ",\n" : "") + ("\"" + name + "\":") + value;
+        };
+        add("t", column(driven, &TrajectoryPoint::t));
+        add("x", column(driven, &TrajectoryPoint::x));
+        add("y", column(driven, &TrajectoryPoint::y));
+        add("yaw", column(driven, &TrajectoryPoint::yaw));
+        add("v", column(driven, &TrajectoryPoint::v));
+        add("a", column(driven, &TrajectoryPoint::acceleration));
+        add("steering", column(driven, &TrajectoryPoint::steering));
+        add("wheelbase", number(car.wheelbase));
+        add("frontOverhang", number(car.frontOverhang));
+        add("rearOverhang", number(car.rearOverhang));
+        add("width", number(car.width));
+        add("maxSpeed", number(car.maxSpeed));
+        add("maxAcceleration", number(car.maxAcceleration));
+        add("maxSteering", number(car.maxSteeringAngle));
+        add("scale", formatNumber(map.scale()));
+        data += "}";
+
+        std::string page = DRIVE_ANIMATION_PAGE;
+        replace(page, "@WIDTH@", px(map.width()));
+        replace(page, "@HEIGHT@", px(map.height()));
+        // Metres, y up, on the pixels of the map.
+        replace(page, "@METRES@",
+                "matrix(" + formatNumber(map.scale()) + " 0 0 " + formatNumber(-map.scale()) + " " +
+                    formatNumber(-map.scale() * map.view().min.x()) + " " +
+                    formatNumber(map.scale() * map.view().max.y()) + ")");
+        replace(page, "@DRIVEN@", svg_colour::DRIVEN);
+        replace(page, "@REVERSE@", svg_colour::REVERSE);
+        replace(page, "@FORWARD@", svg_colour::FORWARD);
+        replace(page, "@DATA@", data);
+        replace(page, "@MAP@", map.toSvg(0.0, 0.0));
+        replace(page, "@LEGEND@", legendOf(map));
+        // What users write comes last, so that no mark in it is taken for one of the page's.
+        replace(page, "@SUBTITLE@", escaped(subtitle));
+        replace(page, "@TITLE@", escaped(title));
+        return page;
+    }
+
+    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
+                             const Trajectory &driven, const std::string &title, const std::string &subtitle)
+    {
+        writeFileAtomically(file, driveAnimation(scenario, planned, driven, title, subtitle));
+    }
+}  // namespace parking

@@ -1,0 +1,87 @@
+#include "automatic_parking/drawing/DriveFigure.h"
+
+#include "parking_geometry/drawing/SvgScenario.h"
+
+#include <cmath>
+#include <vector>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double DEGREES = 180.0 / PI;
+        constexpr double STANDING = 1e-3;  // m/s
+        constexpr double ROOM = 1.15;      // of a plot beyond the car's limits
+
+        /** When the car drives in reverse. */
+        std::vector<SvgBand> reverseBands(const Trajectory &driven)
+        {
+            std::vector<SvgBand> bands;
+            bool open = false;
+            for (const TrajectoryPoint &point : driven)
+            {
+                const bool reverse = point.v < -STANDING;
+                if (reverse && !open)
+                    bands.push_back({point.t, point.t, svg_colour::REVERSE});
+                if (open)
+                    bands.back().end = point.t;
+                open = reverse;
+            }
+            return bands;
+        }
+
+        SvgPlot plotOf(const Trajectory &driven, const char *title, const char *unit, double TrajectoryPoint::*field,
+                       double factor, double limit)
+        {
+            SvgPlot plot;
+            plot.title = title;
+            plot.xLabel = "time, s";
+            plot.yLabel = unit;
+            plot.bands = reverseBands(driven);
+            plot.limits = {-factor * limit, factor * limit};
+            plot.yRange = {-ROOM * factor * limit, ROOM * factor * limit};
+            plot.height = 170.0;
+            SvgSeries series;
+            series.colour = svg_colour::DRIVEN;
+            for (const TrajectoryPoint &point : driven)
+            {
+                series.x.push_back(point.t);
+                series.y.push_back(factor * point.*field);
+            }
+            plot.series.push_back(std::move(series));
+            return plot;
+        }
+    }  // namespace
+
+    std::vector<SvgPlot> drivePlots(const Trajectory &driven, const Vehicle &vehicle)
+    {
+        return {
+            plotOf(driven, "Speed", "m/s", &TrajectoryPoint::v, 1.0, vehicle.maxSpeed),
+            plotOf(driven, "Acceleration", "m/s\xC2\xB2", &TrajectoryPoint::acceleration, 1.0, vehicle.maxAcceleration),
+            plotOf(driven, "Steering angle", "degrees", &TrajectoryPoint::steering, DEGREES, vehicle.maxSteeringAngle)};
+    }
+
+    SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+                          const std::string &title, const std::string &subtitle)
+    {
+        SvgFigure figure(title, subtitle);
+        Path seen = planned;
+        std::vector<Pose> track;
+        for (const TrajectoryPoint &point : driven)
+        {
+            track.push_back({point.x, point.y, point.yaw});
+            seen.push_back({track.back(), 0.0, 0.0, 1});
+        }
+        SvgMap map(viewAround(scenario, seen));
+        drawScenario(map, scenario);
+        if (planned.size() > 1)
+            drawPath(map, planned, scenario.vehicle);
+        if (track.size() > 1)
+            drawTrack(map, track, svg_colour::DRIVEN, "driven");
+        figure.setMap(map);
+        if (driven.size() > 1)
+            for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle))
+                figure.addPlot(plot);
+        return figure;
+    }
+}  // namespace parking

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/problems/Problem.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief How the scenarios of a comparison are put to its planners: the section [problem] of a .cfg file. */
+    struct ProblemOptions
+    {
+        std::string name;     ///< instead of the scenario's; with a single scenario only
+        std::string vehicle;  ///< name or file; empty: the scenario's
+        ProblemSettings settings;
+        std::optional<Pose> start, goal;               ///< instead of the scenario's, in the coordinates of its file
+        std::optional<double> minX, minY, maxX, maxY;  ///< of the rear axle, likewise; within the scenario's own bounds
+        std::string sampler;  ///< of valid states: empty, uniform, gaussian, obstacle_based or bridge_test
+
+        bool operator==(const ProblemOptions &other) const;
+    };
+
+    /** \brief One planner of a comparison, with its parameters. */
+    struct PlannerSpec
+    {
+        std::string name;     ///< what results call it; unique
+        std::string planner;  ///< of the registry
+        PlannerSettings settings;
+        ProblemOptions problem;
+        std::vector<std::string> only;  ///< patterns of the names of the scenarios that it is run on; empty: all
+    };
+
+    /** \brief Which paths are written to files of their own. */
+    enum class SavePaths
+    {
+        None,
+        Shortest,  ///< of each planner on each problem
+        All
+    };
+
+    /** \brief A comparison, as a .cfg file describes it (see docs/comparison.md). */
+    struct BenchmarkConfig
+    {
+        std::string file;
+        std::vector<std::string> scenarios;  ///< files, in the order given; those of a pattern or folder sorted
+        double timeLimit{5.0};               ///< seconds per run
+        double memoryLimit{4096.0};          ///< MB
+        std::size_t runCount{10};
+        std::string output;  ///< folder; empty: the caller chooses
+        SavePaths savePaths{SavePaths::None};
+        std::uint_fast32_t seed{1};
+        bool simplify{false};  ///< let OMPL simplify each path, too, and report that beside it
+        bool track{false};     ///< drive each path with the controller
+        std::vector<PlannerSpec> planners;
+    };
+
+    /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].
+
+        Throws parking::Error naming file and line: for a section, key or planner that is not known with the nearest
+       known one, for a value out of range with what would be right. Parameters of planners are checked when the planner
+       is made. */
+    BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry);
+
+    /** \brief Keeps only the planners of these names. Throws parking::Error for one that \e config has not. */
+    void selectPlanners(BenchmarkConfig &config, const std::vector<std::string> &names);
+
+    /** \brief The scenario files that a name stands for: the file itself, those of a folder that are scenarios, or
+       those that match a pattern with * or ?. Relative names are looked up in \e folder. Throws parking::Error when
+       there is none. */
+    std::vector<std::string> findScenarios(const std::string &name, const std::string &folder);
+
+    /** \brief Applies an option of the section [problem]. Throws parking::Error without file and line. */
+    void setProblemOption(ProblemOptions &options, const std::string &key, const std::string &value);
+}  // namespace parking

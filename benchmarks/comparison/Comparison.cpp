@@ -1,0 +1,336 @@
+#include "benchmarks/comparison/Comparison.h"
+
+#include "benchmarks/summary/ComparisonPictures.h"
+#include "benchmarks/comparison/ExperimentLog.h"
+#include "benchmarks/system/Machine.h"
+#include "benchmarks/system/Progress.h"
+#include "benchmarks/system/QuietChildren.h"
+#include "benchmarks/summary/ReportScript.h"
+#include "benchmarks/comparison/ResultStore.h"
+#include "benchmarks/summary/Summary.h"
+#include "benchmarks/comparison/UnitRunner.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/WriteFile.h"
+
+#include <ompl/tools/benchmark/MachineSpecs.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace parking
+{
+    namespace
+    {
+        void makeFolder(const std::string &folder)
+        {
+            std::error_code error;
+            fs::create_directories(folder, error);
+            if (!fs::is_directory(folder))
+                throw Error(folder + ": is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
+            if (access(folder.c_str(), W_OK) != 0)
+                throw Error(folder + ": cannot be written: " + std::strerror(errno));
+        }
+
+        std::string numberText(double value)
+        {
+            return std::isfinite(value) ? formatNumber(value) : "";
+        }
+
+        std::string pathCsv(const Scenario &scenario, const RunRecord &record)
+        {
+            std::string text = "x,y,yaw,direction,curvature\n";
+            for (const PathState &state : record.path.sample(PlannedPath::SAMPLING))
+            {
+                const Pose pose = scenario.toWorld(state.pose);
+                text += numberText(pose.x) + "," + numberText(pose.y) + "," + numberText(pose.yaw) + "," +
+                        std::to_string(state.direction) + "," + numberText(state.curvature) + "\n";
+            }
+            return text;
+        }
+    }  // namespace
+
+    Comparison::Comparison(const BenchmarkOptions &options, const PlannerRegistry &registry)
+      : options_(options),
+        registry_(registry),
+        config_(readBenchmarkConfig(options.config, registry))
+    {
+        config_.timeLimit = options.timeLimit.value_or(config_.timeLimit);
+        config_.runCount = options.runCount.value_or(config_.runCount);
+        config_.seed = options.seed.value_or(config_.seed);
+        if (!options.scenarios.empty())
+        {
+            config_.scenarios.clear();
+            for (const std::string &name : options.scenarios)
+            {
+                const std::vector<std::string> found = findScenarios(name, "");
+                config_.scenarios.insert(config_.scenarios.end(), found.begin(), found.end());
+            }
+        }
+        if (!options.planners.empty())
+            selectPlanners(config_, options.planners);
+        folder_ = !options.output.empty()   ? options.output
+                  : !config_.output.empty() ? config_.output
+                                            : "results-" + fs::path(options.config).stem().string();
+        requireStatisticsProgram();
+        experiments_ = planExperiments(config_);
+    }
+
+    std::string Comparison::runsFile() const
+    {
+        const std::string part =
+            options_.shards == 1 ? ""
+                                 : "-" + std::to_string(options_.shard + 1) + "-of-" + std::to_string(options_.shards);
+        return (fs::path(folder_) / ("runs" + part + ".jsonl")).string();
+    }
+
+    json Comparison::header(const std::vector<std::string> &setups) const
+    {
+        std::string program = fileDigest("/proc/self/exe");
+        for (const std::string &plugin : options_.plugins)
+            program += "+" + fileDigest(plugin);
+        const std::string cpu = []
+        {
+            const QuietChildren quiet;
+            return ompl::machine::getCPUInfo();
+        }();
+        json result{
+            {"fingerprint", fingerprint(config_, experiments_)},
+            {"program", program},
+            {"config", config_.file},
+            {"host", ompl::machine::getHostname()},
+            {"cpu", cpu},
+            {"machine", machineText()},
+            {"parameters", machineParameters()},
+            {"seed", config_.seed},
+            {"time_limit", config_.timeLimit},
+            {"started", std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()}};
+        json texts = json::object();
+        for (std::size_t i = 0; i < experiments_.size(); ++i)
+            texts[experiments_[i].name] = setups[i] + machineText() + "\n";
+        result["setups"] = std::move(texts);
+        return result;
+    }
+
+    void Comparison::setAside(const std::string &file) const
+    {
+        const std::string old = (fs::path(folder_) / ("previous-" + fs::path(file).filename().string())).string();
+        std::error_code error;
+        fs::rename(file, old, error);
+        if (error)
+            throw Error(file + ": cannot be moved to " + old + ": " + error.message());
+        if (!options_.quiet)
+            std::cerr << "Runs of an earlier comparison were moved to " << old << std::endl;
+    }
+
+    bool Comparison::run(const std::atomic<bool> &stop)
+    {
+        UnitRunner runner(config_, experiments_, registry_, stop);
+        runner.checkSettings();
+        makeFolder(folder_);
+        std::vector<std::string> setups;
+        for (std::size_t i = 0; i < experiments_.size(); ++i)
+            setups.push_back(runner.setupText(i));
+        const json newHeader = header(setups);
+        const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
+        const auto isDone =
+            [&](const std::set<std::tuple<std::string, std::string, std::size_t>> &done, const Unit &unit)
+        {
+            return done.count({experiments_[unit.experiment].name, config_.planners[unit.planner].name, unit.run}) > 0;
+        };
+
+        const std::string file = runsFile();
+        std::error_code ignored;
+        if (fs::exists(file, ignored) && fs::file_size(file, ignored) > 0)
+        {
+            // What is finished, or was something else, makes room; what was interrupted goes on.
+            bool goesOn = false;
+            try
+            {
+                const auto [oldHeader, oldRecords] = ResultStore::read(file);
+                std::set<std::tuple<std::string, std::string, std::size_t>> done;
+                for (const RunRecord &record : oldRecords)
+                    done.insert({record.experiment, record.planner, record.run});
+                const bool complete =
+                    std::all_of(units.begin(), units.end(), [&](const Unit &unit) { return isDone(done, unit); });
+                goesOn = !options_.fresh && !complete && oldHeader.at("fingerprint") == newHeader.at("fingerprint") &&
+                         oldHeader.value("program", "") == newHeader.at("program");
+            }
+            catch (const Error &)
+            {
+            }
+            if (!goesOn)
+                setAside(file);
+        }
+
+        ResultStore store(file, newHeader, false);
+        std::vector<Unit> left;
+        std::vector<std::string> names;
+        for (const Unit &unit : units)
+            if (!store.has(experiments_[unit.experiment].name, config_.planners[unit.planner].name, unit.run))
+            {
+                left.push_back(unit);
+                names.push_back(config_.planners[unit.planner].name);
+            }
+        if (!options_.quiet && left.size() < units.size())
+            std::cerr << "Going on: " << units.size() - left.size() << " of " << units.size()
+                      << " runs are already finished" << std::endl;
+        Progress progress(names, config_.timeLimit, options_.quiet);
+        for (const Unit &unit : left)
+        {
+            if (stop)
+                return false;
+            const std::string &planner = config_.planners[unit.planner].name;
+            progress.begin(experiments_[unit.experiment].name, planner);
+            const auto begin = std::chrono::steady_clock::now();
+            RunRecord record = runner.run(unit);
+            if (stop)
+                return false;
+            store.add(std::move(record));
+            progress.end(planner, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        }
+        return true;
+    }
+
+    std::vector<std::string> Comparison::inputs() const
+    {
+        std::vector<std::string> files;
+        const auto addFolder = [&files](const std::string &folder)
+        {
+            for (const auto &entry : fs::directory_iterator(folder))
+            {
+                const std::string name = entry.path().filename().string();
+                if (name.compare(0, 4, "runs") == 0 && entry.path().extension() == ".jsonl")
+                    files.push_back(entry.path().string());
+            }
+        };
+        if (!options_.merge)
+            return {runsFile()};
+        std::error_code ignored;
+        if (options_.inputs.empty() && fs::is_directory(folder_, ignored))
+            addFolder(folder_);
+        for (const std::string &input : options_.inputs)
+        {
+            if (fs::is_directory(input, ignored))
+                addFolder(input);
+            else
+                files.push_back(input);
+        }
+        std::sort(files.begin(), files.end());
+        if (files.empty())
+            throw Error(folder_ + ": holds no runs to merge (runs*.jsonl)");
+        return files;
+    }
+
+    void Comparison::gather()
+    {
+        records_.clear();
+        const std::string wanted = fingerprint(config_, experiments_);
+        std::set<std::tuple<std::string, std::string, std::size_t>> known;
+        std::set<std::string> hosts;
+        header_ = nullptr;
+        for (const std::string &file : inputs())
+        {
+            auto [fileHeader, fileRecords] = ResultStore::read(file);
+            if (fileHeader.value("fingerprint", "") != wanted)
+                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                            " with these options (configuration, scenarios, limits or seed differ)");
+            hosts.insert(fileHeader.value("host", "unknown"));
+            if (header_.is_null() || fileHeader.value("started", 0.0) < header_.value("started", 0.0))
+                header_ = fileHeader;
+            for (RunRecord &record : fileRecords)
+                if (known.insert({record.experiment, record.planner, record.run}).second &&
+                    record.run < config_.runCount)
+                    records_.push_back(std::move(record));
+        }
+        std::string names;
+        for (const std::string &host : hosts)
+            names += (names.empty() ? "" : "+") + host;
+        header_["host"] = names;
+        std::sort(records_.begin(), records_.end(),
+                  [](const RunRecord &a, const RunRecord &b)
+                  { return std::tie(a.experiment, a.planner, a.run) < std::tie(b.experiment, b.planner, b.run); });
+    }
+
+    ComparisonFiles Comparison::write()
+    {
+        if (!options_.inputs.empty())
+            makeFolder(folder_);
+        gather();
+        ComparisonFiles files;
+        files.folder = folder_;
+        const fs::path folder(folder_);
+        const auto summaryRows = summarize(config_, experiments_, records_);
+        summary_ = summaryText(summaryRows);
+        std::size_t expected = 0;
+        makeFolder((folder / "pictures").string());
+        if (config_.savePaths != SavePaths::None)
+            makeFolder((folder / "paths").string());
+        for (const Experiment &experiment : experiments_)
+        {
+            expected += experiment.planners.size() * config_.runCount;
+            std::vector<const RunRecord *> own;
+            for (const RunRecord &record : records_)
+                if (record.experiment == experiment.name)
+                    own.push_back(&record);
+            if (own.empty())
+                continue;
+            const std::string log = (folder / (experiment.name + ".log")).string();
+            writeFileAtomically(log, experimentLog(config_, experiment, header_, own));
+            files.logs.push_back(log);
+
+            const Scenario scenario = experiment.scenario();
+            std::vector<std::pair<std::string, const RunRecord *>> best;
+            for (const std::size_t index : experiment.planners)
+            {
+                const std::string &planner = config_.planners[index].name;
+                std::vector<const RunRecord *> runs;
+                for (const RunRecord *record : own)
+                    if (record->planner == planner)
+                        runs.push_back(record);
+                best.emplace_back(planner, bestRun(runs));
+                for (const RunRecord *record : runs)
+                    if (record->hasPath && (config_.savePaths == SavePaths::All ||
+                                            (config_.savePaths == SavePaths::Shortest && record == best.back().second)))
+                        writeFileAtomically(
+                            (folder / "paths" /
+                             (experiment.name + "-" + planner + "-" + std::to_string(record->run) + ".csv"))
+                                .string(),
+                            pathCsv(scenario, *record));
+            }
+            const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
+            writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
+            files.pictures.push_back(picture);
+        }
+        files.missing = expected - std::min(expected, records_.size());
+        files.database = (folder / "benchmark.db").string();
+        makeDatabase(files.logs, files.database);
+        files.table = (folder / "summary.md").string();
+        writeFileAtomically(files.table, summaryMarkdown(summaryRows));
+        files.csv = (folder / "summary.csv").string();
+        writeFileAtomically(files.csv, summaryCsv(summaryRows));
+        // Last, and whatever happens to it does not harm the results.
+        try
+        {
+            if (options_.report)
+                files.report = makeReport(folder_, inputs());
+        }
+        catch (const Error &error)
+        {
+            files.reportError = error.what();
+        }
+        return files;
+    }
+}  // namespace parking

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "benchmarks/programs/BenchmarkOptions.h"
+#include "benchmarks/comparison/Experiment.h"
+#include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/comparison/RunRecord.h"
+
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What a comparison left in its folder. */
+    struct ComparisonFiles
+    {
+        std::string folder;
+        std::vector<std::string> logs;
+        std::string database;
+        std::string table;  ///< Markdown
+        std::string csv;
+        std::string report;       ///< HTML; empty when there is no python3 to make it
+        std::string reportError;  ///< why there is none although there should be
+        std::vector<std::string> pictures;
+        std::size_t missing{0};  ///< runs that are not there
+    };
+
+    /** \brief A comparison from beginning to end: configuration, runs, results. */
+    class Comparison
+    {
+    public:
+        /** \brief Reads the configuration and all scenarios. Throws parking::Error. */
+        Comparison(const BenchmarkOptions &options, const PlannerRegistry &registry);
+
+        /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
+            configuration count. Makes the output folder, once all settings are found to be right. A finished or
+           different comparison in the same folder is set aside first.
+
+            \param stop once true, ends before the next run
+            \return whether all are done. Throws parking::Error. */
+        bool run(const std::atomic<bool> &stop);
+
+        /** \brief Puts the finished runs together: logs, database, tables, pictures, report. Throws parking::Error. */
+        ComparisonFiles write();
+
+        const BenchmarkConfig &config() const
+        {
+            return config_;
+        }
+        const std::string &folder() const
+        {
+            return folder_;
+        }
+        /** \brief The file of this shard's runs. */
+        std::string runsFile() const;
+
+        /** \brief The table for the terminal, of what write() has put together. */
+        const std::string &summary() const
+        {
+            return summary_;
+        }
+
+    private:
+        nlohmann::json header(const std::vector<std::string> &setups) const;
+        std::vector<std::string> inputs() const;
+        void gather();
+        void setAside(const std::string &file) const;
+
+        BenchmarkOptions options_;
+        const PlannerRegistry &registry_;
+        BenchmarkConfig config_;
+        std::vector<Experiment> experiments_;
+        std::string folder_;
+        nlohmann::json header_;
+        std::vector<RunRecord> records_;
+        std::string summary_;
+    };
+}  // namespace parking

@@ -1,0 +1,154 @@
+#include "benchmarks/comparison/ExperimentLog.h"
+
+#include "benchmarks/system/Subprocess.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/config.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include <unistd.h>
+
+using nlohmann::json;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double PROGRESS_STEP = 0.05;  // seconds between samples of the best cost
+
+        const char *const STATISTICS = "ompl_benchmark_statistics";
+
+        std::string packagedVersion()
+        {
+            return std::to_string(OMPL_VERSION_VALUE / 1000000) + "." +
+                   std::to_string(OMPL_VERSION_VALUE / 1000 % 1000) + "." + std::to_string(OMPL_VERSION_VALUE % 1000);
+        }
+
+        /** Cost over time as Planner Arena plots it: at regular times and at each improvement. */
+        ompl::tools::Benchmark::RunProgressData progressOf(const RunRecord &record, double limit)
+        {
+            ompl::tools::Benchmark::RunProgressData data;
+            std::vector<double> times;
+            const double total = std::min(limit, record.number("time REAL"));
+            for (int i = 1; i * PROGRESS_STEP <= total; ++i)
+                times.push_back(i * PROGRESS_STEP);
+            for (const Improvement &each : record.progress)
+                times.push_back(each.time);
+            std::sort(times.begin(), times.end());
+            times.erase(std::unique(times.begin(), times.end()), times.end());
+            std::size_t next = 0;
+            double cost = std::numeric_limits<double>::infinity();
+            for (const double time : times)
+            {
+                while (next < record.progress.size() && record.progress[next].time <= time)
+                    cost = record.progress[next++].cost;
+                data.push_back({{"time REAL", formatNumber(time)}, {"best cost REAL", formatNumber(cost)}});
+            }
+            return data;
+        }
+
+        /** OMPL's own writer, for data that were gathered run by run. */
+        class LogWriter final : public ompl::tools::Benchmark
+        {
+        public:
+            explicit LogWriter(ompl::geometric::SimpleSetup &setup) : ompl::tools::Benchmark(setup)
+            {
+            }
+
+            CompleteExperiment &experiment()
+            {
+                return exp_;
+            }
+        };
+
+        ompl::geometric::SimpleSetup emptySetup()
+        {
+            const auto space = std::make_shared<ompl::base::SE2StateSpace>();
+            return ompl::geometric::SimpleSetup(space);
+        }
+    }  // namespace
+
+    std::string experimentLog(const BenchmarkConfig &config, const Experiment &experiment, const json &header,
+                              const std::vector<const RunRecord *> &records)
+    {
+        ompl::geometric::SimpleSetup setup = emptySetup();
+        LogWriter writer(setup);
+        ompl::tools::Benchmark::CompleteExperiment &data = writer.experiment();
+        data.name = experiment.name;
+        data.maxTime = config.timeLimit;
+        data.maxMem = config.memoryLimit;
+        data.runCount = static_cast<unsigned int>(config.runCount);
+        data.seed = config.seed;
+        data.host = header.value("host", "unknown");
+        data.cpuInfo = header.value("cpu", "");
+        data.startTime = ompl::time::point() + ompl::time::seconds(header.value("started", 0.0));
+        data.totalDuration = 0.0;
+        data.setupInfo = header.at("setups").value(experiment.name, "");
+        for (const auto &[name, value] : header.at("parameters").items())
+            data.parameters[name] = value.get<std::string>();
+        for (const std::size_t index : experiment.planners)
+        {
+            ompl::tools::Benchmark::PlannerExperiment planner;
+            planner.name = "geometric_" + config.planners[index].name;
+            std::vector<const RunRecord *> own;
+            for (const RunRecord *record : records)
+                if (record->planner == config.planners[index].name)
+                    own.push_back(record);
+            if (own.empty())
+                continue;
+            std::sort(own.begin(), own.end(), [](const RunRecord *a, const RunRecord *b) { return a->run < b->run; });
+            planner.common = own.front()->parameters;
+            planner.progressPropertyNames = {"best cost REAL", "time REAL"};
+            for (const RunRecord *record : own)
+            {
+                planner.runs.push_back(record->properties);
+                planner.runsProgressData.push_back(progressOf(*record, config.timeLimit));
+                if (const double time = record->number("time REAL"); time > 0.0)
+                    data.totalDuration += time;
+            }
+            data.planners.push_back(std::move(planner));
+        }
+        std::ostringstream text;
+        writer.saveResultsToStream(text);
+        std::string log = text.str();
+        // Debian's package does not know its own version.
+        const std::string blank = "OMPL version \n";
+        if (log.compare(0, blank.size(), blank) == 0)
+            log.replace(0, blank.size(), "OMPL version " + packagedVersion() + "\n");
+        return log;
+    }
+
+    void requireStatisticsProgram()
+    {
+        if (!isProgram(STATISTICS))
+            throw Error(std::string(STATISTICS) + " is not installed; it comes with the Debian package ompl-demos");
+    }
+
+    void makeDatabase(const std::vector<std::string> &logs, const std::string &database)
+    {
+        requireStatisticsProgram();
+        const std::string temporary = database + ".new." + std::to_string(getpid());
+        std::vector<std::string> command{STATISTICS, "-d", temporary};
+        command.insert(command.end(), logs.begin(), logs.end());
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        const ProcessResult result = runProcess(command);
+        if (result.status != 0)
+        {
+            std::filesystem::remove(temporary, ignored);
+            throw Error(database + ": " + STATISTICS + " failed: " + lastLine(result.errors));
+        }
+        std::error_code error;
+        std::filesystem::rename(temporary, database, error);
+        if (error)
+            throw Error(database + ": cannot be written: " + error.message());
+    }
+}  // namespace parking

@@ -1,0 +1,229 @@
+#include "benchmarks/planners/PlannerRegistry.h"
+
+#include "benchmarks/planners/ReedsSheppPlanner.h"
+#include "benchmarks/planners/SolveRecord.h"
+#include "ompl_improved_astar/ImprovedAStar.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
+
+#include <ompl/geometric/planners/est/BiEST.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/informedtrees/ABITstar.h>
+#include <ompl/geometric/planners/informedtrees/AITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/LazyPRMstar.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/prm/PRMstar.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/sbl/SBL.h>
+#include <ompl/geometric/planners/sst/SST.h>
+#include <ompl/util/Exception.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace og = ompl::geometric;
+
+namespace parking
+{
+    namespace
+    {
+        /** What counts in a name: lower-case letters and digits, * as "star". */
+        std::string keyOf(const std::string &name)
+        {
+            std::string key;
+            for (const char c : name)
+            {
+                if (c == '*')
+                    key += "star";
+                else if (c != '_' && c != '-' && c != ' ')
+                    key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            }
+            return key;
+        }
+
+        template <class Planner>
+        PlannerEntry entry(const std::string &name, const std::string &summary, bool optimizing = false,
+                           PlannerSettings settings = {})
+        {
+            return {name, summary, optimizing,
+                    [](const ompl::base::SpaceInformationPtr &si) { return std::make_shared<Measured<Planner>>(si); },
+                    std::move(settings)};
+        }
+
+        template <class... Types>
+        bool isOneOf(const ompl::base::GenericParam &parameter)
+        {
+            return (... || (dynamic_cast<const ompl::base::SpecificParam<Types> *>(&parameter) != nullptr));
+        }
+
+        constexpr double GREATEST_INT = std::numeric_limits<short>::max();  // enough for any parameter with a sign
+
+        std::size_t greatest(const ompl::base::GenericParam &parameter)
+        {
+            if (isOneOf<unsigned short>(parameter))
+                return std::numeric_limits<unsigned short>::max();
+            return isOneOf<unsigned int>(parameter) ? std::numeric_limits<unsigned int>::max()
+                                                    : std::numeric_limits<std::size_t>::max();
+        }
+
+        /** The text that \e parameter shall be set to, or an empty one when \e value is of another type than it.
+
+            OMPL itself is content when a value begins like a number, and takes -1 for the largest unsigned one. */
+        std::string checkedValue(const ompl::base::GenericParam &parameter, const std::string &value)
+        {
+            if (isOneOf<bool>(parameter))
+            {
+                std::string word;
+                for (const char c : value)
+                    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+                if (word == "1" || word == "true" || word == "yes" || word == "on")
+                    return "1";
+                return word == "0" || word == "false" || word == "no" || word == "off" ? "0" : "";
+            }
+            double number = 0.0;
+            if (isOneOf<float, double, long double>(parameter))
+                return parseNumber(value, number) ? value : "";
+            // What is too large for the type would come out as another number.
+            if (isOneOf<unsigned int, unsigned long, unsigned long long, unsigned short>(parameter))
+            {
+                std::size_t count = 0;
+                return parseCount(value, count) && count <= greatest(parameter) ? value : "";
+            }
+            if (isOneOf<int, long, long long, short>(parameter))
+                return parseNumber(value, number) && number == std::trunc(number) && std::abs(number) <= GREATEST_INT
+                           ? value
+                           : "";
+            return value;
+        }
+
+        void applySetting(ompl::base::Planner &planner, const std::string &name, const std::string &value)
+        {
+            ompl::base::ParamSet &parameters = planner.params();
+            if (!parameters.hasParam(name))
+            {
+                std::map<std::string, std::string> all;
+                parameters.getParams(all);
+                std::vector<std::string> names;
+                for (const auto &each : all)
+                    names.push_back(each.first);
+                if (names.empty())
+                    throw Error("planner " + planner.getName() + " has no parameters, so not " + inQuotes(name));
+                throw Error(unknownName("parameter of " + planner.getName(), name, names));
+            }
+            const std::string wanted =
+                "parameter " + name + " of " + planner.getName() + " cannot be " + inQuotes(value);
+            const std::string range = parameters[name].getRangeSuggestion();
+            try
+            {
+                const std::string checked = checkedValue(parameters[name], value);
+                if (checked.empty() || !parameters.setParam(name, checked))
+                    throw Error(wanted + (range.empty() ? "" : "; usual values: " + range));
+            }
+            catch (const ompl::Exception &error)
+            {
+                throw Error(wanted + ": " + oneLine(error.what()));
+            }
+        }
+    }  // namespace
+
+    PlannerRegistry PlannerRegistry::builtIn()
+    {
+        PlannerRegistry registry;
+        registry.add(entry<og::ImprovedAStar>("improved_astar", "improved A* of this project"));
+        registry.add(entry<og::ImprovedAStar>("hybrid_astar", "Hybrid A*: the same core with its improvements off",
+                                              false, {{"parameter_set", "hybrid_astar"}}));
+        registry.add(entry<ReedsSheppPlanner>("reeds_shepp", "the bare Reeds-Shepp curve, checked"));
+        registry.add(entry<og::RRTstar>("RRTstar", "OMPL's RRT*", true));
+        registry.add(entry<og::InformedRRTstar>("InformedRRTstar", "OMPL's Informed RRT*", true));
+        registry.add(entry<og::PRM>("PRM", "OMPL's PRM, to the first solution"));
+        registry.add(entry<og::PRMstar>("PRMstar", "OMPL's PRM*", true));
+        registry.add(entry<og::LazyPRM>("LazyPRM", "OMPL's LazyPRM, to the first solution"));
+        registry.add(entry<og::LazyPRMstar>("LazyPRMstar", "OMPL's LazyPRM*", true));
+        registry.add(entry<og::RRT>("RRT", "OMPL's RRT"));
+        registry.add(entry<og::RRTConnect>("RRTConnect", "OMPL's RRTConnect"));
+        registry.add(entry<og::BITstar>("BITstar", "OMPL's BIT*", true));
+        registry.add(entry<og::ABITstar>("ABITstar", "OMPL's ABIT*", true));
+        registry.add(entry<og::AITstar>("AITstar", "OMPL's AIT*", true));
+        registry.add(entry<og::KPIECE1>("KPIECE1", "OMPL's KPIECE"));
+        registry.add(entry<og::BKPIECE1>("BKPIECE1", "OMPL's bidirectional KPIECE"));
+        registry.add(entry<og::LBKPIECE1>("LBKPIECE1", "OMPL's lazy bidirectional KPIECE"));
+        registry.add(entry<og::SBL>("SBL", "OMPL's SBL"));
+        registry.add(entry<og::EST>("EST", "OMPL's EST"));
+        registry.add(entry<og::BiEST>("BiEST", "OMPL's bidirectional EST"));
+        registry.add(entry<og::SST>("SST", "OMPL's SST", true));
+        // The names that OMPL.app's files use.
+        registry.addAlias("kpiece", "KPIECE1");
+        registry.addAlias("bkpiece", "BKPIECE1");
+        registry.addAlias("lbkpiece", "LBKPIECE1");
+        return registry;
+    }
+
+    void PlannerRegistry::add(PlannerEntry entry)
+    {
+        if (entry.name.empty() || !std::all_of(entry.name.begin(), entry.name.end(),
+                                               [](unsigned char c) {
+                                                   return std::isalnum(c) != 0 ||
+                                                          std::string("_.+-").find(static_cast<char>(c)) !=
+                                                              std::string::npos;
+                                               }))
+            throw Error("the name of a planner must consist of letters, digits and _ . + -, and " +
+                        inQuotes(entry.name) + " does not");
+        if (!entry.allocate)
+            throw Error("planner " + entry.name + " has no allocator");
+        if (knows(entry.name))
+            throw Error("there is already a planner " + find(entry.name).name);
+        keys_.emplace_back(keyOf(entry.name), entries_.size());
+        entries_.push_back(std::move(entry));
+    }
+
+    void PlannerRegistry::addAlias(const std::string &alias, const std::string &name)
+    {
+        const auto index = static_cast<std::size_t>(&find(name) - entries_.data());
+        if (knows(alias))
+            throw Error("there is already a planner " + inQuotes(alias));
+        keys_.emplace_back(keyOf(alias), index);
+    }
+
+    bool PlannerRegistry::knows(const std::string &name) const
+    {
+        const std::string key = keyOf(name);
+        return std::any_of(keys_.begin(), keys_.end(), [&key](const auto &each) { return each.first == key; });
+    }
+
+    const PlannerEntry &PlannerRegistry::find(const std::string &name) const
+    {
+        const std::string key = keyOf(name);
+        for (const auto &[each, index] : keys_)
+            if (each == key)
+                return entries_[index];
+        throw Error(unknownName("planner", name, names()));
+    }
+
+    std::vector<std::string> PlannerRegistry::names() const
+    {
+        std::vector<std::string> list;
+        for (const PlannerEntry &each : entries_)
+            list.push_back(each.name);
+        return list;
+    }
+
+    void applySettings(ompl::base::Planner &planner, const PlannerSettings &settings)
+    {
+        for (const bool sets : {true, false})
+            for (const auto &[name, value] : settings)
+                if ((name == "parameter_set") == sets)
+                    applySetting(planner, name, value);
+    }
+}  // namespace parking

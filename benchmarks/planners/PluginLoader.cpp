@@ -1,0 +1,111 @@
+#include "benchmarks/planners/PluginLoader.h"
+
+#include "benchmarks/planners/DelegatingPlanner.h"
+#include "benchmarks/planners/SolveRecord.h"
+#include "ompl_improved_astar/PlannerPlugin.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <boost/dll/shared_library.hpp>
+
+#include <filesystem>
+#include <system_error>
+
+#include <dlfcn.h>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr const char *ENTRY_POINT = "parking_planner_plugin";
+
+        std::string dotted(int version)
+        {
+            return std::to_string(version / 1000000) + "." + std::to_string(version / 1000 % 1000) + "." +
+                   std::to_string(version % 1000);
+        }
+
+        /** Adds planners to the registry, each wrapped so that it is measured. */
+        class Adder final : public PluginPlanners
+        {
+        public:
+            explicit Adder(PlannerRegistry &registry) : registry_(registry)
+            {
+            }
+
+            void add(const PluginPlanner &planner) override
+            {
+                PlannerEntry entry{planner.name, planner.summary, planner.optimizing, {}, {}};
+                if (planner.allocate)
+                    entry.allocate = [allocate = planner.allocate, name = planner.name](
+                                         const ompl::base::SpaceInformationPtr &si) -> ompl::base::PlannerPtr
+                    {
+                        ompl::base::PlannerPtr made = allocate(si);
+                        if (!made)
+                            throw Error("planner " + name + ": its allocator returned nothing");
+                        return std::make_shared<Measured<DelegatingPlanner>>(made);
+                    };
+                registry_.add(std::move(entry));
+                ++count_;
+            }
+
+            std::size_t count() const
+            {
+                return count_;
+            }
+
+        private:
+            PlannerRegistry &registry_;
+            std::size_t count_{0};
+        };
+
+        void loadPlugin(PlannerRegistry &registry, const std::string &name)
+        {
+            // Never unloaded: allocators, planners and exceptions have their code there.
+            static std::vector<boost::dll::shared_library> loaded;
+            std::error_code ignored;
+            const std::filesystem::path file = std::filesystem::absolute(name, ignored);
+            if (!std::filesystem::exists(file, ignored))
+                throw Error("plug-in " + name + ": there is no such file");
+            boost::system::error_code error;
+            boost::dll::shared_library library;
+            // All at once: what the library lacks shall be known now, and not in the middle of a run.
+            library.load(file.string(), boost::dll::load_mode::rtld_now, error);
+            if (error)
+            {
+                const char *reason = dlerror();
+                throw Error("plug-in " + name +
+                            ": cannot be loaded: " + oneLine(reason != nullptr ? reason : error.message()));
+            }
+            if (!library.has(ENTRY_POINT))
+                throw Error("plug-in " + name + ": has no entry point '" + ENTRY_POINT +
+                            "'; PARKING_PLANNER_PLUGIN in ompl_improved_astar/PlannerPlugin.h makes one");
+            const auto &plugin = library.get<const PlannerPlugin>(ENTRY_POINT);
+            if (plugin.interfaceVersion != PLANNER_PLUGIN_VERSION)
+                throw Error("plug-in " + name + ": was built for version " + std::to_string(plugin.interfaceVersion) +
+                            " of the entry point, this program has version " + std::to_string(PLANNER_PLUGIN_VERSION) +
+                            "; build it again");
+            if (plugin.omplVersion != OMPL_VERSION_VALUE)
+                throw Error("plug-in " + name + ": was built against OMPL " + dotted(plugin.omplVersion) +
+                            ", this program against OMPL " + dotted(OMPL_VERSION_VALUE) + "; build it again");
+            Adder adder(registry);
+            loaded.push_back(library);
+            try
+            {
+                plugin.addPlanners(adder);
+            }
+            catch (const std::exception &failure)
+            {
+                throw Error("plug-in " + name + ": " + oneLine(failure.what()));
+            }
+            if (adder.count() == 0)
+                throw Error("plug-in " + name + ": adds no planner");
+        }
+    }  // namespace
+
+    void loadPlugins(PlannerRegistry &registry, const std::vector<std::string> &libraries)
+    {
+        for (const std::string &library : libraries)
+            loadPlugin(registry, library);
+    }
+}  // namespace parking

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "benchmarks/planners/PlannerRegistry.h"
+
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Adds the planners of shared libraries that have the entry point of PlannerPlugin.h. The libraries stay
+        loaded until the program ends.
+
+        Throws parking::Error naming the library: when it cannot be loaded, has no entry point, was built for another
+        version of the entry point or of OMPL, adds no planner, or adds one whose name is taken. */
+    void loadPlugins(PlannerRegistry &registry, const std::vector<std::string> &libraries);
+}  // namespace parking

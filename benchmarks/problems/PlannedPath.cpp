@@ -1,0 +1,176 @@
+#include "benchmarks/problems/PlannedPath.h"
+
+#include "parking_geometry/curves/Kinematics.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace og = ompl::geometric;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double SHORTEST_PIECE = 1e-7;  // metres; anything shorter is rounding of a curve's formula
+        // The least clearance is found up to two millimetres or one percent.
+        constexpr double CLEARANCE_STEP = 0.002;  // metres
+        constexpr double CLEARANCE_SHARE = 0.01;
+        constexpr double SAME = 1e-6;  // metres and radians between a pose and the goal that it is
+
+        std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
+        {
+            std::vector<const ompl::base::State *> states(path.getStateCount());
+            for (std::size_t i = 0; i < states.size(); ++i)
+                states[i] = path.getState(static_cast<unsigned int>(i));
+            return states;
+        }
+
+        Path curvePath(const Problem &problem, const og::PathGeometric &path)
+        {
+            ArcPath arcs;
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            arcs.start = poseOf(states.front());
+            ReedsSheppCurve curve;
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                problem.curveSpace().curve(states[i - 1], states[i], curve);
+                for (std::size_t k = 0; k < curve.count; ++k)
+                    if (std::abs(curve.segments[k].length) >= SHORTEST_PIECE)
+                        arcs.append(curve.segments[k]);
+            }
+            return arcs.sample(PlannedPath::SAMPLING);
+        }
+
+        /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
+        Path chordPath(const og::PathGeometric &path)
+        {
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            Path result;
+            PathState state;
+            state.pose = poseOf(states.front());
+            result.push_back(state);
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
+                const double length = std::hypot(to.x - from.x, to.y - from.y);
+                const double turn = wrapAngle(to.yaw - from.yaw);
+                if (length < SHORTEST_PIECE && std::abs(turn) < SHORTEST_PIECE)
+                    continue;
+                const ArcSegment arc = arcBetween(from, to);
+                const double begin = result.back().arcLength;
+                const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / PlannedPath::SAMPLING)));
+                for (std::size_t k = 1; k <= steps; ++k)
+                {
+                    const double share = static_cast<double>(k) / static_cast<double>(steps);
+                    state.pose = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                                  wrapAngle(from.yaw + share * turn)};
+                    state.arcLength = begin + share * length;
+                    // Turning on the spot has no curvature that a number could tell.
+                    state.curvature = length < SHORTEST_PIECE ? 0.0 : arc.curvature;
+                    state.direction = arc.length < 0.0 ? -1 : 1;
+                    result.push_back(state);
+                }
+            }
+            if (result.size() > 1)
+            {
+                result.front().curvature = result[1].curvature;
+                result.front().direction = result[1].direction;
+            }
+            return result;
+        }
+
+        double discClearance(const Problem &problem, const Pose &pose)
+        {
+            const Pose local = problem.obstacles().toLocal(pose);
+            double least = std::numeric_limits<double>::infinity();
+            for (const Edge &edge : problem.obstacles().edges())
+            {
+                const Eigen::Vector2d along = edge.to - edge.from, off = Eigen::Vector2d(local.x, local.y) - edge.from;
+                const double square = along.squaredNorm();
+                const double share = square > 0.0 ? std::clamp(off.dot(along) / square, 0.0, 1.0) : 0.0;
+                least = std::min(least, (off - share * along).norm());
+            }
+            return std::max(0.0, least - problem.circleRadius());
+        }
+
+        double leastClearance(const Problem &problem, const PlannedPath &path)
+        {
+            if (problem.settings().footprint == FootprintKind::Circle)
+            {
+                double least = std::numeric_limits<double>::infinity();
+                for (const PathState &state : path.states)
+                    least = std::min(least, discClearance(problem, state.pose));
+                return least;
+            }
+            const FootprintChecker &footprint = problem.footprint();
+            CheckCounts ignored;
+            // A good first guess spares most of the exact answers: the state that looks nearest.
+            const PathState *nearest = &path.states.front();
+            double least = std::numeric_limits<double>::infinity();
+            for (const PathState &state : path.states)
+                if (const double bound = footprint.clearance(state.pose); bound < least)
+                {
+                    least = bound;
+                    nearest = &state;
+                }
+            least = footprint.exactClearance(nearest->pose);
+            // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point
+            // has moved by the difference.
+            for (std::size_t i = 1; i < path.states.size() && least > 0.0; ++i)
+            {
+                const Pose &from = path.states[i - 1].pose, &to = path.states[i].pose;
+                const double length = path.states[i].arcLength - path.states[i - 1].arcLength;
+                const double turn = wrapAngle(to.yaw - from.yaw);
+                const double moved = length + footprint.farthestPoint() * std::abs(turn);
+                double share = 0.0;
+                while (share <= 1.0 && least > 0.0)
+                {
+                    const Pose pose = path.straight ? Pose{from.x + share * (to.x - from.x),
+                                                           from.y + share * (to.y - from.y), from.yaw + share * turn}
+                                                    : advance(from, path.states[i].curvature,
+                                                              share * length * path.states[i].direction);
+                    const double step = std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
+                    double clearance = footprint.clearance(pose, least + moved, ignored);
+                    if (clearance < least + step)
+                    {
+                        clearance = footprint.exactClearance(pose);
+                        least = std::min(least, clearance);
+                    }
+                    if (share >= 1.0 || moved <= 0.0)
+                        break;
+                    share = std::min(1.0, share + std::max(clearance - least, step) / moved);
+                }
+            }
+            return least;
+        }
+    }  // namespace
+
+    PlannedPath readPath(const Problem &problem, const og::PathGeometric &path, bool exact)
+    {
+        PlannedPath result;
+        if (path.getStateCount() == 0)
+            return result;
+        result.straight = problem.curveSpace().kind() == SpaceKind::SE2;
+        result.states = result.straight ? chordPath(path) : curvePath(problem, path);
+        if (exact)
+            for (const Pose &goal : problem.scenario().goals)
+            {
+                Pose &last = result.states.back().pose;
+                if (std::hypot(goal.x - last.x, goal.y - last.y) < SAME &&
+                    std::abs(wrapAngle(goal.yaw - last.yaw)) < SAME)
+                    last = {goal.x, goal.y, wrapAngle(goal.yaw)};
+            }
+        result.states.front().pose = problem.scenario().start;
+        result.states.front().pose.yaw = wrapAngle(result.states.front().pose.yaw);
+        result.length = pathLength(result.states);
+        result.cusps = countCusps(result.states);
+        result.clearance = leastClearance(problem, result);
+        const DenseCheck check(problem.scenario(), problem.circleRadius());
+        result.recheck = check.check(result.states, result.straight,
+                                     result.straight ? 0.0 : 1.0 / problem.scenario().vehicle.minTurningRadius());
+        return result;
+    }
+}  // namespace parking

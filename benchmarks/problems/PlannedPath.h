@@ -1,0 +1,35 @@
+#pragma once
+
+#include "benchmarks/problems/DenseCheck.h"
+#include "benchmarks/problems/Problem.h"
+#include "parking_geometry/curves/ArcPath.h"
+
+#include <ompl/geometric/PathGeometric.h>
+
+#include <cstddef>
+
+namespace parking
+{
+    /** \brief A planner's path in the terms of a car, measured. Local coordinates of the scenario. */
+    struct PlannedPath
+    {
+        Path states;           ///< at most SAMPLING apart, first = start; last = goal when the solution is exact
+        bool straight{false};  ///< joined by straight lines (plain SE2 space) and not by arcs
+        double length{0.0};    ///< metres
+        std::size_t cusps{0};  ///< changes of direction
+        double clearance{
+            0.0};             ///< metres between body (or disc) and obstacles, the least along the path; 0 in collision
+        DenseResult recheck;  ///< by code of its own
+
+        static constexpr double SAMPLING = 0.1;  // metres
+    };
+
+    /** \brief Reads and measures a solution of \e problem.
+
+        In a Reeds-Shepp or Dubins space the arcs are those that the space interpolates along; pieces shorter than a
+       tenth of a micrometre are rounding and left out. In a plain SE2 space states are joined by straight lines:
+       direction and curvature are those of the arc that would join the states.
+
+        \param exact the last state is one of the goals up to rounding, and is set to that goal */
+    PlannedPath readPath(const Problem &problem, const ompl::geometric::PathGeometric &path, bool exact);
+}  // namespace parking

@@ -1,0 +1,125 @@
+#include "benchmarks/programs/BenchmarkOptions.h"
+
+#include "benchmarks/programs/CommandLine.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <limits>
+#include <sstream>
+
+namespace po = boost::program_options;
+
+namespace parking
+{
+    namespace
+    {
+        using Texts = std::vector<std::string>;
+
+        constexpr std::size_t MAX_SHARDS = 100000;
+
+        po::options_description describe()
+        {
+            po::options_description options("Options");
+            auto add = options.add_options();
+            add("output", po::value<std::string>()->value_name("DIR"),
+                "folder for all results (default: the configuration's, or results-NAME)");
+            add("time", po::value<std::string>()->value_name("S"), "seconds for each run");
+            add("runs", po::value<std::string>()->value_name("N"), "runs of each planner on each problem");
+            add("seed", po::value<std::string>()->value_name("N"), "of all random numbers");
+            add("scenarios", po::value<Texts>()->value_name("FILE|DIR")->composing(),
+                "scenarios instead of the configuration's; may be given several times");
+            add("planner", po::value<Texts>()->value_name("NAME")->composing(),
+                "run only this planner of the configuration; may be given several times");
+            add("plugin", po::value<Texts>()->value_name("LIB.so")->composing(),
+                "load planners from a library; may be given several times");
+            add("shard", po::value<std::string>()->value_name("I/N"),
+                "do part I of N (1/N to N/N) and leave its runs to be merged");
+            add("merge", "run nothing: put the runs in the output folder together, or those of --from");
+            add("from", po::value<Texts>()->value_name("FILE|DIR")->composing(),
+                "with --merge: where the runs are; may be given several times");
+            add("fresh", "start over, whatever is finished");
+            add("no-report", "leave out the HTML report");
+            add("quiet", "tell no progress");
+            add("help", "this text");
+            return options;
+        }
+
+        void readShard(BenchmarkOptions &options, const std::string &text)
+        {
+            const std::size_t slash = text.find('/');
+            std::size_t index = 0, count = 0;
+            if (slash == std::string::npos || !parseCount(text.substr(0, slash), index) ||
+                !parseCount(text.substr(slash + 1), count) || index < 1 || count < 1 || index > count ||
+                count > MAX_SHARDS)
+                throw Error("--shard must be I/N with I from 1 to N, for example 2/8, not " + inQuotes(text));
+            options.shard = index - 1;
+            options.shards = count;
+        }
+    }  // namespace
+
+    BenchmarkOptions readBenchmarkOptions(const std::vector<std::string> &arguments)
+    {
+        po::options_description options = describe();
+        options.add_options()("config", po::value<std::string>());
+        const po::variables_map values =
+            parseCommandLine(arguments, options, po::positional_options_description().add("config", 1));
+        BenchmarkOptions result;
+        if (values.count("plugin") > 0)
+            result.plugins = values["plugin"].as<Texts>();
+        result.help = values.count("help") > 0;
+        if (result.help)
+            return result;  // with the plug-ins, whose planners it names
+        const auto text = [&values](const char *name)
+        {
+            return values[name].as<std::string>();
+        };
+        const auto texts = [&values](const char *name)
+        {
+            return values.count(name) > 0 ? values[name].as<Texts>() : Texts{};
+        };
+        const auto given = [&values](const char *name)
+        {
+            return values.count(name) > 0;
+        };
+        if (!given("config"))
+            throw Error("no configuration given (see --help)");
+        result.config = text("config");
+        if (given("output"))
+            result.output = text("output");
+        if (given("output") && result.output.empty())
+            throw Error("--output must name a folder");
+        if (given("time"))
+            result.timeLimit = positiveNumber("--time", text("time"));
+        if (given("runs"))
+            result.runCount = wholeNumber("--runs", text("runs"), 1, 1000000);
+        if (given("seed"))
+            result.seed = wholeNumber("--seed", text("seed"), 1, std::numeric_limits<std::uint32_t>::max());
+        if (given("shard"))
+            readShard(result, text("shard"));
+        result.scenarios = texts("scenarios");
+        result.planners = texts("planner");
+        result.merge = given("merge");
+        result.inputs = texts("from");
+        result.fresh = given("fresh");
+        result.report = !given("no-report");
+        result.quiet = given("quiet");
+        if (!result.inputs.empty() && !result.merge)
+            throw Error("--from goes with --merge only");
+        if (result.merge && (given("shard") || result.fresh))
+            throw Error("--merge goes with neither --shard nor --fresh");
+        return result;
+    }
+
+    std::string benchmarkHelp(const PlannerRegistry &registry)
+    {
+        std::ostringstream text;
+        text << "usage: parking_benchmark CONFIG.cfg [options]\n\n"
+                "Compares planners on parking problems as CONFIG.cfg says. docs/comparison.md describes such files.\n"
+                "Interrupted, it goes on where it was when started again.\n\n"
+             << describe() << "\nPlanners:";
+        for (const std::string &each : registry.names())
+            text << ' ' << each;
+        text << "\n\nStatus: 0 done, 1 runs or the report are missing, 2 bad input or usage, 130 interrupted\n";
+        return text.str();
+    }
+}  // namespace parking

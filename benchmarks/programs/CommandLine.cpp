@@ -1,0 +1,98 @@
+#include "benchmarks/programs/CommandLine.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include <boost/program_options/errors.hpp>
+#include <boost/program_options/parsers.hpp>
+
+#include <unistd.h>
+
+namespace po = boost::program_options;
+
+namespace parking
+{
+    po::variables_map parseCommandLine(const std::vector<std::string> &arguments,
+                                       const po::options_description &options,
+                                       const po::positional_options_description &positional)
+    {
+        std::vector<std::string> names;
+        for (const auto &option : options.options())
+            if (positional.max_total_count() == 0 || option->long_name() != positional.name_for_position(0))
+                names.push_back("--" + option->long_name());
+        try
+        {
+            po::variables_map values;
+            po::store(po::command_line_parser(arguments)
+                          .options(options)
+                          .positional(positional)
+                          .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
+                          .run(),
+                      values);
+            po::notify(values);
+            return values;
+        }
+        catch (const po::unknown_option &error)
+        {
+            throw Error(unknownName("option", error.get_option_name(), names));
+        }
+        catch (const po::too_many_positional_options_error &)
+        {
+            throw Error("too many files given; one is expected (see --help)");
+        }
+        catch (const po::error &error)
+        {
+            throw Error(oneLine(error.what()) + " (see --help)");
+        }
+    }
+
+    double positiveNumber(const std::string &name, const std::string &text)
+    {
+        double value = 0.0;
+        if (!parseNumber(text, value) || value <= 0.0)
+            throw Error(name + " must be a positive number, not " + inQuotes(text));
+        return value;
+    }
+
+    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most)
+    {
+        std::size_t value = 0;
+        if (!parseCount(text, value) || value < least || value > most)
+            throw Error(name + " must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+                        ", not " + inQuotes(text));
+        return value;
+    }
+
+    std::pair<std::string, std::string> keyAndValue(const std::string &name, const std::string &text)
+    {
+        const std::size_t split = text.find('=');
+        if (split == std::string::npos || split == 0)
+            throw Error(name + " must be given KEY=VALUE, not " + inQuotes(text));
+        return {text.substr(0, split), text.substr(split + 1)};
+    }
+
+    void requireWritable(const std::string &file)
+    {
+        namespace fs = std::filesystem;
+        std::error_code ignored;
+        if (file.empty())
+            throw Error("the name of an output file is empty");
+        if (fs::is_directory(file, ignored))
+            throw Error(oneLine(file) + ": is a folder, not a file that could be written");
+        if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+            return;  // a pipe or a device: it will say itself
+        fs::path folder = fs::path(file).parent_path();
+        if (folder.empty())
+            folder = ".";
+        if (!fs::is_directory(folder, ignored))
+            throw Error(oneLine(file) + ": cannot be written: there is no folder " + oneLine(folder.string()));
+        if (access(folder.c_str(), W_OK) != 0)
+            throw Error(oneLine(file) + ": cannot be written: " + std::strerror(errno));
+    }
+}  // namespace parking

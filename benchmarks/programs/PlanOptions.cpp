@@ -1,0 +1,120 @@
+#include "benchmarks/programs/PlanOptions.h"
+
+#include "benchmarks/programs/CommandLine.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/Vehicle.h"
+
+#include <limits>
+#include <sstream>
+
+namespace po = boost::program_options;
+
+namespace parking
+{
+    namespace
+    {
+        using Texts = std::vector<std::string>;
+
+        po::options_description describe()
+        {
+            po::options_description options("Options");
+            auto add = options.add_options();
+            add("planner", po::value<std::string>()->value_name("NAME"), "planner (default improved_astar)");
+            add("vehicle", po::value<std::string>()->value_name("NAME|FILE"),
+                "car instead of the scenario's: a known name or a YAML file");
+            add("set", po::value<Texts>()->value_name("KEY=VALUE")->composing(),
+                "sets a parameter of the planner; may be given several times");
+            add("space", po::value<std::string>()->value_name("NAME"),
+                "reeds_shepp (default), dubins or se2 (default for the grid models)");
+            add("footprint", po::value<std::string>()->value_name("NAME"),
+                "rectangle (default) or circle (default for the grid models)");
+            add("circle-radius", po::value<std::string>()->value_name("M"), "metres; default: half of the car's width");
+            add("time-limit", po::value<std::string>()->value_name("S"), "seconds for each run (default 5)");
+            add("runs", po::value<std::string>()->value_name("N"),
+                "plan N times with seeds seed, seed + 1, ... "
+                "(default 1); the first run's path is the result");
+            add("seed", po::value<std::string>()->value_name("N"), "of the random numbers (default 1)");
+            add("track", "drive the path with the model predictive controller");
+            add("json", po::value<std::string>()->value_name("FILE|-"), "write the result, - to standard output");
+            add("svg", po::value<std::string>()->value_name("FILE"), "draw the result");
+            add("html", po::value<std::string>()->value_name("FILE"), "with --track: a page that shows the drive");
+            add("plugin", po::value<Texts>()->value_name("LIB.so")->composing(), "load planners from a library");
+            add("help", "this text");
+            return options;
+        }
+    }  // namespace
+
+    PlanOptions readPlanOptions(const std::vector<std::string> &arguments)
+    {
+        po::options_description options = describe();
+        options.add_options()("scenario", po::value<std::string>());
+        const po::variables_map values =
+            parseCommandLine(arguments, options, po::positional_options_description().add("scenario", 1));
+        PlanOptions result;
+        if (values.count("plugin") > 0)
+            result.plugins = values["plugin"].as<Texts>();
+        result.help = values.count("help") > 0;
+        if (result.help)
+            return result;  // with the plug-ins, whose planners it names
+        const auto text = [&values](const char *name)
+        {
+            return values[name].as<std::string>();
+        };
+        const auto given = [&values](const char *name)
+        {
+            return values.count(name) > 0;
+        };
+        if (!given("scenario"))
+            throw Error("no scenario given (see --help)");
+        result.scenario = text("scenario");
+        if (given("planner"))
+            result.planner = text("planner");
+        if (given("vehicle"))
+            result.vehicle = text("vehicle");
+        if (given("set"))
+            for (const std::string &each : values["set"].as<Texts>())
+                result.settings.push_back(keyAndValue("--set", each));
+        if (given("space"))
+            result.space = spaceByName(text("space"));
+        if (given("footprint"))
+            result.footprint = footprintByName(text("footprint"));
+        if (given("circle-radius"))
+            result.circleRadius = positiveNumber("--circle-radius", text("circle-radius"));
+        if (given("time-limit"))
+            result.timeLimit = positiveNumber("--time-limit", text("time-limit"));
+        if (given("runs"))
+            result.runs = wholeNumber("--runs", text("runs"), 1, 1000000);
+        if (given("seed"))
+            result.seed = wholeNumber("--seed", text("seed"), 1, std::numeric_limits<std::uint32_t>::max() - 1000000);
+        result.track = given("track");
+        if (given("json"))
+            result.json = text("json");
+        if (given("svg"))
+            result.svg = text("svg");
+        if (given("html"))
+            result.html = text("html");
+        if (given("html") && !result.track)
+            throw Error("--html shows the drive and needs --track");
+        if ((given("json") && result.json.empty()) || (given("svg") && result.svg.empty()) ||
+            (given("html") && result.html.empty()))
+            throw Error("the name of an output file is empty");
+        return result;
+    }
+
+    std::string planHelp(const PlannerRegistry &registry)
+    {
+        std::ostringstream text;
+        text << "usage: parking_plan SCENARIO [options]\n\n"
+                "Plans one parking problem: a YAML scenario or a case of the Trajectory Planning Competition of\n"
+                "Automated Parking (CSV). docs/scenario-format.md describes both.\n\n"
+             << describe() << "\nPlanners:\n";
+        for (const PlannerEntry &each : registry.entries())
+            text << "  " << each.name << std::string(each.name.size() < 18 ? 18 - each.name.size() : 1, ' ')
+                 << each.summary << "\n";
+        text << "\nVehicles:";
+        for (const std::string &each : vehicleNames())
+            text << ' ' << each;
+        text << "\n\nStatus: 0 exact solution, 3 only an approximate one, 4 none found, 2 bad input or usage\n";
+        return text.str();
+    }
+}  // namespace parking

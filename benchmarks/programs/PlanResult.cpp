@@ -1,0 +1,293 @@
+#include "benchmarks/programs/PlanResult.h"
+
+#include "automatic_parking/AutomaticParking.h"
+#include "automatic_parking/drawing/DriveAnimation.h"
+#include "automatic_parking/drawing/DriveFigure.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/drawing/Svg.h"
+#include "parking_geometry/text/Text.h"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+using nlohmann::json;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double MS = 1e3;              // milliseconds in a second
+        constexpr double DEGREES = 180.0 / PI;  // in a radian
+
+        json vehicleJson(const Vehicle &vehicle)
+        {
+            return {{"name", vehicle.name},
+                    {"wheelbase", vehicle.wheelbase},
+                    {"front_overhang", vehicle.frontOverhang},
+                    {"rear_overhang", vehicle.rearOverhang},
+                    {"width", vehicle.width},
+                    {"max_steering_angle", vehicle.maxSteeringAngle},
+                    {"max_speed", vehicle.maxSpeed},
+                    {"max_acceleration", vehicle.maxAcceleration},
+                    {"max_steering_rate", vehicle.maxSteeringRate},
+                    {"min_turning_radius", vehicle.minTurningRadius()}};
+        }
+
+        json poseJson(const Scenario &scenario, const Pose &local)
+        {
+            const Pose pose = scenario.toWorld(local);
+            return {{"x", pose.x}, {"y", pose.y}, {"yaw", pose.yaw}};
+        }
+
+        /** JSON knows no infinity: what is not finite is null. */
+        json number(double value)
+        {
+            return std::isfinite(value) ? json(value) : json(nullptr);
+        }
+
+        json trackingJson(const PlanResult &result)
+        {
+            if (!result.drive)
+                return {{"arrived", false}, {"message", result.driveError}};
+            const Evaluation &figures = result.drive->evaluation;
+            return {{"arrived", result.drive->arrived},
+                    {"message", result.drive->message},
+                    {"travel_time_s", figures.travelTime},
+                    {"driven_length_m", figures.drivenLength},
+                    {"mean_abs_acceleration", figures.meanAbsAcceleration},
+                    {"mean_abs_steering_deg", figures.meanAbsSteering * DEGREES},
+                    {"max_position_error_m", figures.maxPositionError},
+                    {"final_position_error_m", figures.finalPositionError},
+                    {"final_yaw_error_rad", figures.finalYawError},
+                    {"min_clearance_m", number(figures.minClearance)},
+                    {"mpc_solve_ms",
+                     {{"median", MS * figures.solveTime.median},
+                      {"p99", MS * figures.solveTime.p99},
+                      {"max", MS * figures.solveTime.max}}},
+                    {"collisions", figures.collisions}};
+        }
+
+        json runJson(const PlanRun &run)
+        {
+            json each{{"status", toString(run.status)},
+                      {"planning_time_ms", MS * run.planningTime},
+                      {"first_solution_ms",
+                       run.status == PlanStatus::Exact ? json(MS * run.firstSolutionTime) : json(nullptr)}};
+            each["length_m"] = run.path ? json(run.path->length) : json(nullptr);
+            each["cusps"] = run.path ? json(run.path->cusps) : json(nullptr);
+            each["valid"] = run.path ? json(run.path->recheck.valid) : json(nullptr);
+            return each;
+        }
+
+        std::string fixed(double value, int decimals)
+        {
+            char text[64];
+            std::snprintf(text, sizeof text, "%.*f", decimals, value);
+            return text;
+        }
+
+        std::string counted(std::size_t count, const std::string &what)
+        {
+            return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+        }
+
+        std::vector<Pose> trackOf(const DriveResult &drive)
+        {
+            std::vector<Pose> track;
+            for (const TrajectoryPoint &point : drive.trajectory)
+                track.push_back({point.x, point.y, point.yaw});
+            return track;
+        }
+    }  // namespace
+
+    json parametersJson(const ompl::base::Planner &planner)
+    {
+        std::map<std::string, std::string> parameters;
+        planner.params().getParams(parameters);
+        json result = json::object();
+        for (const auto &[name, value] : parameters)
+        {
+            double parsed = 0.0;
+            const auto &parameter = planner.params().getParam(name);
+            if (dynamic_cast<const ompl::base::SpecificParam<bool> *>(parameter.get()) != nullptr)
+                result[name] = value != "0";
+            else if (parseNumber(value, parsed))
+                result[name] = parsed == std::trunc(parsed) && std::abs(parsed) < 1e15
+                                   ? json(static_cast<std::int64_t>(parsed))
+                                   : json(parsed);
+            else
+                result[name] = value;
+        }
+        return result;
+    }
+
+    json pathJson(const Scenario &scenario, const Path &path)
+    {
+        json states = json::array();
+        for (const PathState &state : path)
+        {
+            json each = poseJson(scenario, state.pose);
+            each["direction"] = state.direction;
+            each["curvature"] = state.curvature;
+            states.push_back(std::move(each));
+        }
+        return states;
+    }
+
+    json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        const PlanRun &run = result.first();
+        json times = json::array(), runs = json::array(), goals = json::array();
+        for (const PlanRun &each : result.runs)
+        {
+            times.push_back(MS * each.planningTime);
+            runs.push_back(runJson(each));
+        }
+        for (const Pose &goal : scenario.goals)
+            goals.push_back(poseJson(scenario, goal));
+        json text{{"format", 1},
+                  {"scenario", scenario.name},
+                  {"scenario_file", options.scenario},
+                  {"planner", result.planner},
+                  {"parameters", result.parameters},
+                  {"space", toString(problem.settings().space)},
+                  {"footprint", toString(problem.settings().footprint)},
+                  {"circle_radius_m", problem.circleRadius() > 0.0 ? json(problem.circleRadius()) : json(nullptr)},
+                  {"seed", options.seed},
+                  {"time_limit_s", options.timeLimit},
+                  {"vehicle", vehicleJson(scenario.vehicle)},
+                  {"start", poseJson(scenario, scenario.start)},
+                  {"goals", std::move(goals)},
+                  {"status", toString(run.status)},
+                  {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
+                  {"planning_time_ms", std::move(times)},
+                  {"runs", std::move(runs)},
+                  {"path", run.path ? pathJson(scenario, run.path->states) : json::array()},
+                  {"length_m", run.path ? json(run.path->length) : json(nullptr)},
+                  {"cusps", run.path ? json(run.path->cusps) : json(nullptr)},
+                  {"min_clearance_m", run.path ? number(run.path->clearance) : json(nullptr)},
+                  {"goal_distance_m", run.path ? json(run.goalDistance) : json(nullptr)},
+                  {"search",
+                   {{"expanded", run.search.expanded},
+                    {"generated", run.search.generated},
+                    {"state_checks", run.search.stateChecks},
+                    {"exact_checks", run.search.exactChecks},
+                    {"suboptimality_bound", number(run.suboptimalityBound)}}}};
+        if (run.path)
+            text["recheck"] = {{"valid", run.path->recheck.valid},
+                               {"states", run.path->recheck.states},
+                               {"collisions", run.path->recheck.collisions},
+                               {"reason", run.path->recheck.reason}};
+        if (!options.track)
+            return text;
+        if (run.path)
+            text["tracking"] = trackingJson(result);
+        json trajectory = json::array();
+        if (result.drive)
+            for (const TrajectoryPoint &point : result.drive->trajectory)
+            {
+                json each = poseJson(scenario, {point.x, point.y, point.yaw});
+                each["t"] = point.t;
+                each["v"] = point.v;
+                each["steering"] = point.steering;
+                each["acceleration"] = point.acceleration;
+                trajectory.push_back(std::move(each));
+            }
+        text["trajectory"] = std::move(trajectory);
+        return text;
+    }
+
+    std::string resultSummary(const Problem &problem, const PlanResult &result)
+    {
+        const PlanRun &run = result.first();
+        std::string text = problem.scenario().name + ": " + toString(run.status) + " (" + result.planner + ", " +
+                           fixed(MS * run.planningTime, 1) + " ms; loading the map " +
+                           fixed(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
+        if (result.runs.size() > 1)
+        {
+            std::size_t solved = 0;
+            for (const PlanRun &each : result.runs)
+                solved += each.status == PlanStatus::Exact ? 1 : 0;
+            text += "  solved " + std::to_string(solved) + " of " + std::to_string(result.runs.size()) + " runs\n";
+        }
+        if (run.path)
+        {
+            text += "  " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                    " of direction, least clearance " + fixed(run.path->clearance, 3) + " m";
+            if (run.status == PlanStatus::Approximate)
+                text += ", ends " + fixed(run.goalDistance, 2) + " m from the goal";
+            text += run.path->recheck.valid
+                        ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
+                        : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
+        }
+        if (result.drive)
+            text += "  driven: " + result.drive->message + " after " + fixed(result.drive->evaluation.travelTime, 1) +
+                    " s, " + fixed(100.0 * result.drive->evaluation.finalPositionError, 1) +
+                    " cm from the end of the path, " + counted(result.drive->evaluation.collisions, "collision") + "\n";
+        else if (!result.driveError.empty())
+            text += "  not driven: " + result.driveError + "\n";
+        return text;
+    }
+
+    std::string resultSvg(const Problem &problem, const PlanResult &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        const PlanRun &run = result.first();
+        const Path path = run.path ? run.path->states : Path{};
+        std::string subtitle =
+            result.planner + ", " + toString(run.status) + ", " + fixed(MS * run.planningTime, 1) + " ms";
+        if (run.path)
+            subtitle += ", " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                        " of direction, least clearance " + fixed(run.path->clearance, 2) + " m";
+        SvgFigure figure(scenario.name, subtitle);
+        SvgMap map(viewAround(scenario, path));
+        drawScenario(map, scenario);
+        if (!path.empty())
+            drawPath(map, path, scenario.vehicle);
+        if (result.drive)
+            drawTrack(map, trackOf(*result.drive), svg_colour::DRIVEN, "driven");
+        figure.setMap(map);
+        if (path.size() > 1)
+            figure.addPlot(curvaturePlot(path, scenario.vehicle));
+        if (result.drive)
+            for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle))
+                figure.addPlot(plot);
+        return figure.toString();
+    }
+
+    void drivePath(const Problem &problem, PlanResult &result)
+    {
+        const PlanRun &run = result.first();
+        if (!run.path)
+            return;
+        const Scenario &scenario = problem.scenario();
+        ParkingParameters parameters;
+        Path path = run.path->states;
+        if (run.path->straight)
+        {
+            // A car that turns at the corners of a grid may leave the path by its turning circle.
+            path = asChords(path, scenario.vehicle);
+            parameters.drive.tracking.reference.maxCornerDeviation = 3.0 * scenario.vehicle.minTurningRadius();
+        }
+        ParkingResult driven = AutomaticParking(parameters).drive(scenario, path);
+        if (driven.status == ParkingStatus::NotDrivable)
+            result.driveError = driven.message;
+        else
+            result.drive = std::move(driven.legs.front().drive);
+    }
+
+    std::string resultHtml(const Problem &problem, const PlanResult &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        if (!result.drive)
+            throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
+        const Evaluation &figures = result.drive->evaluation;
+        return driveAnimation(scenario, result.first().path->states, result.drive->trajectory, scenario.name,
+                              result.planner + ", " + fixed(figures.drivenLength, 1) + " m in " +
+                                  fixed(figures.travelTime, 1) + " s, ends " +
+                                  fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path");
+    }
+}  // namespace parking

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "benchmarks/programs/PlanOptions.h"
+#include "benchmarks/programs/PlanRun.h"
+#include "path_tracking/simulation/ClosedLoop.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief All that parking_plan has found out. */
+    struct PlanResult
+    {
+        std::string planner;
+        nlohmann::json parameters;
+        std::vector<PlanRun> runs;  ///< at least one; the first one's path is the result
+        std::optional<DriveResult> drive;
+        std::string driveError;  ///< why the path cannot be driven; empty otherwise
+
+        const PlanRun &first() const
+        {
+            return runs.front();
+        }
+    };
+
+    /** \brief All parameters of a planner, with numbers and switches as such. */
+    nlohmann::json parametersJson(const ompl::base::Planner &planner);
+
+    /** \brief A path as in results: x, y, yaw, direction, curvature of each state, in the coordinates of the scenario's
+        file. */
+    nlohmann::json pathJson(const Scenario &scenario, const Path &path);
+
+    /** \brief The result in the format that docs/comparison.md describes. */
+    nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);
+
+    /** \brief The result for a reader in a hurry: a few lines. */
+    std::string resultSummary(const Problem &problem, const PlanResult &result);
+
+    /** \brief Map, car along the path, curvature; with a drive its track, speed, acceleration and steering angle. */
+    std::string resultSvg(const Problem &problem, const PlanResult &result);
+
+    /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
+    void drivePath(const Problem &problem, PlanResult &result);
+
+    /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */
+    std::string resultHtml(const Problem &problem, const PlanResult &result);
+}  // namespace parking

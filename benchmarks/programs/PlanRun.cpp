@@ -1,0 +1,158 @@
+#include "benchmarks/programs/PlanRun.h"
+
+#include "ompl_improved_astar/ImprovedAStar.h"
+
+#include <ompl/base/PlannerData.h>
+#include <ompl/util/Exception.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ob = ompl::base;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double NO_LENGTH = 1e-6;  // metres; AIT* of OMPL 1.5 returns such paths as approximate solutions
+
+        PlanStatus statusOf(ob::PlannerStatus status, bool ranOut)
+        {
+            switch (static_cast<ob::PlannerStatus::StatusType>(status))
+            {
+                case ob::PlannerStatus::EXACT_SOLUTION:
+                    return PlanStatus::Exact;
+                case ob::PlannerStatus::APPROXIMATE_SOLUTION:
+                    return PlanStatus::Approximate;
+                case ob::PlannerStatus::INVALID_START:
+                    return PlanStatus::InvalidStart;
+                case ob::PlannerStatus::INVALID_GOAL:
+                    return PlanStatus::InvalidGoal;
+                default:
+                    return ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            }
+        }
+
+        SearchFigures figuresOf(const Problem &problem, const ob::Planner &planner)
+        {
+            SearchFigures figures;
+            if (const auto *improved = dynamic_cast<const ompl::geometric::ImprovedAStar *>(&planner))
+            {
+                const search::SearchStatistics statistics = improved->statistics();
+                figures.expanded = statistics.expanded;
+                figures.generated = statistics.generated;
+                figures.stateChecks = improved->checkedStates();
+                figures.exactChecks = improved->exactChecks();
+                return figures;
+            }
+            ob::PlannerData data(planner.getSpaceInformation());
+            planner.getPlannerData(data);
+            figures.expanded = data.numVertices();
+            figures.generated = data.numEdges();
+            const CheckCounts counts = problem.checkCounts();
+            figures.stateChecks = counts.states;
+            figures.exactChecks = counts.byFcl;
+            return figures;
+        }
+
+        double boundOf(ob::Planner &planner)
+        {
+            auto *improved = dynamic_cast<ompl::geometric::ImprovedAStar *>(&planner);
+            const bool holds = improved != nullptr && improved->getHeuristicWeightFar() == 1.0 &&
+                               improved->getHeuristicWeightNear() == 1.0;
+            return holds ? improved->suboptimalityBound() : std::numeric_limits<double>::infinity();
+        }
+
+        double distanceToGoals(const Scenario &scenario, const Pose &pose)
+        {
+            double least = std::numeric_limits<double>::infinity();
+            for (const Pose &goal : scenario.goals)
+                least = std::min(least, std::hypot(goal.x - pose.x, goal.y - pose.y));
+            return least;
+        }
+    }  // namespace
+
+    std::string toString(PlanStatus status)
+    {
+        switch (status)
+        {
+            case PlanStatus::Exact:
+                return "exact";
+            case PlanStatus::Approximate:
+                return "approximate";
+            case PlanStatus::Timeout:
+                return "timeout";
+            case PlanStatus::InvalidStart:
+                return "invalid_start";
+            case PlanStatus::InvalidGoal:
+                return "invalid_goal";
+            case PlanStatus::Infeasible:
+                return "infeasible";
+        }
+        return "timeout";
+    }
+
+    PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ob::PlannerStatus status,
+                        double timeLimit)
+    {
+        PlanRun run;
+        bool ranOut = false;
+        run.planningTime = timeLimit;
+        if (prepared.measured != nullptr)
+        {
+            const SolveRecord &record = *prepared.measured->record();
+            run.planningTime = record.wallTime();
+            run.cpuTime = record.cpuTime();
+            ranOut = prepared.measured->ranOutOfTime();
+            const std::vector<Improvement> improvements = record.improvements();
+            run.firstSolutionTime = improvements.empty() ? run.planningTime : improvements.front().time;
+        }
+        if (const auto *improved = dynamic_cast<const ompl::geometric::ImprovedAStar *>(prepared.planner.get()))
+        {
+            run.mapLoadingTime = improved->mapLoadingTime();
+            run.planningTime = std::max(0.0, run.planningTime - run.mapLoadingTime);
+            run.firstSolutionTime = std::max(0.0, run.firstSolutionTime - run.mapLoadingTime);
+        }
+        run.status = statusOf(status, ranOut);
+        run.search = figuresOf(problem, *prepared.planner);
+        const bool exact = run.status == PlanStatus::Exact;
+        if (exact)
+            run.suboptimalityBound = boundOf(*prepared.planner);
+        if (!exact && run.status != PlanStatus::Approximate)
+            return run;
+        const auto *path =
+            dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
+        if (path == nullptr)
+        {
+            run.status = ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            return run;
+        }
+        PlannedPath planned = readPath(problem, *path, exact);
+        if (!exact && planned.length < NO_LENGTH)
+        {
+            run.status = ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            return run;
+        }
+        run.goalDistance = distanceToGoals(problem.scenario(), planned.states.back().pose);
+        run.path = std::move(planned);
+        return run;
+    }
+
+    PlanRun planOnce(const Problem &problem, const PlannerEntry &entry, const PlannerSettings &settings,
+                     double timeLimit, std::uint_fast32_t seed)
+    {
+        seedRandomNumbers(seed);
+        const PreparedPlanner prepared = problem.prepare(entry, settings);
+        problem.resetCounts();
+        ob::PlannerStatus status = ob::PlannerStatus::CRASH;
+        if (prepared.measured != nullptr)
+        {
+            prepared.measured->setTimeLimit(timeLimit);
+            status = prepared.planner->solve(ob::plannerNonTerminatingCondition());
+        }
+        else
+            status = prepared.planner->solve(ob::timedPlannerTerminationCondition(timeLimit));
+        return evaluateRun(problem, prepared, status, timeLimit);
+    }
+}  // namespace parking

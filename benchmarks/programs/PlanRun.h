@@ -1,0 +1,64 @@
+#pragma once
+
+#include "benchmarks/problems/PlannedPath.h"
+#include "benchmarks/problems/Problem.h"
+
+#include <ompl/base/PlannerStatus.h>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace parking
+{
+    /** \brief What a planner did in one run, whatever it is. */
+    struct SearchFigures
+    {
+        std::uint64_t expanded{0};     ///< nodes expanded; for OMPL's planners, vertices of their graph
+        std::uint64_t generated{0};    ///< motions tried; for OMPL's planners, edges of their graph
+        std::uint64_t stateChecks{0};  ///< poses checked, those along motions included
+        std::uint64_t exactChecks{0};  ///< of those, decided by FCL
+    };
+
+    /** \brief How a run ended. */
+    enum class PlanStatus
+    {
+        Exact,
+        Approximate,
+        Timeout,       ///< nothing found until the time was up
+        InvalidStart,  ///< no start is free
+        InvalidGoal,   ///< no goal is free
+        Infeasible     ///< the planner gave up before the time was up: there is nothing that it could still try
+    };
+
+    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible. */
+    std::string toString(PlanStatus status);
+
+    /** \brief One run of a planner. */
+    struct PlanRun
+    {
+        PlanStatus status{PlanStatus::Timeout};
+        double planningTime{0.0};       ///< seconds of wall clock, map loading not included
+        double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
+        double firstSolutionTime{0.0};  ///< seconds; only with an exact solution
+        double mapLoadingTime{0.0};     ///< seconds that the planner itself spent on finding out which cells are free
+        SearchFigures search;
+        /** Cost of the solution over a lower bound of it in the discretised problem: of the improved A* with both
+            heuristic weights at 1; infinite otherwise. */
+        double suboptimalityBound{std::numeric_limits<double>::infinity()};
+        std::optional<PlannedPath> path;  ///< with an exact or approximate solution
+        double goalDistance{0.0};         ///< metres that the path ends from the nearest goal
+    };
+
+    /** \brief Status, figures and path of a planner that has just been run. \param timeLimit seconds */
+    PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ompl::base::PlannerStatus status,
+                        double timeLimit);
+
+    /** \brief Runs a new instance of a planner once, from seed \e seed.
+
+        Throws what Problem::prepare throws. */
+    PlanRun planOnce(const Problem &problem, const PlannerEntry &entry, const PlannerSettings &settings,
+                     double timeLimit, std::uint_fast32_t seed);
+}  // namespace parking

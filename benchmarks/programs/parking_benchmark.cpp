@@ -1,0 +1,113 @@
+// parking_benchmark: compares planners on parking problems. docs/comparison.md says how.
+
+#include "benchmarks/programs/BenchmarkOptions.h"
+#include "benchmarks/comparison/Comparison.h"
+#include "benchmarks/planners/PluginLoader.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <ompl/util/Console.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+    constexpr int DONE = 0, INCOMPLETE = 1, BAD_INPUT = 2, INTERRUPTED = 130;
+
+    std::atomic<bool> interrupted{false};
+
+    extern "C" void interrupt(int signal)
+    {
+        interrupted = true;
+        // A second time means it.
+        std::signal(signal, SIG_DFL);
+    }
+
+    /** Names files; of many in one folder only the folder. */
+    void list(const std::string &title, const std::vector<std::string> &files)
+    {
+        constexpr std::size_t MANY = 4;
+        const auto folderOf = [](const std::string &file)
+        {
+            return file.substr(0, file.rfind('/') + 1);
+        };
+        const bool oneFolder =
+            std::all_of(files.begin(), files.end(),
+                        [&](const std::string &file) { return folderOf(file) == folderOf(files.front()); });
+        std::cout << title << ":\n";
+        if (files.size() >= MANY && oneFolder)
+            std::cout << "    " << folderOf(files.front()) << "*" << files.front().substr(files.front().rfind('.'))
+                      << " (" << files.size() << ")\n";
+        else
+            for (const std::string &file : files)
+                std::cout << "    " << file << "\n";
+    }
+
+    int compare(const std::vector<std::string> &arguments)
+    {
+        using namespace parking;
+        const BenchmarkOptions options = readBenchmarkOptions(arguments);
+        PlannerRegistry registry = PlannerRegistry::builtIn();
+        loadPlugins(registry, options.plugins);
+        if (options.help)
+        {
+            std::cout << benchmarkHelp(registry);
+            return DONE;
+        }
+        Comparison comparison(options, registry);
+        if (!options.merge)
+        {
+            std::signal(SIGINT, interrupt);
+            std::signal(SIGTERM, interrupt);
+            if (!comparison.run(interrupted))
+            {
+                std::cerr << "Interrupted. What is finished is kept in " << comparison.runsFile()
+                          << "; the same command goes on from there." << std::endl;
+                return INTERRUPTED;
+            }
+            if (options.shards > 1)
+            {
+                std::cout << "Part " << options.shard + 1 << " of " << options.shards
+                          << " is done: " << comparison.runsFile() << "\nWhen all are, --merge puts them together.\n";
+                return DONE;
+            }
+        }
+        const ComparisonFiles files = comparison.write();
+        std::cout << comparison.summary() << "\n";
+        list("Logs", files.logs);
+        list("Database (Planner Arena opens it)", {files.database});
+        list("Tables", {files.table, files.csv});
+        list("Pictures", files.pictures);
+        if (!files.report.empty())
+            list("Report", {files.report});
+        if (!std::cout.flush())
+            throw Error("standard output cannot be written");
+        if (!files.reportError.empty())
+            std::cerr << "parking_benchmark: " << files.reportError << std::endl;
+        if (files.missing > 0)
+            std::cerr << "parking_benchmark: " << files.missing << " runs are missing; the results hold what there is"
+                      << std::endl;
+        return files.missing > 0 || !files.reportError.empty() ? INCOMPLETE : DONE;
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    // What planners have to tell is in the log.
+    ompl::msg::noOutputHandler();
+    try
+    {
+        return compare({argv + 1, argv + argc});
+    }
+    catch (const std::exception &error)
+    {
+        std::cerr << "parking_benchmark: " << parking::oneLine(error.what()) << std::endl;
+        return BAD_INPUT;
+    }
+}

@@ -1,0 +1,100 @@
+// parking_plan: plans one scenario. docs/comparison.md says how.
+
+#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/programs/PlanOptions.h"
+#include "benchmarks/programs/PlanResult.h"
+#include "benchmarks/planners/PluginLoader.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/WriteFile.h"
+
+#include <ompl/util/Console.h>
+
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+    constexpr int EXACT = 0, BAD_INPUT = 2, APPROXIMATE = 3, NOTHING = 4;
+
+    int plan(const std::vector<std::string> &arguments)
+    {
+        using namespace parking;
+        const PlanOptions options = readPlanOptions(arguments);
+        PlannerRegistry registry = PlannerRegistry::builtIn();
+        loadPlugins(registry, options.plugins);
+        if (options.help)
+        {
+            std::cout << planHelp(registry);
+            return EXACT;
+        }
+        const PlannerEntry &entry = registry.find(options.planner);
+        ProblemSettings settings = suitableSettings(entry, options.settings);
+        settings.space = options.space.value_or(settings.space);
+        settings.footprint = options.footprint.value_or(settings.footprint);
+        settings.circleRadius = options.circleRadius;
+        if (!options.json.empty() && options.json != "-")
+            requireWritable(options.json);
+        if (!options.svg.empty())
+            requireWritable(options.svg);
+        if (!options.html.empty())
+            requireWritable(options.html);
+
+        const Problem problem(readScenario(options.scenario, {options.vehicle}), settings);
+        PlanResult result;
+        result.planner = entry.name;
+        result.parameters = parametersJson(*problem.prepare(entry, options.settings).planner);
+        for (std::size_t run = 0; run < options.runs; ++run)
+            result.runs.push_back(planOnce(problem, entry, options.settings, options.timeLimit, options.seed + run));
+        if (options.track)
+            drivePath(problem, result);
+
+        if (!options.svg.empty())
+            writeFileAtomically(options.svg, resultSvg(problem, result));
+        if (!options.html.empty() && result.drive)
+            writeFileAtomically(options.html, resultHtml(problem, result));
+        if (!options.json.empty())
+        {
+            const std::string text = resultJson(problem, options, result).dump(1) + "\n";
+            if (options.json == "-")
+                std::cout << text;
+            else
+                writeFileAtomically(options.json, text);
+        }
+        if (options.json != "-")
+            std::cout << resultSummary(problem, result);
+        if (!std::cout.flush())
+            throw Error("standard output cannot be written");
+        switch (result.first().status)
+        {
+            case PlanStatus::Exact:
+                return EXACT;
+            case PlanStatus::Approximate:
+                return APPROXIMATE;
+            case PlanStatus::InvalidStart:
+            case PlanStatus::InvalidGoal:
+                std::cerr << "parking_plan: " << options.scenario << ": " << problem.whyUnsolvable() << std::endl;
+                return NOTHING;
+            default:
+                return NOTHING;
+        }
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    // What planners have to tell is in their results.
+    ompl::msg::noOutputHandler();
+    try
+    {
+        return plan({argv + 1, argv + argc});
+    }
+    catch (const std::exception &error)
+    {
+        std::cerr << "parking_plan: " << parking::oneLine(error.what()) << std::endl;
+        return BAD_INPUT;
+    }
+}

@@ -1,0 +1,198 @@
+// Evaluation runs of the whole pipeline: every problem given is planned, smoothed and driven once by a nominal car and
+// once per seed by a disturbed one (0.1 s of steering lag, noise of 2 cm and 0.5 degrees, 5 % of speed bias). The table
+// of docs/path-tracking.md comes from here.
+
+#include "automatic_parking/AutomaticParking.h"
+#include "benchmarks/programs/CommandLine.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/WriteFile.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+    using namespace parking;
+    namespace po = boost::program_options;
+
+    constexpr double CM = 100.0;
+    constexpr double DEGREES = 180.0 / PI;
+    constexpr double MS = 1e3;
+
+    /** What is asked of the figures. */
+    constexpr double NOMINAL_ERROR = 0.05, NOMINAL_YAW = 1.0 / DEGREES, NOMINAL_CROSS_TRACK = 0.05;
+    constexpr double DISTURBED_ERROR = 0.15, DISTURBED_YAW = 2.0 / DEGREES, SAFE_CLEARANCE = 0.2;
+
+    struct Worst
+    {
+        std::size_t drives{0}, parked{0}, collided{0}, replanned{0};
+        double finalError{0.0}, finalYaw{0.0}, crossTrack{0.0};
+        double clearance{std::numeric_limits<double>::infinity()};
+
+        void add(const ParkingResult &result)
+        {
+            const Evaluation &figures = result.evaluation;
+            ++drives;
+            parked += result.parked() ? 1 : 0;
+            collided += figures.collisions > 0 ? 1 : 0;
+            replanned += result.legs.size() > 1 ? 1 : 0;
+            finalError = std::max(finalError, figures.finalPositionError);
+            finalYaw = std::max(finalYaw, figures.finalYawError);
+            crossTrack = std::max(crossTrack, figures.maxCrossTrack);
+            clearance = std::min(clearance, figures.minClearance);
+        }
+
+        bool within(double error, double yaw) const
+        {
+            return drives == parked && finalError <= error && finalYaw <= yaw;
+        }
+    };
+
+    struct Row
+    {
+        std::string name;
+        bool planned{false};
+        double planningTime{0.0}, length{0.0}, clearance{0.0};
+        std::size_t cusps{0};
+        Evaluation nominal;
+        Worst nominalWorst, disturbed;
+
+        /** Are the promised figures kept? */
+        bool good() const
+        {
+            const bool safe = clearance <= SAFE_CLEARANCE || disturbed.collided == 0;
+            return planned && nominalWorst.within(NOMINAL_ERROR, NOMINAL_YAW) && nominalWorst.collided == 0 &&
+                   nominalWorst.crossTrack <= NOMINAL_CROSS_TRACK &&
+                   (clearance <= SAFE_CLEARANCE || disturbed.within(DISTURBED_ERROR, DISTURBED_YAW)) && safe;
+        }
+    };
+
+    std::string fixed(double value, int decimals)
+    {
+        char text[64];
+        std::snprintf(text, sizeof text, "%.*f", decimals, value);
+        return text;
+    }
+
+    Row evaluate(const Scenario &scenario, const ParkingParameters &parameters, std::size_t seeds, std::size_t first)
+    {
+        Row row;
+        row.name = scenario.name;
+        const ParkingResult nominal = AutomaticParking(parameters).park(scenario);
+        row.planned = nominal.legs.front().plan.found;
+        if (!row.planned)
+            return row;
+        const ParkingPlan &plan = nominal.legs.front().plan;
+        row.planningTime = plan.planningTime + plan.smoothingTime;
+        row.length = pathLength(plan.path);
+        row.cusps = countCusps(plan.path);
+        row.clearance = plan.clearance;
+        row.nominal = nominal.evaluation;
+        row.nominalWorst.add(nominal);
+        for (std::size_t i = 0; i < seeds; ++i)
+        {
+            ParkingParameters disturbed = parameters;
+            disturbed.drive.disturbances = Disturbances::everyday(first + i);
+            row.disturbed.add(AutomaticParking(disturbed).park(scenario));
+        }
+        return row;
+    }
+
+    std::string table(const std::vector<Row> &rows)
+    {
+        std::string text =
+            "| problem | plan, ms | length, m | cusps | planned clearance, cm | time, s | mean abs. acceleration, m/s2 "
+            "| "
+            "mean abs. steering, deg | nominal: final, cm | deg | cross-track, cm | hits | disturbed: parked | final, "
+            "cm | deg | cross-track, cm | clearance, cm | hits | kept |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        for (const Row &row : rows)
+        {
+            text += "| " + row.name + " | ";
+            if (!row.planned)
+            {
+                text += "no path |||||||||||||||||\n";
+                continue;
+            }
+            const Worst &nominal = row.nominalWorst, &disturbed = row.disturbed;
+            for (const std::string &cell :
+                 {fixed(MS * row.planningTime, 0), fixed(row.length, 1), std::to_string(row.cusps),
+                  fixed(CM * row.clearance, 1), fixed(row.nominal.travelTime, 1),
+                  fixed(row.nominal.meanAbsAcceleration, 2), fixed(DEGREES * row.nominal.meanAbsSteering, 1),
+                  fixed(CM * nominal.finalError, 1), fixed(DEGREES * nominal.finalYaw, 2),
+                  fixed(CM * nominal.crossTrack, 1), std::to_string(nominal.collided),
+                  std::to_string(disturbed.parked) + "/" + std::to_string(disturbed.drives) +
+                      (disturbed.replanned > 0 ? " (" + std::to_string(disturbed.replanned) + " replanned)" : ""),
+                  fixed(CM * disturbed.finalError, 1), fixed(DEGREES * disturbed.finalYaw, 2),
+                  fixed(CM * disturbed.crossTrack, 1), fixed(CM * disturbed.clearance, 1),
+                  std::to_string(disturbed.collided), std::string(row.good() ? "yes" : "NO")})
+                text += cell + " | ";
+            text.pop_back();
+            text += "\n";
+        }
+        return text;
+    }
+
+    int run(const std::vector<std::string> &arguments)
+    {
+        po::options_description options("Options");
+        auto add = options.add_options();
+        add("seeds", po::value<std::string>()->value_name("N"), "disturbed drives of each problem (default 20)");
+        add("first-seed", po::value<std::string>()->value_name("N"), "their first seed (default 1)");
+        add("output", po::value<std::string>()->value_name("FILE.md"), "write the table there, too");
+        add("no-smoothing", "drive the planner's arcs as they are");
+        add("help", "this text");
+        options.add_options()("scenario", po::value<std::vector<std::string>>());
+        const po::variables_map values =
+            parseCommandLine(arguments, options, po::positional_options_description().add("scenario", -1));
+        if (values.count("help") > 0)
+        {
+            std::cout << "usage: tracking_evaluation SCENARIO... [options]\n\n" << options;
+            return 0;
+        }
+        if (values.count("scenario") == 0)
+            throw Error("no scenario given (see --help)");
+        const auto text = [&values](const char *name, const std::string &otherwise)
+        {
+            return values.count(name) > 0 ? values[name].as<std::string>() : otherwise;
+        };
+        const std::size_t seeds = wholeNumber("--seeds", text("seeds", "20"), 1, 100000);
+        const std::size_t first = wholeNumber("--first-seed", text("first-seed", "1"), 0, 1000000000);
+        ParkingParameters parameters;
+        parameters.planning.smooth = values.count("no-smoothing") == 0;
+        const std::string output = text("output", "");
+        if (!output.empty())
+            requireWritable(output);
+        std::vector<Row> rows;
+        for (const std::string &file : values["scenario"].as<std::vector<std::string>>())
+        {
+            rows.push_back(evaluate(readScenario(file), parameters, seeds, first));
+            std::cerr << file << (rows.back().good() ? "" : ": figures missed, or no path") << std::endl;
+        }
+        const std::string result = table(rows);
+        std::cout << result;
+        if (!output.empty())
+            writeFileAtomically(output, result);
+        return std::all_of(rows.begin(), rows.end(), [](const Row &row) { return row.good(); }) ? 0 : 1;
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    try
+    {
+        return run({argv + 1, argv + argc});
+    }
+    catch (const std::exception &error)
+    {
+        std::cerr << "tracking_evaluation: " << parking::oneLine(error.what()) << std::endl;
+        return 2;
+    }
+}

@@ -1,0 +1,377 @@
+// What checks of states and motions cost, beside what OMPL's users would otherwise have: plain FCL for states, OMPL's
+// DiscreteMotionValidator for motions. Every benchmark goes round a fixed set of random problems, so that its mean is
+// that of the set. Counters say which tier decided how many poses, and how many answers were wrong. Ratios are worth
+// more than times: --benchmark_enable_random_interleaving=true puts both sides of a ratio into the same conditions.
+
+#include "benchmarks/studies/ValidityWorlds.h"
+#include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/OmplPose.h"
+#include "state_validity/ompl/SweptMotionValidator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+
+namespace
+{
+    using namespace parking;
+    using parking_test::Random;
+    using parking_test::World;
+    namespace ob = ompl::base;
+
+    // ---- states ----------------------------------------------------------------------------------------------------
+
+    const ValidityWorlds &worldsOf(bool grids, Surroundings surroundings)
+    {
+        static std::vector<std::pair<std::pair<bool, Surroundings>, ValidityWorlds>> made;
+        for (const auto &[key, worlds] : made)
+            if (key == std::pair(grids, surroundings))
+                return worlds;
+        const bool fromSlot = surroundings == Surroundings::FromSlot;
+        made.emplace_back(std::pair(grids, surroundings), fromSlot || surroundings == Surroundings::Search
+                                                              ? searchedWorlds(PARKING_SCENARIOS, fromSlot)
+                                                              : randomWorlds(grids, surroundings));
+        return made.back().second;
+    }
+
+    /** How often the poses of a world are gone through before the next one: planners stay in one world for longer than
+       it takes to fill the caches. */
+    constexpr std::size_t ROUNDS = 10;
+
+    void stateCheck(benchmark::State &state, bool grids, Surroundings surroundings, CheckMode mode)
+    {
+        const ValidityWorlds &worlds = worldsOf(grids, surroundings);
+        CheckCounts counts;
+        std::size_t free = 0, asked = 0, world = 0, round = 0, i = 0;
+        for (auto _ : state)
+        {
+            const ValidityWorlds::Place &place = worlds.places[world];
+            const FootprintChecker &checker = mode == CheckMode::Tiered ? *place.tiered : *place.plain;
+            free += checker.isFree(place.poses[i], counts);
+            ++asked;
+            if (++i < place.poses.size())
+                continue;
+            i = 0;
+            if (++round < ROUNDS)
+                continue;
+            round = 0;
+            world = (world + 1) % worlds.places.size();
+        }
+        const auto percent = [asked](std::size_t count)
+        {
+            return 100.0 * static_cast<double>(count) / static_cast<double>(asked);
+        };
+        state.counters["free %"] = percent(free);
+        state.counters["field %"] = percent(counts.byField);
+        state.counters["circles %"] = percent(counts.byCircles);
+        state.counters["edges %"] = percent(counts.byEdges);
+        state.counters["FCL %"] = percent(counts.byFcl);
+    }
+
+    // ---- motions ---------------------------------------------------------------------------------------------------
+
+    /** OMPL 1.5 counts the segments of a curve by the straight line between its ends; this is what 1.6 does. */
+    class EvenlyCheckedSpace : public ob::ReedsSheppStateSpace
+    {
+    public:
+        using ob::ReedsSheppStateSpace::ReedsSheppStateSpace;
+
+        unsigned int validSegmentCount(const ob::State *from, const ob::State *to) const override
+        {
+            constexpr double SEGMENT = 0.02;  // metres
+            return static_cast<unsigned int>(std::ceil(distance(from, to) / SEGMENT));
+        }
+    };
+
+    /** A random world of polygons with random motions from free poses. */
+    struct Motions
+    {
+        Motions(std::uint64_t seed, std::size_t count)
+          : world(parking_test::randomPolygonWorld(seed)),
+            space(std::make_shared<EvenlyCheckedSpace>(vehicle.minTurningRadius()))
+        {
+            ob::RealVectorBounds bounds(2);
+            for (unsigned int axis = 0; axis < 2; ++axis)
+            {
+                bounds.setLow(axis, world.bounds.min[axis]);
+                bounds.setHigh(axis, world.bounds.max[axis]);
+            }
+            space->setBounds(bounds);
+            si = std::make_shared<ob::SpaceInformation>(space);
+            const auto checker = std::make_shared<FclFootprintChecker>(si, world.obstacles, vehicle);
+            si->setStateValidityChecker(checker);
+            si->setup();
+            swept = std::make_shared<SweptMotionValidator>(si);
+            discrete = std::make_shared<ob::DiscreteMotionValidator>(si);
+            curveOnce = std::make_shared<ob::ReedsSheppMotionValidator>(si);
+            plainSi = std::make_shared<ob::SpaceInformation>(space);
+            plainSi->setStateValidityChecker(std::make_shared<FclFootprintChecker>(
+                plainSi,
+                std::make_shared<const FootprintChecker>(world.obstacles, vehicle, 0.0, 0.0, CheckMode::PlainFcl)));
+            plainSi->setup();
+            discreteFcl = std::make_shared<ob::DiscreteMotionValidator>(plainSi);
+
+            Random random(seed);
+            while (ends.size() < count)
+            {
+                const Pose from = world.anywhere(random), to = world.anywhere(random);
+                if (!checker->footprint().isFree(from))
+                    continue;
+                ends.emplace_back(ob::ScopedState<>(si), ob::ScopedState<>(si));
+                setPose(ends.back().first.get(), from);
+                setPose(ends.back().second.get(), to);
+            }
+        }
+
+        Vehicle vehicle;
+        World world;
+        std::shared_ptr<EvenlyCheckedSpace> space;
+        ob::SpaceInformationPtr si, plainSi;
+        std::shared_ptr<SweptMotionValidator> swept;
+        ob::MotionValidatorPtr discrete, curveOnce, discreteFcl;
+        std::vector<std::pair<ob::ScopedState<>, ob::ScopedState<>>> ends;
+    };
+
+    enum class Validator
+    {
+        Swept,
+        Discrete,    ///< OMPL's, every 2 cm, with the two-tier state checks
+        CurveOnce,   ///< OMPL's for Reeds-Shepp spaces, the same but that it keeps the curve between two looks
+        DiscreteFcl  ///< OMPL's with plain FCL
+    };
+
+    const ob::MotionValidator &validatorOf(const Motions &motions, Validator kind)
+    {
+        switch (kind)
+        {
+            case Validator::Swept:
+                return *motions.swept;
+            case Validator::Discrete:
+                return *motions.discrete;
+            case Validator::CurveOnce:
+                return *motions.curveOnce;
+            default:
+                return *motions.discreteFcl;
+        }
+    }
+
+    /** \param valid whether to keep to motions that are free: a check cannot end early there */
+    void motionCheck(benchmark::State &state, Validator kind, bool valid)
+    {
+        static std::vector<std::unique_ptr<Motions>> worlds;
+        static std::vector<std::pair<std::size_t, std::size_t>> all, free;  // world, motion
+        if (worlds.empty())
+            for (std::uint64_t seed = 2000; seed < 2008; ++seed)
+            {
+                worlds.push_back(std::make_unique<Motions>(seed, 1000));
+                for (std::size_t i = 0; i < worlds.back()->ends.size(); ++i)
+                {
+                    const auto &[from, to] = worlds.back()->ends[i];
+                    all.emplace_back(worlds.size() - 1, i);
+                    if (worlds.back()->swept->checkMotion(from.get(), to.get()))
+                        free.push_back(all.back());
+                }
+            }
+        const auto &chosen = valid ? free : all;
+        std::size_t i = 0;
+        for (auto _ : state)
+        {
+            const auto &[world, motion] = chosen[i];
+            const auto &[from, to] = worlds[world]->ends[motion];
+            benchmark::DoNotOptimize(validatorOf(*worlds[world], kind).checkMotion(from.get(), to.get()));
+            if (++i == chosen.size())
+                i = 0;
+        }
+        state.counters["motions"] = static_cast<double>(chosen.size());
+    }
+
+    /** Puts the answers of both validators to the oracle of the tests, which looks every millimetre. */
+    void wrongMotions(benchmark::State &state)
+    {
+        std::size_t motions = 0, free = 0, sweptWrong = 0, discreteWrong = 0, sweptRefused = 0;
+        for (auto _ : state)
+            for (std::uint64_t seed = 3000; seed < 3050; ++seed)
+            {
+                const Motions set(seed, 2000);
+                for (const auto &[from, to] : set.ends)
+                {
+                    ReedsSheppCurve curve;
+                    set.swept->curveSpace().curve(from.get(), to.get(), curve);
+                    Pose pose = poseOf(from.get());
+                    bool isFree = true;
+                    for (std::size_t i = 0; i < curve.count && isFree; ++i)
+                    {
+                        const ArcSegment &arc = curve.segments[i];
+                        // A nanometre either way is rounding.
+                        isFree = set.world.oracle.isArcFree(pose, arc.curvature, arc.length, set.vehicle, 1e-3, -1e-9);
+                        pose = advance(pose, arc.curvature, arc.length);
+                    }
+                    const bool swept = set.swept->checkMotion(from.get(), to.get());
+                    const bool discrete = set.discrete->checkMotion(from.get(), to.get());
+                    ++motions;
+                    free += isFree;
+                    sweptWrong += swept && !isFree;
+                    discreteWrong += discrete && !isFree;
+                    sweptRefused += !swept && isFree;
+                }
+            }
+        state.counters["motions"] = static_cast<double>(motions);
+        state.counters["free"] = static_cast<double>(free);
+        state.counters["swept accepts wrongly"] = static_cast<double>(sweptWrong);
+        state.counters["discrete_2cm accepts wrongly"] = static_cast<double>(discreteWrong);
+        state.counters["swept refuses for its tolerance"] = static_cast<double>(sweptRefused);
+    }
+
+    // ---- arcs ------------------------------------------------------------------------------------------------------
+
+    /** A pose from which an arc of a metre keeps its distance. */
+    struct Arc
+    {
+        std::size_t world;
+        FootprintChecker::SweepStart start;
+        Pose pose;
+        double curvature, length;
+    };
+
+    /** Random arcs of a metre whose smallest clearance lies in between; full lock either way, and straight. */
+    void sweptArc(benchmark::State &state, double least, double most, bool prepared)
+    {
+        static const ValidityWorlds worlds = randomWorlds(false, Surroundings::Mixed);
+        std::vector<Arc> arcs;
+        Random random(7);
+        CheckCounts counts;
+        const double lock = 1.0 / Vehicle().minTurningRadius();
+        while (arcs.size() < 2000)
+        {
+            const std::size_t world = random.index(worlds.places.size());
+            const FootprintChecker &checker = *worlds.places[world].tiered;
+            const Pose pose = worlds.places[world].poses[random.index(worlds.places[world].poses.size())];
+            const double curvature = (static_cast<double>(random.index(3)) - 1.0) * lock;
+            const double length = random.chance(0.5) ? 1.0 : -1.0;
+            double clearance = most;
+            for (int k = 0; k <= 20 && clearance >= least; ++k)
+                clearance = std::min(clearance, checker.clearance(advance(pose, curvature, 0.05 * k * length)));
+            if (clearance >= least && clearance < most &&
+                checker.freeLength(pose, curvature, length) == std::abs(length))
+                arcs.push_back({world, checker.sweepStart(pose, 1e-3, counts), pose, curvature, length});
+        }
+        std::sort(arcs.begin(), arcs.end(), [](const Arc &a, const Arc &b) { return a.world < b.world; });
+        std::size_t i = 0;
+        for (auto _ : state)
+        {
+            const Arc &arc = arcs[i];
+            const FootprintChecker &checker = *worlds.places[arc.world].tiered;
+            benchmark::DoNotOptimize(prepared ? checker.freeLength(arc.start, arc.curvature, arc.length, counts)
+                                              : checker.freeLength(arc.pose, arc.curvature, arc.length, 1e-3, counts));
+            if (++i == arcs.size())
+                i = 0;
+        }
+    }
+
+    // ---- building --------------------------------------------------------------------------------------------------
+
+    /** A map of cells of 5 cm with walls, blocks and single cells that sensors imagine. */
+    OccupancyGrid randomMap(std::size_t side)
+    {
+        Random random(side);
+        OccupancyGrid grid(side, side, 0.05);
+        for (std::size_t i = 0; i < side * side / 500; ++i)
+            grid.set(random.index(side), random.index(side), Cell::Occupied);
+        for (std::size_t i = 0; i < side / 10; ++i)
+        {
+            const std::size_t column = random.index(side), row = random.index(side), length = 1 + random.index(100);
+            const bool upright = random.chance(0.5);
+            for (std::size_t k = 0; k < length; ++k)
+                if (upright ? row + k < side : column + k < side)
+                    grid.set(upright ? column : column + k, upright ? row + k : row, Cell::Occupied);
+        }
+        return grid;
+    }
+
+    void distanceField(benchmark::State &state)
+    {
+        const ObstacleSet obstacles = ObstacleSet::fromGrid(randomMap(static_cast<std::size_t>(state.range(0))));
+        for (auto _ : state)
+            benchmark::DoNotOptimize(DistanceField(obstacles).at(0, 0));
+    }
+
+    /** Everything between a map and the first check: obstacles, field and index of edges. */
+    void checkerOfMap(benchmark::State &state)
+    {
+        const OccupancyGrid grid = randomMap(static_cast<std::size_t>(state.range(0)));
+        for (auto _ : state)
+            benchmark::DoNotOptimize(FootprintChecker(ObstacleSet::fromGrid(grid), {}).farthestPoint());
+    }
+
+    void checkerOfPolygons(benchmark::State &state)
+    {
+        const World world = parking_test::randomPolygonWorld(1);
+        for (auto _ : state)
+            benchmark::DoNotOptimize(FootprintChecker(world.obstacles, {}).farthestPoint());
+    }
+
+    void registerAll()
+    {
+        const std::vector<std::pair<std::string, CheckMode>> modes{{"plain_fcl", CheckMode::PlainFcl},
+                                                                   {"two_tier", CheckMode::Tiered}};
+        for (const auto &[name, mode] : modes)
+        {
+            for (const bool grids : {false, true})
+                for (const auto &[where, surroundings] : {std::pair("free", Surroundings::Free),
+                                                          {"mixed", Surroundings::Mixed},
+                                                          {"tight", Surroundings::Tight}})
+                    benchmark::RegisterBenchmark(
+                        (std::string("stateCheck/") + (grids ? "grid/" : "polygons/") + where + "/" + name).c_str(),
+                        stateCheck, grids, surroundings, mode);
+            benchmark::RegisterBenchmark(("stateCheck/search/both_ends/" + name).c_str(), stateCheck, false,
+                                         Surroundings::Search, mode);
+            benchmark::RegisterBenchmark(("stateCheck/search/from_slot/" + name).c_str(), stateCheck, false,
+                                         Surroundings::FromSlot, mode);
+        }
+        for (const auto &[name, kind] : {std::pair("swept", Validator::Swept),
+                                         {"discrete_2cm", Validator::Discrete},
+                                         {"curve_once_2cm", Validator::CurveOnce},
+                                         {"discrete_2cm_plain_fcl", Validator::DiscreteFcl}})
+        {
+            for (const bool valid : {false, true})
+                benchmark::RegisterBenchmark(
+                    (std::string("motionCheck/") + (valid ? "valid/" : "random/") + name).c_str(), motionCheck, kind,
+                    valid)
+                    ->Unit(benchmark::kMicrosecond);
+        }
+        benchmark::RegisterBenchmark("wrongMotions", wrongMotions)->Iterations(1)->Unit(benchmark::kSecond);
+        for (const bool prepared : {false, true})
+        {
+            const std::string how = prepared ? "/prepared" : "";
+            benchmark::RegisterBenchmark(("sweptArc1m/free" + how).c_str(), sweptArc, 3.0, 100.0, prepared);
+            benchmark::RegisterBenchmark(("sweptArc1m/clearance_20cm" + how).c_str(), sweptArc, 0.15, 0.25, prepared);
+        }
+        for (const auto &[name, build] : {std::pair("distanceField", distanceField), {"checkerOfMap", checkerOfMap}})
+            benchmark::RegisterBenchmark(name, build)
+                ->Arg(200)
+                ->Arg(500)
+                ->Arg(1000)
+                ->Arg(2000)
+                ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark("checkerOfPolygons", checkerOfPolygons)->Unit(benchmark::kMillisecond);
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    registerAll();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv))
+        return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

@@ -1,0 +1,79 @@
+#include "benchmarks/summary/ComparisonPictures.h"
+
+#include "parking_geometry/drawing/Svg.h"
+
+#include <array>
+#include <cstdio>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double SAMPLING = 0.1;  // metres
+        /** Twelve colours that differ for most eyes, also in print. */
+        constexpr std::array<const char *, 12> COLOURS{"#2563eb", "#ea580c", "#059669", "#be185d",
+                                                       "#7c3aed", "#0891b2", "#a16207", "#dc2626",
+                                                       "#4d7c0f", "#9333ea", "#475569", "#b45309"};
+    }  // namespace
+
+    const RunRecord *bestRun(const std::vector<const RunRecord *> &records)
+    {
+        const RunRecord *best = nullptr;
+        const auto rank = [](const RunRecord &record)
+        {
+            return record.solved() ? 2 : record.exact ? 1 : 0;
+        };
+        for (const RunRecord *record : records)
+        {
+            if (!record->hasPath)
+                continue;
+            if (best == nullptr || rank(*record) > rank(*best) ||
+                (rank(*record) == rank(*best) && record->number("path length REAL") < best->number("path length REAL")))
+                best = record;
+        }
+        return best;
+    }
+
+    std::string comparisonSvg(const Scenario &scenario, const std::string &title,
+                              const std::vector<std::pair<std::string, const RunRecord *>> &best)
+    {
+        Path all;
+        std::size_t solved = 0;
+        for (const auto &[planner, record] : best)
+        {
+            if (record == nullptr)
+                continue;
+            const Path path = record->path.sample(SAMPLING);
+            all.insert(all.end(), path.begin(), path.end());
+            solved += record->solved() ? 1 : 0;
+        }
+        SvgFigure figure(title, "best path of each planner; " + std::to_string(solved) + " of " +
+                                    std::to_string(best.size()) + " planners solved it");
+        SvgMap map(viewAround(scenario, all));
+        drawScenario(map, scenario);
+        for (std::size_t i = 0; i < best.size(); ++i)
+        {
+            const auto &[planner, record] = best[i];
+            if (record == nullptr)
+                continue;
+            SvgStyle style;
+            style.stroke = COLOURS[i % COLOURS.size()];
+            style.strokeWidth = 2.0;
+            style.strokeOpacity = 0.9;
+            style.dash = record->solved() ? "" : "3 4";
+            std::vector<Eigen::Vector2d> line;
+            for (const PathState &state : record->path.sample(SAMPLING))
+                line.emplace_back(state.pose.x, state.pose.y);
+            map.drawLine(SvgLayer::Lines, line, style);
+            char length[32];
+            std::snprintf(length, sizeof length, " %.1f m", record->number("path length REAL"));
+            map.addLegend({planner + length +
+                               (record->solved() ? ""
+                                : record->exact  ? " (invalid)"
+                                                 : " (approximate)"),
+                           style, true});
+        }
+        figure.setMap(map);
+        return figure.toString();
+    }
+}  // namespace parking

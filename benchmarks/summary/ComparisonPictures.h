@@ -1,0 +1,21 @@
+#pragma once
+
+#include "benchmarks/problems/Problem.h"
+#include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/planners/SolveRecord.h"
+
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief The run with the shortest valid path, or with the shortest path at all when none is valid; null without
+        any path. */
+    const RunRecord *bestRun(const std::vector<const RunRecord *> &records);
+
+    /** \brief One problem with the best path of each planner, as SVG.
+
+        \param best planners' names and best runs (null: none) */
+    std::string comparisonSvg(const Scenario &scenario, const std::string &title,
+                              const std::vector<std::pair<std::string, const RunRecord *>> &best);
+}  // namespace parking

@@ -1,0 +1,84 @@
+#include "benchmarks/system/Subprocess.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+namespace parking
+{
+    bool isProgram(const std::string &name)
+    {
+        if (name.find('/') != std::string::npos)
+            return access(name.c_str(), X_OK) == 0;
+        const char *path = std::getenv("PATH");
+        std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+        for (std::string folder; std::getline(folders, folder, ':');)
+            if (access((folder + "/" + name).c_str(), X_OK) == 0)
+                return true;
+        return false;
+    }
+
+    ProcessResult runProcess(const std::vector<std::string> &command)
+    {
+        std::vector<char *> arguments;
+        for (const std::string &each : command)
+            arguments.push_back(const_cast<char *>(each.c_str()));
+        arguments.push_back(nullptr);
+        std::array<int, 2> errors{};
+        if (pipe2(errors.data(), O_CLOEXEC) != 0)
+            throw Error(command.front() + ": cannot be started: " + std::strerror(errno));
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
+        pid_t child = 0;
+        const int failure = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        close(errors[1]);
+        ProcessResult result;
+        if (failure == 0)
+        {
+            std::array<char, 4096> buffer{};
+            for (;;)
+            {
+                const ssize_t count = read(errors[0], buffer.data(), buffer.size());
+                if (count > 0)
+                    result.errors.append(buffer.data(), static_cast<std::size_t>(count));
+                else if (count == 0 || errno != EINTR)
+                    break;
+            }
+        }
+        close(errors[0]);
+        if (failure != 0)
+            throw Error(command.front() + ": cannot be started: " + std::strerror(failure));
+        int status = 0;
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        {
+        }
+        result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        return result;
+    }
+
+    std::string lastLine(const std::string &text)
+    {
+        const std::size_t last = text.find_last_not_of(" \r\n");
+        if (last == std::string::npos)
+            return "it says nothing";
+        const std::size_t before = text.rfind('\n', last);
+        const std::size_t first = before == std::string::npos ? 0 : before + 1;
+        return oneLine(text.substr(first, last + 1 - first));
+    }
+}  // namespace parking

@@ -1,0 +1,122 @@
+#include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
+
+#include "ompl_improved_astar/search/containers/FloatBits.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace parking::search
+{
+    namespace
+    {
+        // Cells in units of the turning radius and of a whole turn, near the targets and farther away.
+        constexpr double NEAR = 1.5, NEAR_CELL = 0.04, FAR_CELL = 0.16;
+        constexpr int NEAR_HEADINGS = 180, FAR_HEADINGS = 60;
+        // Of the far cells' columns and rows; what lies beyond is not tabulated.
+        constexpr double FARTHEST = 2047.0;
+        constexpr std::size_t SLOTS = 1u << 15;
+
+        /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
+           bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
+           slot taken by another takes it over. */
+        class Table
+        {
+        public:
+            /** \brief The length of the cell, computed by \e length() where it is not known. */
+            template <class Length>
+            float at(std::uint64_t key, const Length &length)
+            {
+                std::atomic<std::uint64_t> &slot =
+                    slots_[((key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32) & (SLOTS - 1)];
+                const std::uint64_t known = slot.load(std::memory_order_relaxed);
+                if (known >> 31 == key)
+                    return floatOf(static_cast<std::uint32_t>(known & 0x7fffffffu));
+                const auto value = static_cast<float>(length());
+                slot.store(key << 31 | bitsOf(value), std::memory_order_relaxed);
+                return value;
+            }
+
+        private:
+            std::array<std::atomic<std::uint64_t>, SLOTS> slots_{};
+        };
+
+        /** Reeds-Shepp curves are as long one way as the other; Dubins curves are not. */
+        Table &tableOf(CurveFamily family, bool backwards)
+        {
+            static Table tables[3];
+            return tables[family == CurveFamily::ReedsShepp ? 0 : backwards ? 1 : 2];
+        }
+    }  // namespace
+
+    CurveHeuristic::CurveHeuristic(const ReedsShepp &curves) : curves_(curves)
+    {
+    }
+
+    void CurveHeuristic::reset(bool backwards)
+    {
+        backwards_ = backwards;
+        targets_.clear();
+        frames_.clear();
+    }
+
+    void CurveHeuristic::addTarget(const Pose &target)
+    {
+        targets_.push_back(target);
+        frames_.push_back({std::cos(target.yaw), std::sin(target.yaw)});
+    }
+
+    double CurveHeuristic::exact(const Pose &pose) const
+    {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Pose &target : targets_)
+            shortest = std::min(shortest, backwards_ ? curves_.distance(target, pose) : curves_.distance(pose, target));
+        return shortest;
+    }
+
+    double CurveHeuristic::approximate(const Pose &pose) const
+    {
+        if (targets_.empty())
+            return 0.0;
+        const double radius = curves_.turningRadius();
+        double shortest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+        {
+            const auto &[cosine, sine] = frames_[i];
+            const double dx = (pose.x - targets_[i].x) / radius, dy = (pose.y - targets_[i].y) / radius;
+            const Pose relative{cosine * dx + sine * dy, cosine * dy - sine * dx,
+                                wrapAngle(pose.yaw - targets_[i].yaw)};
+            shortest = std::min(shortest, tabulated(relative));
+        }
+        return shortest * radius;
+    }
+
+    double CurveHeuristic::tabulated(const Pose &relative) const
+    {
+        const double farther = std::max(std::abs(relative.x), std::abs(relative.y));
+        const bool near = farther < NEAR;
+        const double cell = near ? NEAR_CELL : FAR_CELL;
+        const int headings = near ? NEAR_HEADINGS : FAR_HEADINGS;
+        const double column = std::round(relative.x / cell), row = std::round(relative.y / cell);
+        const auto heading = (std::lround(relative.yaw / (2.0 * PI) * headings) + headings) % headings;
+        const auto length = [&]
+        {
+            const ReedsShepp unit(1.0, curves_.family());
+            const Pose target, centre{column * cell, row * cell, static_cast<double>(heading) * 2.0 * PI / headings};
+            return backwards_ ? unit.distance(target, centre) : unit.distance(centre, target);
+        };
+        if (!(farther < FARTHEST * FAR_CELL))
+            return length();
+        const auto twelveBits = [](double value)
+        {
+            return static_cast<std::uint64_t>(static_cast<std::int64_t>(value) & 0xfff);
+        };
+        const std::uint64_t key = (twelveBits(column) << 21) | (twelveBits(row) << 9) |
+                                  (static_cast<std::uint64_t>(heading) << 1) | (near ? 1u : 0u);
+        return tableOf(curves_.family(), backwards_).at(key, length);
+    }
+}  // namespace parking::search

@@ -1,0 +1,189 @@
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+
+#include "ompl_improved_astar/search/containers/FloatBits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr float DIAGONAL = 1.41421356f;
+        constexpr double HALF_DIAGONAL = 0.70710679;
+        constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
+        constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
+        constexpr std::uint64_t MAX_CELLS = 4000000;  // a world without walls must not fill the memory
+
+        struct Later
+        {
+            template <class Entry>
+            bool operator()(const Entry &a, const Entry &b) const
+            {
+                return a.key > b.key;
+            }
+        };
+    }  // namespace
+
+    void ObstacleHeuristic::reset(MotionEnvironment &environment, double resolution, double radius,
+                                  const Eigen::Vector2d &toward)
+    {
+        environment_ = &environment;
+        resolution_ = resolution;
+        radius_ = radius;
+        cells_.clear();
+        open_.clear();
+        settled_ = 0;
+        leftGrid_ = false;
+        // The grid is centred where the questions will be.
+        origin_ = toward;
+        towardColumn_ = towardRow_ = 0.5f;
+    }
+
+    bool ObstacleHeuristic::isOpen(CellState &state, std::int32_t column, std::int32_t row)
+    {
+        if (state.passage == Passage::Unknown)
+        {
+            const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
+            state.passage = mayHoldDisc(x, y, 0.5 * resolution_, REFINEMENTS) ? Passage::Open : Passage::Blocked;
+        }
+        return state.passage == Passage::Open;
+    }
+
+    bool ObstacleHeuristic::mayHoldDisc(double x, double y, double halfSide, int refinements)
+    {
+        const double room = environment_->roomAt(x, y);
+        if (room >= radius_)
+            return true;
+        if (room + 2.0 * HALF_DIAGONAL * halfSide < radius_)
+            return false;
+        if (refinements == 0)
+            return true;
+        // In doubt the quarters are asked: else the disc could slip through thin walls between two coarse cells.
+        const double quarter = 0.5 * halfSide;
+        for (const double dx : {-quarter, quarter})
+            for (const double dy : {-quarter, quarter})
+                if (mayHoldDisc(x + dx, y + dy, quarter, refinements - 1))
+                    return true;
+        return false;
+    }
+
+    void ObstacleHeuristic::load(const Eigen::Vector2d &low, const Eigen::Vector2d &high, const StopFunction &stop)
+    {
+        for (double v = std::floor((low.y() - origin_.y()) / resolution_);
+             v * resolution_ + origin_.y() < high.y() && !(stop && stop()); v += 1.0)
+            for (double u = std::floor((low.x() - origin_.x()) / resolution_); u * resolution_ + origin_.x() < high.x();
+                 u += 1.0)
+                if (TiledGrid<CellState>::contains(u, v))
+                {
+                    const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+                    isOpen(cells_.at(column, row), column, row);
+                }
+    }
+
+    float ObstacleHeuristic::estimate(std::int32_t column, std::int32_t row) const
+    {
+        const float dx = std::abs(static_cast<float>(column) + 0.5f - towardColumn_);
+        const float dy = std::abs(static_cast<float>(row) + 0.5f - towardRow_);
+        // A hair more than the octile distance: of many equally short ways in the open one is followed to its end. What
+        // is settled is longer than the shortest way by no more than this hair.
+        return 1.00002f * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
+    }
+
+    void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)
+    {
+        const std::uint64_t f = bitsOf(g + estimate(column, row));
+        open_.push_back({(f << 32) | (0xffffffffu - bitsOf(g)), column, row});
+        std::push_heap(open_.begin(), open_.end(), Later());
+    }
+
+    void ObstacleHeuristic::addTarget(double x, double y)
+    {
+        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
+        if (!TiledGrid<CellState>::contains(u, v))
+        {
+            leftGrid_ = true;
+            return;
+        }
+        const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+        cells_.at(column, row).g = 0.0f;
+        push(0.0f, column, row);
+    }
+
+    bool ObstacleHeuristic::settleNext(Entry &settled)
+    {
+        while (!open_.empty())
+        {
+            std::pop_heap(open_.begin(), open_.end(), Later());
+            settled = open_.back();
+            open_.pop_back();
+            CellState &state = cells_.at(settled.column, settled.row);
+            if (state.settled)
+                continue;
+            state.settled = true;
+            ++settled_;
+            const float here = state.g;
+            const bool inside = cells_.forEachNeighbour(
+                settled.column, settled.row,
+                [this, here](CellState &next, std::int32_t column, std::int32_t row, bool diagonal)
+                {
+                    const float g = here + (diagonal ? DIAGONAL : 1.0f);
+                    if (next.settled || g >= next.g || !isOpen(next, column, row))
+                        return;
+                    next.g = g;
+                    push(g, column, row);
+                });
+            leftGrid_ = leftGrid_ || !inside;
+            return true;
+        }
+        return false;
+    }
+
+    double ObstacleHeuristic::distance(double x, double y, const StopFunction &stop)
+    {
+        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
+        if (!TiledGrid<CellState>::contains(u, v))
+            return 0.0;
+        const CellState &asked = cells_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+        Entry entry;
+        while (!asked.settled)
+        {
+            if (settled_ % CELLS_BETWEEN_STOPS == CELLS_BETWEEN_STOPS - 1 && stop && stop())
+                return std::numeric_limits<double>::infinity();
+            if (settled_ >= MAX_CELLS)
+                return 0.0;
+            if (!settleNext(entry))
+                return leftGrid_ ? 0.0 : std::numeric_limits<double>::infinity();
+        }
+        return static_cast<double>(asked.g) * resolution_;
+    }
+
+    double ObstacleHeuristic::lowerBound(double x, double y, const StopFunction &stop)
+    {
+        // Pieces of the disc's way as long as a cell is wide touch two columns and two rows at most, so that their ends
+        // lie in the same cell or in neighbours: each piece costs a diagonal at most.
+        const double way = distance(x, y, stop);
+        return std::max(0.0, way * (1.0 - 1e-5) / std::sqrt(2.0) - resolution_);
+    }
+
+    Eigen::Vector2d ObstacleHeuristic::nearestReachable(const Eigen::Vector2d &goal, const StopFunction &stop)
+    {
+        Eigen::Vector2d best = goal;
+        double nearest = std::numeric_limits<double>::infinity();
+        Entry entry;
+        while (nearest > HALF_DIAGONAL * resolution_ && settled_ < MAX_CELLS && settleNext(entry))
+        {
+            const Eigen::Vector2d centre = origin_ + resolution_ * Eigen::Vector2d(entry.column + 0.5, entry.row + 0.5);
+            const double away = (centre - goal).norm();
+            if (away < nearest)
+            {
+                nearest = away;
+                best = centre;
+            }
+            if (settled_ % CELLS_BETWEEN_STOPS == 0 && stop && stop())
+                break;
+        }
+        return best;
+    }
+}  // namespace parking::search

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/containers/TiledGrid.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking::search
+{
+    /** \brief How far a disc has to go from here to the nearest of some target points, round the obstacles.
+
+        A resumable A* from the targets over a grid of eight neighbours (D. Silver, "Cooperative pathfinding", 2005:
+        reverse resumable A*): asking for a cell continues the search until that cell is settled, so the cost grows with
+        the area that is asked about, not with the map. Cells live in tiles that are made when first touched.
+
+        The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
+       an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
+       of the disc by a factor of sqrt(2), where it slips past the corners of cells; see lowerBound(). */
+    class ObstacleHeuristic
+    {
+    public:
+        /** \brief Forgets everything, for a new world or query; memory is kept.
+
+            \param environment must outlive the questions
+            \param resolution side of a cell in metres
+            \param radius of the disc in metres
+            \param toward point that most questions will be near: guides the order in which cells are settled */
+        void reset(MotionEnvironment &environment, double resolution, double radius, const Eigen::Vector2d &toward);
+
+        /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. */
+        void load(const Eigen::Vector2d &low, const Eigen::Vector2d &high, const StopFunction &stop);
+
+        /** \brief Adds a target; only before the first question. */
+        void addTarget(double x, double y);
+
+        /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when \e stop said so; 0
+           when the grid does not reach far enough to tell. */
+        double distance(double x, double y, const StopFunction &stop);
+
+        /** \brief A distance that is never more than the way of the disc's centre from (x, y) to the nearest target. */
+        double lowerBound(double x, double y, const StopFunction &stop);
+
+        /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre
+           of a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
+        Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal, const StopFunction &stop);
+
+        std::uint64_t settledCells() const
+        {
+            return settled_;
+        }
+
+    private:
+        enum class Passage : std::uint8_t
+        {
+            Unknown,
+            Open,
+            Blocked
+        };
+
+        struct CellState
+        {
+            float g{std::numeric_limits<float>::infinity()};
+            Passage passage{Passage::Unknown};
+            bool settled{false};
+        };
+
+        /** Ordered by f, then by the larger g. */
+        struct Entry
+        {
+            std::uint64_t key;  // f in the upper half, what is left of the largest number by g in the lower
+            std::int32_t column, row;
+        };
+
+        bool isOpen(CellState &state, std::int32_t column, std::int32_t row);
+        bool mayHoldDisc(double x, double y, double halfSide, int refinements);
+        float estimate(std::int32_t column, std::int32_t row) const;
+        void push(float g, std::int32_t column, std::int32_t row);
+        bool settleNext(Entry &settled);
+
+        MotionEnvironment *environment_{nullptr};
+        double resolution_{1.0};
+        double radius_{0.0};
+        Eigen::Vector2d origin_{0.0, 0.0};
+        float towardColumn_{0.0f}, towardRow_{0.0f};
+        TiledGrid<CellState> cells_;
+        std::vector<Entry> open_;
+        std::uint64_t settled_{0};
+        bool leftGrid_{false};  // a target or a way lies beyond the reach of the grid
+    };
+}  // namespace parking::search

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/Pose.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace parking
+{
+    /** \brief A Reeds-Shepp curve: up to five pieces at the turning radius or straight. */
+    struct ReedsSheppCurve
+    {
+        std::array<ArcSegment, 5> segments{};
+        std::size_t count{0};
+        double length{std::numeric_limits<double>::infinity()};  ///< metres, both directions counted positive
+
+        /** \brief Number of changes between forwards and reverse. */
+        std::size_t cusps() const;
+    };
+
+    /** \brief Which curves to consider. */
+    enum class CurveFamily
+    {
+        ReedsShepp,  ///< forwards and reverse
+        Dubins       ///< forwards only
+    };
+
+    /** \brief Shortest curves of bounded curvature between two poses.
+
+        The words and their formulas are those of J. A. Reeds and L. A. Shepp, "Optimal paths for a car that goes both
+        forwards and backwards", Pacific Journal of Mathematics 145(2), 1990 (equations 8.1 to 8.11), and of L. E.
+        Dubins, "On curves of minimal length with a constraint on average curvature", 1957. Unlike a solver that returns
+        the shortest curve only, candidates() returns all of them: among obstacles the second or tenth best is often the
+        one that is free. No allocation but the growth of the caller's vector. */
+    class ReedsShepp
+    {
+    public:
+        /** \brief \param turningRadius metres, positive and finite (otherwise parking::Error). */
+        explicit ReedsShepp(double turningRadius, CurveFamily family = CurveFamily::ReedsShepp);
+
+        double turningRadius() const
+        {
+            return radius_;
+        }
+
+        CurveFamily family() const
+        {
+            return family_;
+        }
+
+        /** \brief Length of the shortest curve in metres. */
+        double distance(const Pose &from, const Pose &to) const;
+
+        /** \brief The shortest curve. */
+        ReedsSheppCurve shortest(const Pose &from, const Pose &to) const;
+
+        /** \brief Every word that joins the poses, in the order of length; \e curves is overwritten.
+
+            \param longest words longer than this many metres are left out */
+        void candidates(const Pose &from, const Pose &to, std::vector<ReedsSheppCurve> &curves,
+                        double longest = std::numeric_limits<double>::infinity()) const;
+
+    private:
+        double radius_;
+        CurveFamily family_;
+    };
+}  // namespace parking

@@ -1,0 +1,274 @@
+#include "parking_geometry/drawing/SvgScenario.h"
+
+#include "parking_geometry/drawing/CellOutlines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        Eigen::Vector2d positionOf(const Pose &pose)
+        {
+            return {pose.x, pose.y};
+        }
+
+        Polygon bodyOf(const Vehicle &vehicle, const Pose &pose)
+        {
+            const std::array<Eigen::Vector2d, 4> corners = vehicle.footprint(pose);
+            return {corners.begin(), corners.end()};
+        }
+
+        SvgStyle filled(const std::string &fill, const std::string &stroke = "none")
+        {
+            SvgStyle style;
+            style.fill = fill;
+            style.stroke = stroke;
+            return style;
+        }
+
+        SvgStyle stroked(const std::string &stroke, double width, const std::string &dash = {})
+        {
+            SvgStyle style;
+            style.stroke = stroke;
+            style.strokeWidth = width;
+            style.dash = dash;
+            return style;
+        }
+
+        const char *colourOf(int direction)
+        {
+            return direction < 0 ? svg_colour::REVERSE : svg_colour::FORWARD;
+        }
+
+        Polygon cornersOf(const Bounds &box)
+        {
+            return {box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}};
+        }
+
+        void drawOutside(SvgMap &map, const Scenario &scenario)
+        {
+            const Polygon world = scenario.grid ? scenario.grid->outline() : cornersOf(scenario.bounds);
+            const bool allInside = std::all_of(
+                world.begin(), world.end(),
+                [&map](const Eigen::Vector2d &corner) {
+                    return !((corner - map.view().min).minCoeff() > 0.0 && (map.view().max - corner).minCoeff() > 0.0);
+                });
+            map.drawOutlines(SvgLayer::Ground, {cornersOf(map.view()), world}, filled(svg_colour::UNKNOWN));
+            if (!allInside)
+                map.addLegend({"outside of the map", filled(svg_colour::UNKNOWN), false});
+        }
+
+        void drawObstacles(SvgMap &map, const Scenario &scenario)
+        {
+            const SvgStyle style = filled(svg_colour::OBSTACLE, svg_colour::OBSTACLE_EDGE);
+            for (const Polygon &polygon : scenario.polygons)
+                map.drawPolygon(SvgLayer::Obstacles, polygon, style);
+            map.addLegend({"obstacle", style, false});
+            if (!scenario.grid)
+                return;
+            map.drawOutlines(SvgLayer::Obstacles, outlineCells(*scenario.grid, Cell::Occupied, map.view()), style);
+            const std::vector<Polygon> unknown = outlineCells(*scenario.grid, Cell::Unknown, map.view());
+            if (unknown.empty())
+                return;
+            map.drawOutlines(SvgLayer::Ground, unknown, filled(svg_colour::UNKNOWN));
+            map.addLegend({scenario.unknownIsOccupied ? "unknown (not to be entered)" : "unknown (taken as free)",
+                           filled(svg_colour::UNKNOWN), false});
+        }
+
+        /** Pieces of one direction, which their last state tells; each begins with the last state of the one before. */
+        std::vector<Path> gearSegments(const Path &path)
+        {
+            std::vector<Path> pieces;
+            for (std::size_t i = 1; i < path.size(); ++i)
+            {
+                if (pieces.empty() || path[i].direction != pieces.back().back().direction)
+                    pieces.push_back({path[i - 1]});
+                pieces.back().push_back(path[i]);
+            }
+            return pieces;
+        }
+
+        /** The car along one piece, \e spacing metres apart and at the piece's end. */
+        void drawSweep(SvgMap &map, const Path &piece, const Vehicle &vehicle, double spacing)
+        {
+            SvgStyle style = filled(colourOf(piece.back().direction), colourOf(piece.back().direction));
+            style.fillOpacity = 0.035;
+            style.strokeOpacity = 0.4;
+            style.strokeWidth = 0.8;
+            double next = piece.front().arcLength + spacing;
+            for (const PathState &state : piece)
+            {
+                const bool last = &state == &piece.back();
+                if (state.arcLength < next && !last)
+                    continue;
+                // Not two cars within half a spacing: they would look like one with a fat line.
+                if (!last && piece.back().arcLength - state.arcLength < 0.5 * spacing)
+                    continue;
+                map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
+                next = state.arcLength + spacing;
+            }
+        }
+
+        /** Points of the car's own frame, placed at \e pose. */
+        Polygon placed(const Pose &pose, const Polygon &local)
+        {
+            Polygon result;
+            for (const Eigen::Vector2d &point : local)
+                result.push_back(positionOf(compose(pose, {point.x(), point.y(), 0.0})));
+            return result;
+        }
+    }  // namespace
+
+    Bounds viewAround(const Scenario &scenario, const Path &path, double margin)
+    {
+        std::vector<Pose> poses = scenario.goals;
+        poses.push_back(scenario.start);
+        for (const PathState &state : path)
+            poses.push_back(state.pose);
+        Bounds view{positionOf(scenario.start), positionOf(scenario.start)};
+        const auto grow = [&view](const Eigen::Vector2d &point)
+        {
+            view.min = view.min.cwiseMin(point);
+            view.max = view.max.cwiseMax(point);
+        };
+        for (const Pose &pose : poses)
+            for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(pose))
+                grow(corner);
+        if (scenario.slot)
+            for (const Eigen::Vector2d &corner : scenario.slot->outline())
+                grow(corner);
+        const Eigen::Vector2d room(margin, margin);
+        return {view.min - room, view.max + room};
+    }
+
+    void drawScenario(SvgMap &map, const Scenario &scenario)
+    {
+        drawOutside(map, scenario);
+        drawCar(map, scenario.start, scenario.vehicle, svg_colour::START, "start");
+        for (std::size_t i = 0; i < scenario.goals.size(); ++i)
+        {
+            // Other goals are the same place the other way round: a second car on top would make both illegible.
+            if (i == 0)
+                drawCar(map, scenario.goals[i], scenario.vehicle, svg_colour::GOAL, "goal");
+            else
+                map.drawDot(SvgLayer::Cars, positionOf(scenario.goals[i]), 3.0, filled("#ffffff", svg_colour::GOAL));
+        }
+        if (scenario.slot)
+        {
+            SvgStyle style = filled(svg_colour::GOAL, svg_colour::GOAL);
+            style.fillOpacity = 0.07;
+            style.strokeWidth = 1.4;
+            style.dash = "6 4";
+            map.drawPolygon(SvgLayer::Ground, scenario.slot->outline(), style);
+            map.addLegend({"slot", style, false});
+        }
+        drawObstacles(map, scenario);
+    }
+
+    void drawPath(SvgMap &map, const Path &path, const Vehicle &vehicle)
+    {
+        if (path.size() < 2)
+            return;
+        const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
+        const std::vector<Path> pieces = gearSegments(path);
+        for (const Path &piece : pieces)
+        {
+            const int direction = piece.back().direction;
+            drawSweep(map, piece, vehicle, spacing);
+            std::vector<Eigen::Vector2d> track;
+            for (const PathState &state : piece)
+                track.push_back(positionOf(state.pose));
+            map.drawLine(SvgLayer::Lines, track, stroked(colourOf(direction), 2.4));
+            map.addLegend({direction < 0 ? "reverse" : "forward", stroked(colourOf(direction), 2.4), true});
+            if (&piece != &pieces.back())
+            {
+                SvgStyle dot = filled("#ffffff", "#0f172a");
+                dot.strokeWidth = 1.4;
+                map.drawDot(SvgLayer::Marks, track.back(), 3.4, dot);
+            }
+        }
+    }
+
+    void drawCar(SvgMap &map, const Pose &pose, const Vehicle &vehicle, const std::string &colour,
+                 const std::string &label)
+    {
+        SvgStyle body = filled(colour, colour);
+        body.fillOpacity = 0.22;
+        body.strokeWidth = 1.6;
+        const SvgLayer layer = SvgLayer::Cars;
+        map.drawPolygon(layer, bodyOf(vehicle, pose), body);
+
+        // Wheels and windows: they tell front from rear at a glance.
+        const double half = 0.5 * vehicle.width, rear = -vehicle.rearOverhang;
+        const double length = vehicle.length();
+        const SvgStyle dark = filled(colour);
+        const double wheelHalf = std::min(0.31, 0.4 * std::max(0.1, vehicle.rearOverhang));
+        for (const double axle : {0.0, vehicle.wheelbase})
+            for (const double side : {-1.0, 1.0})
+            {
+                const double outer = side * (half - 0.04), inner = side * (half - 0.24);
+                map.drawPolygon(layer,
+                                placed(pose, {{axle - wheelHalf, outer},
+                                              {axle + wheelHalf, outer},
+                                              {axle + wheelHalf, inner},
+                                              {axle - wheelHalf, inner}}),
+                                dark);
+            }
+        SvgStyle glass = filled(colour);
+        glass.fillOpacity = 0.55;
+        const double wind = rear + 0.70 * length, back = rear + 0.13 * length;
+        map.drawPolygon(layer,
+                        placed(pose, {{wind, -0.80 * half},
+                                      {wind, 0.80 * half},
+                                      {wind - 0.11 * length, 0.66 * half},
+                                      {wind - 0.11 * length, -0.66 * half}}),
+                        glass);
+        map.drawPolygon(layer,
+                        placed(pose, {{back, -0.70 * half},
+                                      {back, 0.70 * half},
+                                      {back + 0.07 * length, 0.62 * half},
+                                      {back + 0.07 * length, -0.62 * half}}),
+                        glass);
+        map.drawDot(layer, positionOf(pose), 2.6, filled(colour));
+        if (!label.empty())
+            map.addLegend({label, body, false});
+    }
+
+    void drawTrack(SvgMap &map, const std::vector<Pose> &poses, const std::string &colour, const std::string &label)
+    {
+        std::vector<Eigen::Vector2d> track;
+        for (const Pose &pose : poses)
+            track.push_back(positionOf(pose));
+        const SvgStyle style = stroked(colour, 1.6, "5 3");
+        map.drawLine(SvgLayer::Lines, track, style);
+        map.addLegend({label, style, true});
+    }
+
+    SvgPlot curvaturePlot(const Path &path, const Vehicle &vehicle)
+    {
+        SvgPlot plot;
+        plot.title = "Curvature along the path";
+        plot.xLabel = "driven length (m)";
+        plot.yLabel = "curvature (1/m)";
+        const double limit = 1.0 / vehicle.minTurningRadius();
+        plot.limits = {-limit, limit};
+        for (const Path &piece : gearSegments(path))
+        {
+            if (piece.back().direction < 0)
+                plot.bands.push_back({piece.front().arcLength, piece.back().arcLength, svg_colour::REVERSE});
+            // A curve for each piece: the steering may jump where the car stands.
+            SvgSeries series;
+            series.colour = colourOf(piece.back().direction);
+            for (std::size_t i = 1; i < piece.size(); ++i)
+            {
+                // Constant from state to state, which is what the path says.
+                series.x.insert(series.x.end(), {piece[i - 1].arcLength, piece[i].arcLength});
+                series.y.insert(series.y.end(), {piece[i].curvature, piece[i].curvature});
+            }
+            plot.series.push_back(std::move(series));
+        }
+        return plot;
+    }
+}  // namespace parking

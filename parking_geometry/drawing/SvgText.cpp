@@ -1,0 +1,114 @@
+#include "parking_geometry/drawing/SvgText.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        std::string fixed(double value, int decimals)
+        {
+            char buffer[64];
+            // Figures are far smaller; the bound keeps the buffer long enough whatever comes in.
+            const double bounded = std::isfinite(value) ? std::clamp(value, -1e30, 1e30) : 0.0;
+            const std::to_chars_result end =
+                std::to_chars(buffer, buffer + sizeof(buffer), bounded, std::chars_format::fixed, decimals);
+            const std::string text(buffer, end.ptr);
+            const bool negativeZero = text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos;
+            return negativeZero ? text.substr(1) : text;
+        }
+
+        /** Bytes of the UTF-8 character at the beginning of \e text, 0 when there is no valid one. */
+        std::size_t characterLength(std::string_view text)
+        {
+            const auto lead = static_cast<unsigned char>(text[0]);
+            const std::size_t length = lead < 0x80                   ? 1
+                                       : lead >= 0xC2 && lead < 0xE0 ? 2
+                                       : lead >= 0xE0 && lead < 0xF0 ? 3
+                                       : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                                     : 0;
+            if (length == 0 || length > text.size())
+                return 0;
+            for (std::size_t i = 1; i < length; ++i)
+                if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80)
+                    return 0;
+            return length;
+        }
+    }  // namespace
+
+    std::string px(double value)
+    {
+        std::string text = fixed(value, 2);
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.')
+            text.pop_back();
+        return text;
+    }
+
+    std::string escaped(std::string_view text)
+    {
+        std::string result;
+        while (!text.empty())
+        {
+            const std::size_t length = characterLength(text);
+            const char c = text[0];
+            if (length == 0 || (length == 1 && (c < ' ' || c == 0x7F)))
+                result += '?';
+            else if (c == '&')
+                result += "&amp;";
+            else if (c == '<')
+                result += "&lt;";
+            else if (c == '>')
+                result += "&gt;";
+            else if (c == '"')
+                result += "&quot;";
+            else
+                result += text.substr(0, length);
+            text.remove_prefix(std::max<std::size_t>(length, 1));
+        }
+        return result;
+    }
+
+    std::string attributes(const SvgStyle &style)
+    {
+        std::string text = " fill=\"" + escaped(style.fill) + '"';
+        if (style.fill != "none" && style.fillOpacity < 1.0)
+            text += " fill-opacity=\"" + px(style.fillOpacity) + '"';
+        if (style.stroke == "none")
+            return text;
+        text += " stroke=\"" + escaped(style.stroke) + "\" stroke-width=\"" + px(style.strokeWidth) + '"';
+        if (style.strokeOpacity < 1.0)
+            text += " stroke-opacity=\"" + px(style.strokeOpacity) + '"';
+        if (!style.dash.empty())
+            text += " stroke-dasharray=\"" + escaped(style.dash) + '"';
+        return text;
+    }
+
+    std::string textElement(double x, double y, double size, const std::string &colour, const std::string &anchor,
+                            std::string_view text, const std::string &more)
+    {
+        return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" font-size=\"" + px(size) + "\" fill=\"" + colour +
+               "\" text-anchor=\"" + anchor + '"' + more + '>' + escaped(text) + "</text>\n";
+    }
+
+    double textWidth(std::string_view text, double size)
+    {
+        return 0.54 * size * static_cast<double>(text.size());
+    }
+
+    double roundStep(double value)
+    {
+        const double power = std::pow(10.0, std::floor(std::log10(value)));
+        for (const double factor : {5.0, 2.0})
+            if (factor * power <= value * (1.0 + 1e-9))
+                return factor * power;
+        return power;
+    }
+
+    std::string tickLabel(double value, double step)
+    {
+        return fixed(value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9));
+    }
+}  // namespace parking

@@ -1,0 +1,124 @@
+#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        /** Where a planner's path must begin and end, metres and radians. */
+        constexpr double SAME_POSE = 1e-6;
+
+        /** Exits beyond the slot's mouth, metres along the aisle. */
+        constexpr double ALONG_AISLE[] = {0.0, 1.0, 2.0, 4.0, -1.0, -2.0};
+
+        /** Between the body and the slots' mouths on the way along an aisle of unknown width, metres. */
+        constexpr double BESIDE_SLOTS = 0.5;
+
+        bool isSame(const Pose &a, const Pose &b)
+        {
+            return std::hypot(a.x - b.x, a.y - b.y) <= SAME_POSE && std::abs(wrapAngle(a.yaw - b.yaw)) <= SAME_POSE;
+        }
+    }  // namespace
+
+    SlotExitTask slotExitTask(const ReverseParking &parking, const ParkingSlot &slot, SlotEntry entry, SlotSide side)
+    {
+        const Vehicle &vehicle = parking.vehicle();
+        const double aisle = parking.options().aisleWidth, half = 0.5 * vehicle.width;
+        SlotExitTask task;
+        task.entry = entry;
+        task.side = side;
+        ParkingSlot entered = slot;
+        entered.entry = entry;
+        task.parked = entered.goals(vehicle).front();
+
+        // Everything in the frame of a slot on the right, then mirrored.
+        const double mirror = side == SlotSide::Left ? -1.0 : 1.0;
+        const bool parallel = slot.kind == SlotKind::Parallel;
+        const double angle = slot.aisleAngle();
+        const bool backwards = entry == SlotEntry::Forward;
+        const double height = std::isfinite(aisle) ? 0.5 * aisle : half + BESIDE_SLOTS;
+        const Pose mouth = parallel ? Pose{(backwards ? -0.5 : 0.5) * slot.length, 0.5 * slot.width, 0.0}
+                                    : Pose{0.5 * slot.length + slot.width * std::cos(angle) / std::sin(angle),
+                                           -0.5 * slot.width, -angle};
+        // A car that leaves in reverse drives along the aisle tail first: a bay's neighbour to the lane's direction, a
+        // parallel slot towards its rear.
+        const double yaw = backwards && !parallel ? PI : 0.0, along = backwards && parallel ? -1.0 : 1.0;
+        task.min.setConstant(std::numeric_limits<double>::infinity());
+        task.max = -task.min;
+        const auto include = [&](const Pose &pose)
+        {
+            for (const Eigen::Vector2d &corner : vehicle.footprint(pose))
+            {
+                task.min = task.min.cwiseMin(corner);
+                task.max = task.max.cwiseMax(corner);
+            }
+        };
+        include(task.parked);
+        for (const double distance : ALONG_AISLE)
+        {
+            Pose local = compose(mouth, {along * distance, height, yaw});
+            local.y *= mirror;
+            local.yaw *= mirror;
+            task.exits.push_back(compose(slot.pose, local));
+            include(task.exits.back());
+        }
+        // Room to swing and to shunt, as long as the car, on every side.
+        task.min.array() -= vehicle.length();
+        task.max.array() += vehicle.length();
+        return task;
+    }
+
+    ReverseParkingResult planInMoves(const ReverseParking &parking, const ParkingSlot &slot,
+                                     const FootprintQueries &world, const SlotExitPlanner &planner)
+    {
+        ReverseParkingResult best = parking.plan(slot, world);
+        if (best.fits())
+            return best;
+        for (const ReverseParkingResult &refused : parking.planAll(slot, world))
+        {
+            const SlotExitTask task = slotExitTask(parking, slot, refused.entry, refused.side);
+            const ArcPath out = planner(task);
+            if (out.segments.empty())
+                continue;
+            const Pose end = out.end();
+            if (!isSame(out.start, task.parked))
+                throw Error("multi-move parking: the planner's path does not begin at the parked pose");
+            if (std::none_of(task.exits.begin(), task.exits.end(), [&](const Pose &exit) { return isSame(exit, end); }))
+                throw Error("multi-move parking: the planner's path does not end at one of the exits");
+            if (!isPathFree(world, parking.vehicle(), out.sample(parking.options().step)))
+                throw Error("multi-move parking: the planner's path is not free");
+            const bool fewer = out.cusps() + 1 < best.moves();
+            const bool shorter = out.cusps() + 1 == best.moves() && out.length() < best.path.length();
+            if (best.fits() && !fewer && !shorter)
+                continue;
+            best = refused;
+            best.status = ReverseParkingStatus::Fits;
+            best.message.clear();
+            best.path = out.reversed();
+        }
+        return best;
+    }
+
+    double smallestSlot(const ParkingSlot &slot, double ParkingSlot::*dimension, double least,
+                        const std::function<bool(const ParkingSlot &)> &fits, double precision)
+    {
+        if (!(precision > 0.0))
+            throw Error("smallest slot: precision is " + formatNumber(precision) +
+                        "; it must be a positive number of metres");
+        if (!fits(slot))
+            throw Error("smallest slot: the slot to begin with does not fit; begin with a larger one");
+        double low = least, high = slot.*dimension;
+        ParkingSlot tried = slot;
+        while (high - low > precision)
+        {
+            tried.*dimension = 0.5 * (low + high);
+            (fits(tried) ? high : low) = tried.*dimension;
+        }
+        return high;
+    }
+}  // namespace parking

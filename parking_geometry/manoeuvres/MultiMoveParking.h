@@ -1,0 +1,55 @@
+#pragma once
+
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/FootprintQueries.h"
+#include "parking_geometry/ParkingSlot.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief Leaving a slot that is too tight for one sweep: a small planning problem, to be solved out of the slot.
+     */
+    struct SlotExitTask
+    {
+        Pose parked;  ///< where the search begins
+        std::vector<Pose>
+            exits;  ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
+        Eigen::Vector2d min{0.0, 0.0}, max{0.0, 0.0};  ///< box, in the frame of the poses, within which to look
+        SlotEntry entry{SlotEntry::Reverse};           ///< Reverse or Forward
+        SlotSide side{SlotSide::Right};                ///< Right or Left
+    };
+
+    /** \brief The task for \e slot, entered that way.
+
+        The exits lie along the aisle, in its middle where its width is known and close to the slots otherwise. Throws
+        parking::Error like ParkingSlot::goals(). */
+    SlotExitTask slotExitTask(const ReverseParking &parking, const ParkingSlot &slot, SlotEntry entry, SlotSide side);
+
+    /** \brief A planner for such tasks: a path from \e parked to one of \e exits, as many changes of direction as it
+        takes; without segments when there is none. */
+    using SlotExitPlanner = std::function<ArcPath(const SlotExitTask &)>;
+
+    /** \brief In one sweep where that fits, otherwise in several moves found by \e planner.
+
+        The planner's path is checked: it must begin at the parked pose and end at an exit (1e-6 m, 1e-6 rad) and pass
+        the world's callables. Reversed it is the manoeuvre; ReverseParkingResult::moves() counts its stretches, and
+        guard line and radii are 0. Among the allowed entries and sides the one with the fewest moves wins, then the
+        shortest. When none works, the verdict is that of the single sweep.
+
+        Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */
+    ReverseParkingResult planInMoves(const ReverseParking &parking, const ParkingSlot &slot,
+                                     const FootprintQueries &world, const SlotExitPlanner &planner);
+
+    /** \brief The least \e dimension (&ParkingSlot::length or &ParkingSlot::width), to \e precision metres, with which
+        \e fits still says yes; centre and the rest of the slot stay as they are.
+
+        Bisection between \e least, which need not fit, and the slot's own dimension, which must (else parking::Error);
+        sound when larger slots are never worse. */
+    double smallestSlot(const ParkingSlot &slot, double ParkingSlot::*dimension, double least,
+                        const std::function<bool(const ParkingSlot &)> &fits, double precision = 0.01);
+}  // namespace parking

@@ -1,0 +1,85 @@
+#include "parking_geometry/text/NearestName.h"
+
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace parking
+{
+    namespace
+    {
+        std::string lowerCase(std::string text)
+        {
+            for (char &c : text)
+                c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            return text;
+        }
+
+        /** Levenshtein distance, one row of the table at a time. */
+        std::size_t editDistance(const std::string &a, const std::string &b)
+        {
+            std::vector<std::size_t> row(b.size() + 1);
+            std::iota(row.begin(), row.end(), std::size_t(0));
+            for (std::size_t i = 1; i <= a.size(); ++i)
+            {
+                std::size_t diagonal = row[0];
+                row[0] = i;
+                for (std::size_t j = 1; j <= b.size(); ++j)
+                {
+                    const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+                    diagonal = row[j];
+                    row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+                }
+            }
+            return row[b.size()];
+        }
+    }  // namespace
+
+    std::string nearestName(const std::string &name, const std::vector<std::string> &known)
+    {
+        // Cut: nobody means a name by a thousand letters, and the table is quadratic.
+        const std::string wanted = lowerCase(name.substr(0, 64));
+        std::string best;
+        std::size_t bestDistance = 0;
+        for (const std::string &candidate : known)
+        {
+            const std::string lower = lowerCase(candidate);
+            std::size_t distance = 2 * editDistance(wanted, lower);
+            // A part of a name, such as golf, is likelier meant than a name with two other letters.
+            if (wanted.size() > 2 && lower.find(wanted) != std::string::npos)
+                distance = std::min<std::size_t>(distance, 3);
+            if (best.empty() || distance < bestDistance)
+            {
+                best = candidate;
+                bestDistance = distance;
+            }
+        }
+        return best;
+    }
+
+    bool isMisspelt(const std::string &name, const std::vector<std::string> &known)
+    {
+        const std::string wanted = lowerCase(name.substr(0, 64));
+        std::size_t smallest = 3;
+        for (const std::string &candidate : known)
+        {
+            if (candidate == name)
+                return false;
+            smallest = std::min(smallest, editDistance(wanted, lowerCase(candidate)));
+        }
+        return smallest <= 2;
+    }
+
+    std::string unknownName(const std::string &what, const std::string &name, const std::vector<std::string> &known)
+    {
+        std::string message = "unknown " + what + ' ' + inQuotes(name);
+        if (known.empty())
+            return message;
+        message += "; did you mean '" + nearestName(name, known) + "'? Known: ";
+        for (std::size_t i = 0; i < known.size(); ++i)
+            message += (i ? ", " : "") + known[i];
+        return message;
+    }
+}  // namespace parking

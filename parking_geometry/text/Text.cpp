@@ -1,0 +1,67 @@
+#include "parking_geometry/text/Text.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace parking
+{
+    std::string oneLine(std::string_view text)
+    {
+        std::string result(text);
+        for (char &c : result)
+            if (c < ' ' || c > '~')
+                c = '?';
+        return result;
+    }
+
+    std::string inQuotes(std::string_view text)
+    {
+        constexpr std::size_t LONGEST = 60;
+        return "'" + oneLine(text.substr(0, LONGEST)) + (text.size() > LONGEST ? "...'" : "'");
+    }
+
+    std::string formatNumber(double value)
+    {
+        if (std::isnan(value))
+            return "nan";
+        char buffer[64];
+        // Of numbers that people write out in full, the shortest form would be 1e+05.
+        const bool everyday = value == 0.0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
+        const std::to_chars_result end =
+            everyday ? std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::fixed)
+                     : std::to_chars(buffer, buffer + sizeof(buffer), value);
+        return std::string(buffer, end.ptr);
+    }
+
+    std::string_view trimmed(std::string_view text)
+    {
+        constexpr std::string_view BLANKS = " \t\r\n\v\f";
+        const std::size_t first = text.find_first_not_of(BLANKS);
+        if (first == std::string_view::npos)
+            return {};
+        return text.substr(first, text.find_last_not_of(BLANKS) - first + 1);
+    }
+
+    bool parseNumber(std::string_view text, double &value)
+    {
+        // from_chars knows no leading plus sign, and must not be given "+-1".
+        if (text.size() > 1 && text[0] == '+' && text[1] != '-')
+            text.remove_prefix(1);
+        double number = 0.0;
+        const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(number))
+            return false;
+        value = number;
+        return true;
+    }
+
+    bool parseCount(std::string_view text, std::size_t &value)
+    {
+        std::size_t number = 0;
+        const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+            return false;
+        value = number;
+        return true;
+    }
+}  // namespace parking

@@ -1,0 +1,349 @@
+#include "path_tracking/control/Mpc.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+#include "path_tracking/simulation/BicycleModel.h"
+#include "path_tracking/control/MpcCost.h"
+#include "path_tracking/control/MpcWorkingSet.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <ceres/cost_function.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr std::size_t LONGEST_HORIZON = 200;
+        constexpr double FUNCTION_TOLERANCE = 1e-5;  // relative gain at which Ceres stops
+        constexpr double SETTLED = 1e-3;             // relative gain of a step after which another is not worth it
+        constexpr int MOST_REJECTIONS = 8;           // of steps by the trust region, per working set
+        constexpr double FIRST_RADIUS = 1e4;
+        constexpr double LARGEST_COST = 1e30;
+        constexpr double LEAST_RADIUS = 1.0;
+
+        void check(const char *field, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("mpc: ") + field + " is " + formatNumber(value) + "; it must be " + right);
+        }
+
+        void checkWeight(const char *field, double value)
+        {
+            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
+        }
+
+        /** A cost with what it was last asked for, so that nobody asks twice. */
+        struct Evaluation
+        {
+            Eigen::VectorXd unknowns;
+            Eigen::VectorXd residuals;
+            MpcCost::Jacobian jacobian;
+        };
+
+        /** Cost as a function of a step in the directions that a working set leaves free, for Ceres. */
+        class FreeCost final : public ceres::CostFunction
+        {
+        public:
+            FreeCost(const MpcCost &cost, const HorizonLimits &limits, const WorkingSet &active,
+                     const Eigen::VectorXd &base, Evaluation &last)
+              : cost_(cost),
+                limits_(limits),
+                active_(active),
+                base_(base),
+                last_(last)
+            {
+                set_num_residuals(static_cast<int>(cost.residuals()));
+                mutable_parameter_block_sizes()->push_back(static_cast<int>(active.freedom()));
+            }
+
+            /** The unknowns after \e step, cut to their limits. */
+            Eigen::VectorXd unknowns(const double *step) const
+            {
+                Eigen::VectorXd result = active_.expand(base_, step);
+                cutToLimits(limits_, result);
+                return result;
+            }
+
+            bool Evaluate(double const *const *parameters, double *residuals, double **jacobians) const override
+            {
+                const Eigen::VectorXd point = unknowns(parameters[0]);
+                Eigen::Map<Eigen::VectorXd> target(residuals, cost_.residuals());
+                if (jacobians == nullptr || jacobians[0] == nullptr)
+                {
+                    cost_.evaluate(point, values_, nullptr);
+                    target = values_;
+                    return true;
+                }
+                if (last_.unknowns != point)
+                {
+                    cost_.evaluate(point, last_.residuals, &last_.jacobian);
+                    last_.unknowns = point;
+                }
+                target = last_.residuals;
+                active_.reduce(last_.jacobian, jacobians[0]);
+                return true;
+            }
+
+        private:
+            const MpcCost &cost_;
+            const HorizonLimits &limits_;
+            const WorkingSet &active_;
+            const Eigen::VectorXd base_;
+            Evaluation &last_;
+            mutable Eigen::VectorXd values_;
+        };
+
+        /** Ends the minimiser after its first step that lowered the cost: the working set may change there. */
+        class StopAfterStep final : public ceres::IterationCallback
+        {
+        public:
+            ceres::CallbackReturnType operator()(const ceres::IterationSummary &summary) override
+            {
+                return summary.iteration > 0 && summary.step_is_successful ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                                           : ceres::SOLVER_CONTINUE;
+            }
+        };
+
+        bool allFinite(const MpcProblem &problem)
+        {
+            bool finite = isFinite(problem.pose) && std::isfinite(problem.speed) &&
+                          std::isfinite(problem.last.acceleration) && std::isfinite(problem.last.steering) &&
+                          std::isfinite(problem.wheels) && std::isfinite(problem.steeringNow) &&
+                          std::isfinite(problem.steeringLag) && std::isfinite(problem.driveLag) &&
+                          std::isfinite(problem.acceleration);
+            for (const MpcReference &point : problem.reference)
+                finite = finite && isFinite(point.pose) && std::isfinite(point.speed) && std::isfinite(point.steering);
+            return finite;
+        }
+    }  // namespace
+
+    void MpcParameters::validate() const
+    {
+        check("horizon", static_cast<double>(horizon), horizon >= 1 && horizon <= LONGEST_HORIZON,
+              "a number of steps from 1 to 200");
+        check("step", step, std::isfinite(step) && step > 0.0 && step <= 1.0, "above 0 and up to 1 second");
+        checkWeight("accelerationWeight", accelerationWeight);
+        checkWeight("steeringWeight", steeringWeight);
+        checkWeight("accelerationChangeWeight", accelerationChangeWeight);
+        checkWeight("steeringChangeWeight", steeringChangeWeight);
+        checkWeight("alongWeight", alongWeight);
+        checkWeight("acrossWeight", acrossWeight);
+        checkWeight("headingWeight", headingWeight);
+        checkWeight("alignDistance", alignDistance);
+        checkWeight("farHeadingWeight", farHeadingWeight);
+        check("maxIterations", maxIterations, maxIterations >= 1, "at least 1");
+    }
+
+    class Mpc::Solver
+    {
+    public:
+        Solver(const Vehicle &vehicle, const MpcParameters &parameters)
+          : vehicle_(vehicle),
+            parameters_(parameters),
+            cost_(vehicle, parameters),
+            unknowns_(Eigen::VectorXd::Zero(cost_.unknowns()))
+        {
+            limits_[SPEED].high = vehicle.maxSpeed;
+            limits_[SPEED].change = vehicle.maxAcceleration * parameters.step;
+            limits_[STEERING].low = -vehicle.maxSteeringAngle;
+            limits_[STEERING].high = vehicle.maxSteeringAngle;
+            limits_[STEERING].change = vehicle.maxSteeringRate * parameters.step;
+            options_.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+            options_.max_num_iterations = MOST_REJECTIONS;
+            options_.function_tolerance = FUNCTION_TOLERANCE;
+            options_.parameter_tolerance = 1e-6;
+            options_.gradient_tolerance = 1e-6;
+            options_.max_num_consecutive_invalid_steps = 2 * MOST_REJECTIONS;  // more would be printed
+            options_.num_threads = 1;
+            options_.logging_type = ceres::SILENT;
+            options_.minimizer_progress_to_stdout = false;
+            options_.callbacks.push_back(&stopAfterStep_);
+        }
+
+        const MpcParameters &parameters() const
+        {
+            return parameters_;
+        }
+
+        void reset()
+        {
+            warm_ = false;
+        }
+
+        MpcSolution solve(const MpcProblem &problem)
+        {
+            const auto begin = std::chrono::steady_clock::now();
+            MpcSolution solution;
+            if (problem.reference.size() != parameters_.horizon)
+                solution.message = "the reference has " + std::to_string(problem.reference.size()) +
+                                   " points; the horizon has " + std::to_string(parameters_.horizon) + " steps";
+            else if (!allFinite(problem))
+                solution.message = "the problem holds a number that is not finite";
+            else
+                run(problem, solution);
+            if (!solution.usable)
+                reset();
+            solution.solveTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            return solution;
+        }
+
+    private:
+        enum Channel
+        {
+            SPEED,
+            STEERING
+        };
+
+        void run(const MpcProblem &problem, MpcSolution &solution)
+        {
+            limits_[SPEED].last = problem.direction * (problem.speed + problem.driveLag * problem.acceleration);
+            limits_[STEERING].last =
+                std::clamp(problem.last.steering, -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
+            prepare(problem);
+            cost_.setProblem(problem);
+            options_.initial_trust_region_radius = FIRST_RADIUS;
+            last_.unknowns.resize(0);
+            std::optional<WorkingSet> before;
+            bool settled = false;
+            while (solution.iterations < parameters_.maxIterations)
+            {
+                if (last_.unknowns.size() == 0 || last_.unknowns != unknowns_)
+                {
+                    cost_.evaluate(unknowns_, last_.residuals, &last_.jacobian);
+                    last_.unknowns = unknowns_;
+                }
+                solution.cost = 0.5 * last_.residuals.squaredNorm();
+                if (!(solution.cost < LARGEST_COST) || !last_.jacobian.allFinite())
+                {
+                    // Ceres would print a complaint.
+                    solution.message = "the cost of the first guess is " + formatNumber(solution.cost);
+                    return;
+                }
+                const WorkingSet active(limits_, unknowns_, last_.jacobian.transpose() * last_.residuals);
+                if (active.freedom() == 0 || (settled && before && active == *before))
+                    break;
+                ceres::Solver::Summary summary;
+                improve(active, summary);
+                ++solution.iterations;
+                if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost) || !unknowns_.allFinite())
+                {
+                    solution.message = "the solver failed: " + summary.message;
+                    return;
+                }
+                settled = summary.initial_cost - summary.final_cost <= SETTLED * summary.initial_cost;
+                before = active;
+            }
+            warm_ = true;
+            extract(problem, solution);
+        }
+
+        /** One step that lowers the cost in the directions that the working set leaves, if there is one. */
+        void improve(const WorkingSet &active, ceres::Solver::Summary &summary)
+        {
+            FreeCost cost(cost_, limits_, active, unknowns_, last_);
+            std::vector<double> step(static_cast<std::size_t>(active.freedom()), 0.0);
+            ceres::Problem::Options problemOptions;
+            problemOptions.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+            problemOptions.disable_all_safety_checks = true;
+            ceres::Problem problem(problemOptions);
+            problem.AddResidualBlock(&cost, nullptr, step.data());
+            ceres::Solve(options_, &problem, &summary);
+            unknowns_ = cost.unknowns(step.data());
+            if (!summary.iterations.empty())
+                options_.initial_trust_region_radius =
+                    std::max(LEAST_RADIUS, summary.iterations.back().trust_region_radius);
+        }
+
+        /** First guess: the last answer, one step on, or the reference's own controls. */
+        void prepare(const MpcProblem &problem)
+        {
+            const Eigen::Index n = unknowns_.size();
+            if (warm_)
+            {
+                for (Eigen::Index i = 0; i + 2 < n; ++i)
+                    unknowns_[i] = unknowns_[i + 2];
+            }
+            else
+            {
+                for (Eigen::Index k = 0; 2 * k < n; ++k)
+                {
+                    const MpcReference &point = problem.reference[static_cast<std::size_t>(k)];
+                    unknowns_[2 * k] = problem.direction * point.speed;
+                    unknowns_[2 * k + 1] = point.steering;
+                }
+            }
+            cutToLimits(limits_, unknowns_);
+        }
+
+        void extract(const MpcProblem &problem, MpcSolution &solution) const
+        {
+            const double step = parameters_.step;
+            solution.controls.reserve(parameters_.horizon);
+            solution.predicted.reserve(parameters_.horizon);
+            const LagStep drive(problem.driveLag, step), steer(problem.steeringLag, step);
+            Pose pose = problem.pose;
+            double commanded = problem.direction * limits_[SPEED].last, speed = problem.speed;
+            double steering = limits_[STEERING].last, wheels = problem.wheels;
+            for (Eigen::Index k = 0; 2 * k < unknowns_.size(); ++k)
+            {
+                const double command = problem.direction * unknowns_[2 * k], angle = unknowns_[2 * k + 1];
+                solution.controls.push_back({(command - commanded) / step, angle});
+                const double nextSpeed = drive.ofCommand * command + drive.ofBefore * commanded + drive.ofValue * speed;
+                const double nextWheels = steer.ofCommand * angle + steer.ofBefore * steering + steer.ofValue * wheels;
+                const BicycleStep<double> moved = bicycleStep(pose.yaw, speed, (nextSpeed - speed) / step, wheels,
+                                                              nextWheels, step, vehicle_.wheelbase);
+                pose = {pose.x + moved.dx, pose.y + moved.dy, wrapAngle(pose.yaw + moved.dyaw)};
+                solution.predicted.push_back(pose);
+                commanded = command;
+                speed = nextSpeed;
+                steering = angle;
+                wheels = nextWheels;
+            }
+            solution.usable = true;
+        }
+
+        Vehicle vehicle_;
+        MpcParameters parameters_;
+        HorizonLimits limits_;
+        MpcCost cost_;
+        ceres::Solver::Options options_;
+        StopAfterStep stopAfterStep_;
+        Eigen::VectorXd unknowns_;
+        Evaluation last_;
+        bool warm_{false};
+    };
+
+    Mpc::Mpc(const Vehicle &vehicle, const MpcParameters &parameters)
+    {
+        vehicle.validate();
+        parameters.validate();
+        solver_ = std::make_unique<Solver>(vehicle, parameters);
+    }
+
+    Mpc::~Mpc() = default;
+    Mpc::Mpc(Mpc &&) noexcept = default;
+    Mpc &Mpc::operator=(Mpc &&) noexcept = default;
+
+    const MpcParameters &Mpc::parameters() const
+    {
+        return solver_->parameters();
+    }
+
+    void Mpc::reset()
+    {
+        solver_->reset();
+    }
+
+    MpcSolution Mpc::solve(const MpcProblem &problem)
+    {
+        return solver_->solve(problem);
+    }
+}  // namespace parking

@@ -1,0 +1,368 @@
+#include "path_tracking/control/TrackingController.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+#include "path_tracking/simulation/BicycleModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double STANDING = 0.01;          // m/s that count as standing
+        constexpr double SEARCH = 1.5;             // metres of path searched for the car on either side
+        constexpr double LAG_ALLOWED = 0.05;       // metres behind the timed path before its clock slows down
+        constexpr double LAG_STOP = 0.25;          // metres behind at which the clock stands still
+        constexpr double STUCK_TIME = 5.0;         // seconds with a standing clock after which the drive is given up
+        constexpr double STEERING_PATIENCE = 2.0;  // seconds without progress that the wheels are waited for
+        constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
+
+        void check(const char *field, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("tracking: ") + field + " is " + formatNumber(value) + "; it must be " + right);
+        }
+
+        void checkShare(const char *field, double value)
+        {
+            check(field, value, value > 0.0 && value <= 1.0, "above 0 and up to 1");
+        }
+
+        void checkPositive(const char *field, double value)
+        {
+            check(field, value, std::isfinite(value) && value > 0.0, "a positive number");
+        }
+
+        double towards(double from, double to, double most)
+        {
+            return std::clamp(to, from - most, from + most);
+        }
+    }  // namespace
+
+    void TrackingParameters::validate() const
+    {
+        mpc.validate();
+        reference.validate();
+        checkShare("speedShare", speedShare);
+        checkShare("accelerationShare", accelerationShare);
+        checkShare("steeringRateShare", steeringRateShare);
+        estimator.validate();
+        check("steeringLag", steeringLag, steeringLag >= 0.0 && steeringLag <= 0.5, "from 0 to 0.5 seconds");
+        check("driveLag", driveLag, driveLag >= 0.0 && driveLag <= 0.5, "from 0 to 0.5 seconds");
+        checkPositive("lateralAcceleration", lateralAcceleration);
+        checkPositive("stopTolerance", stopTolerance);
+        checkPositive("arrivalTolerance", arrivalTolerance);
+        checkPositive("settleTime", settleTime);
+        checkPositive("steeringTolerance", steeringTolerance);
+        checkPositive("maxCrossTrack", maxCrossTrack);
+        checkPositive("maxHeadingError", maxHeadingError);
+        check("maxFailures", maxFailures, maxFailures >= 0, "a count that is not negative");
+    }
+
+    SpeedLimits TrackingParameters::limits(const Vehicle &vehicle) const
+    {
+        SpeedLimits limits = SpeedLimits::of(vehicle);
+        limits.speed *= speedShare;
+        limits.acceleration *= accelerationShare;
+        limits.steeringRate *= steeringRateShare;
+        limits.lateralAcceleration = lateralAcceleration;
+        return limits;
+    }
+
+    TrackingController::TrackingController(const Path &path, const Vehicle &vehicle,
+                                           const TrackingParameters &parameters, double initialSteering, Solve solve)
+      : vehicle_(vehicle),
+        parameters_((parameters.validate(), parameters)),
+        profile_(ReferencePath(path, vehicle, parameters.reference), parameters.limits(vehicle), initialSteering),
+        mpc_(vehicle, parameters.mpc),
+        solve_(std::move(solve)),
+        estimator_(vehicle.wheelbase, parameters.estimator),
+        steeringLag_(parameters.steeringLag),
+        driveLag_(parameters.driveLag)
+    {
+        last_.steering = initialSteering;
+        steeringBefore_ = initialSteering;
+        s_ = leg().beginLength;
+    }
+
+    void TrackingController::requestStop(const std::string &reason)
+    {
+        stopRequest_ = reason.empty() ? "stop requested" : reason;
+    }
+
+    TrackingStep TrackingController::step(const Measurement &measurement)
+    {
+        TrackingStep step;
+        const bool known = takeMeasurement(measurement, step);
+        if (!known)
+            beginStop("the measured pose is not usable", step);
+        else if (!stopRequest_.empty())
+            beginStop(std::exchange(stopRequest_, {}), step);
+        locate(step);
+        watch(step);
+        bool over = mode_ == TrackingMode::Driving && legOver();
+        if (over && std::abs(estimator_.measuredSpeed()) <= STANDING)
+        {
+            nextLeg(step);
+            over = false;
+        }
+        if (mode_ == TrackingMode::Steering)
+            steer(step);
+        if (mode_ == TrackingMode::Driving && over)
+            standStill(step, last_.steering, vehicle_.maxSteeringRate);
+        else if (mode_ == TrackingMode::Driving)
+            drive(step);
+        if (mode_ == TrackingMode::Braking)
+            brake(step);
+        if (finished())
+            standStill(step, last_.steering, vehicle_.maxSteeringRate);
+
+        step.mode = mode_;
+        step.leg = leg_;
+        step.estimate = estimator_.pose();
+        held_ = step.command.hold;
+        steeringBefore_ = last_.steering;
+        last_ = {step.command.acceleration, step.command.steering};
+        return step;
+    }
+
+    bool TrackingController::takeMeasurement(const Measurement &measurement, TrackingStep &step)
+    {
+        const double period = parameters_.mpc.step;
+        const bool usable =
+            isFinite(measurement.pose) && std::isfinite(measurement.speed) && std::isfinite(measurement.steering);
+        if (!started_)
+        {
+            // Nothing to reckon from: the first measurement must be good.
+            started_ = usable;
+            estimator_.start(usable ? measurement
+                                    : Measurement{profile_.reference().pose(0, 0.0), 0.0, last_.steering});
+            return usable;
+        }
+        if (!usable)
+        {
+            estimator_.predict(period, estimator_.measuredSpeed() + last_.acceleration * period, last_.steering);
+            step.event = "measurement not finite: dead reckoning";
+            return ++lostMeasurements_ <= parameters_.maxFailures;
+        }
+        lostMeasurements_ = 0;
+        steeringLag_.learn(period, steeringBefore_, last_.steering, estimator_.measuredSteering(),
+                           measurement.steering);
+        if (held_)
+            driveLag_.hold();
+        else
+            driveLag_.learn(period, last_.acceleration, estimator_.measuredSpeed(), measurement.speed);
+        estimator_.predict(period, measurement.speed, measurement.steering);
+        estimator_.correct(measurement.pose);
+        return true;
+    }
+
+    void TrackingController::locate(TrackingStep &step)
+    {
+        const PathProjection place = profile_.reference().project(leg_, estimator_.pose(), s_ - SEARCH, s_ + SEARCH);
+        s_ = place.s;
+        beyond_ = place.beyond;
+        step.s = place.s;
+        step.crossTrack = place.lateral;
+        step.headingError = place.yaw;
+    }
+
+    void TrackingController::watch(TrackingStep &step)
+    {
+        if (mode_ != TrackingMode::Driving && mode_ != TrackingMode::Steering)
+            return;
+        if (std::abs(step.crossTrack) > parameters_.maxCrossTrack)
+            beginStop(
+                "the car is " + formatNumber(std::round(100.0 * std::abs(step.crossTrack))) + " cm beside the path",
+                step);
+        else if (std::abs(step.headingError) > parameters_.maxHeadingError)
+            beginStop("the heading is " + formatNumber(std::round(std::abs(step.headingError) * 180.0 / PI)) +
+                          " degrees off the path",
+                      step);
+        else if (std::abs(estimator_.speed()) > 1.1 * vehicle_.maxSpeed + STANDING)
+            beginStop("the car is faster than its limit", step);
+        else if (leg().direction * estimator_.speed() < -0.1 && mode_ == TrackingMode::Driving)
+            beginStop("the car moves against the direction of the path", step);
+    }
+
+    bool TrackingController::legOver() const
+    {
+        const double over = clock_ - profile_.legDuration(leg_);
+        if (over >= parameters_.settleTime)
+            return true;
+        const double left = leg().endLength - (s_ + beyond_);
+        // Beyond the end nothing is left to drive; shortly before it the timed path is given its time.
+        return left <= (over >= 0.0 ? parameters_.stopTolerance : 0.0);
+    }
+
+    void TrackingController::nextLeg(TrackingStep &step)
+    {
+        if (leg_ + 1 == profile_.reference().legs().size())
+        {
+            const Pose end = profile_.reference().end();
+            const double off = std::hypot(estimator_.pose().x - end.x, estimator_.pose().y - end.y);
+            mode_ = off <= parameters_.arrivalTolerance ? TrackingMode::Arrived : TrackingMode::Stopped;
+            if (mode_ == TrackingMode::Stopped)
+                step.event = "stopped " + formatNumber(std::round(100.0 * off)) + " cm from the end of the path";
+            return;
+        }
+        ++leg_;
+        s_ = leg().beginLength;
+        mode_ = TrackingMode::Steering;
+        waited_ = 0.0;
+        wheelsOff_ = 0.0;
+        locate(step);
+    }
+
+    void TrackingController::beginStop(const std::string &reason, TrackingStep &step)
+    {
+        if (mode_ != TrackingMode::Driving && mode_ != TrackingMode::Steering)
+            return;
+        mode_ = TrackingMode::Braking;
+        step.event = "safe stop: " + reason;
+    }
+
+    void TrackingController::standStill(TrackingStep &step, double steering, double rate)
+    {
+        const double period = parameters_.mpc.step;
+        step.command.hold = true;
+        step.command.acceleration =
+            std::clamp(-estimator_.measuredSpeed() / period, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+        step.command.steering = towards(last_.steering, steering, rate * period);
+    }
+
+    void TrackingController::steer(TrackingStep &step)
+    {
+        const double target = leg().steering.front().angle;
+        const double off = std::abs(estimator_.measuredSteering() - target);
+        const bool standing = std::abs(estimator_.measuredSpeed()) <= STANDING;
+        if (last_.steering == target && standing && off <= parameters_.steeringTolerance)
+        {
+            mode_ = TrackingMode::Driving;
+            clock_ = 0.0;
+            waited_ = 0.0;
+            planAge_ = 0;
+            plan_.clear();
+            mpc_.reset();
+            return;
+        }
+        // Wheels that come nearer are given time; wheels that do not move are broken.
+        waited_ = off < wheelsOff_ - LEAST_PROGRESS || last_.steering != target ? 0.0 : waited_ + parameters_.mpc.step;
+        wheelsOff_ = off;
+        if (waited_ > STEERING_PATIENCE)
+        {
+            beginStop(standing ? "the wheels do not follow their command" : "the car does not stand still", step);
+            return;
+        }
+        standStill(step, target, profile_.limits().steeringRate);
+    }
+
+    MpcProblem TrackingController::makeProblem() const
+    {
+        const double period = parameters_.mpc.step;
+        MpcProblem problem;
+        problem.pose = estimator_.pose();
+        problem.speed = estimator_.speed();
+        problem.last = {last_.acceleration * estimator_.speedScale(), last_.steering + estimator_.steeringOffset()};
+        problem.wheels = estimator_.steering();
+        problem.acceleration = estimator_.speedScale() * driveLag_.acceleration();
+        problem.driveLag = driveLag_.lag();
+        problem.steeringLag = steeringLag_.lag();
+        problem.direction = leg().direction;
+        problem.steeringNow = profile_.reference().steering(leg_, profile_.at(leg_, clock_ + steeringLag_.lag()).s);
+        const Pose goal = profile_.reference().end();
+        problem.align =
+            std::hypot(goal.x - estimator_.pose().x, goal.y - estimator_.pose().y) < parameters_.mpc.alignDistance;
+        problem.reference.reserve(parameters_.mpc.horizon);
+        for (std::size_t k = 1; k <= parameters_.mpc.horizon; ++k)
+        {
+            const double time = clock_ + static_cast<double>(k) * period;
+            const ProfilePoint point = profile_.at(leg_, time);
+            // The command has to be ahead of the wheels by their lag.
+            const double ahead = profile_.at(leg_, time + steeringLag_.lag()).s;
+            problem.reference.push_back({profile_.reference().pose(leg_, point.s),
+                                         leg().direction * profile_.at(leg_, time + driveLag_.lag()).speed,
+                                         profile_.reference().steering(leg_, ahead)});
+        }
+        return problem;
+    }
+
+    bool TrackingController::useOldPlan(const std::string &why, TrackingStep &step)
+    {
+        ++failures_;
+        step.event = why;
+        if (failures_ > parameters_.maxFailures || planAge_ >= plan_.size())
+            return false;
+        step.command.acceleration = plan_[planAge_].acceleration / estimator_.speedScale();
+        step.command.steering = plan_[planAge_].steering - estimator_.steeringOffset();
+        ++planAge_;
+        return true;
+    }
+
+    void TrackingController::drive(TrackingStep &step)
+    {
+        const double period = parameters_.mpc.step;
+        const MpcProblem problem = makeProblem();
+        const MpcSolution solution = solve_ ? solve_(problem) : mpc_.solve(problem);
+        step.solved = true;
+        step.solveTime = solution.solveTime;
+        step.iterations = solution.iterations;
+        // An optimiser from outside is trusted neither with numbers nor with limits.
+        const bool good = solution.usable && !solution.controls.empty() &&
+                          std::all_of(solution.controls.begin(), solution.controls.end(),
+                                      [](const MpcControl &control) {
+                                          return std::isfinite(control.acceleration) && std::isfinite(control.steering);
+                                      });
+        step.solverFailed = !good;
+        if (good)
+        {
+            failures_ = 0;
+            plan_ = solution.controls;
+            planAge_ = 1;
+            step.command.acceleration = plan_.front().acceleration / estimator_.speedScale();
+            step.command.steering = plan_.front().steering - estimator_.steeringOffset();
+        }
+        else
+        {
+            const std::string why = solution.message.empty() ? "the solver gave no finite answer" : solution.message;
+            if (!useOldPlan(why, step))
+            {
+                beginStop(why, step);
+                return;
+            }
+        }
+        step.command.acceleration =
+            std::clamp(step.command.acceleration, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+        step.command.steering =
+            std::clamp(towards(last_.steering, step.command.steering, vehicle_.maxSteeringRate * period),
+                       -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
+
+        const double behind = profile_.at(leg_, clock_).s - (s_ + beyond_);
+        const double rate = std::clamp((LAG_STOP - behind) / (LAG_STOP - LAG_ALLOWED), 0.0, 1.0);
+        clock_ += rate * period;
+        waited_ = rate < 0.05 ? waited_ + period : 0.0;
+        if (waited_ > STUCK_TIME)
+            beginStop("the car does not move on", step);
+    }
+
+    void TrackingController::brake(TrackingStep &step)
+    {
+        if (std::abs(estimator_.speed()) <= STANDING)
+        {
+            mode_ = TrackingMode::Stopped;
+            return;
+        }
+        // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
+        constexpr double K1 = 0.5, K2 = 1.2;
+        const double direction = leg().direction;
+        const double curvature = vehicle_.curvature(profile_.reference().steering(leg_, s_)) - K1 * step.crossTrack -
+                                 direction * K2 * step.headingError;
+        standStill(step,
+                   std::clamp(vehicle_.steeringAngle(curvature), -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle),
+                   vehicle_.maxSteeringRate);
+    }
+}  // namespace parking

@@ -1,0 +1,80 @@
+#include "path_tracking/simulation/ActuatorLag.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double LEAST_ANGLE = 0.005;        // radians that say something
+        constexpr double LEAST_ACCELERATION = 0.05;  // m/s^2, likewise
+        constexpr double SHORTEST_LAG = 1e-3;        // seconds; below it there is none
+        constexpr double LONGEST_LAG = 0.5;          // seconds
+        constexpr double GAIN = 0.2;  // share of what one period says that is believed; the first say more
+
+        /** Share of a step that the mean of a period has not followed; it rises with the lag. */
+        double unfollowed(double lag, double duration)
+        {
+            return lag / duration * (1.0 - std::exp(-duration / lag));
+        }
+    }  // namespace
+
+    LagStep::LagStep(double lag, double duration)
+    {
+        if (!(lag > 0.0))
+            return;
+        // With q = exp(-h / T): value' = c' - T / h (1 - q) (c' - c) - q (c - value).
+        ofValue = std::exp(-duration / lag);
+        const double late = lag / duration * (1.0 - ofValue);
+        ofCommand = 1.0 - late;
+        ofBefore = late - ofValue;
+    }
+
+    void LagEstimator::learn(double duration, double change, double trailingBefore, double trailing, double least)
+    {
+        const double sign = change + trailingBefore > 0.0 ? 1.0 : -1.0;
+        const double c = sign * change, b = sign * trailingBefore;
+        // With both of one sign what is seen rises with the lag. A value that overtook its command says nothing.
+        if (c + b < least || std::min(c, b) < -0.1 * least)
+            return;
+        double low = SHORTEST_LAG, high = LONGEST_LAG;
+        for (int i = 0; i < 20; ++i)
+        {
+            const double middle = 0.5 * (low + high);
+            const double expected = c * unfollowed(middle, duration) + b * std::exp(-duration / middle);
+            (expected < sign * trailing ? low : high) = middle;
+        }
+        const double observed = low <= SHORTEST_LAG ? 0.0 : low;
+        ++seen_;
+        lag_ += std::max(GAIN, 1.0 / (1.0 + seen_)) * (observed - lag_);
+        if (lag_ < SHORTEST_LAG)
+            lag_ = 0.0;
+    }
+
+    void SteeringLagEstimator::learn(double duration, double commandBefore, double command, double wheelsBefore,
+                                     double wheels)
+    {
+        estimator_.learn(duration, command - commandBefore, commandBefore - wheelsBefore, command - wheels,
+                         LEAST_ANGLE);
+    }
+
+    void DriveLagEstimator::learn(double duration, double command, double speedBefore, double speed)
+    {
+        const double mean = (speed - speedBefore) / duration;
+        const double trailing = command - mean;
+        estimator_.learn(duration, command - commandBefore_, trailingBefore_, trailing, LEAST_ACCELERATION);
+        commandBefore_ = command;
+        trailingBefore_ = trailing;
+        const double lag = estimator_.lag();
+        acceleration_ =
+            lag > 0.0 ? command - std::exp(-duration / lag) * trailing / unfollowed(lag, duration) : command - trailing;
+    }
+
+    void DriveLagEstimator::hold()
+    {
+        acceleration_ = 0.0;
+        commandBefore_ = 0.0;
+        trailingBefore_ = 0.0;
+    }
+}  // namespace parking

@@ -1,0 +1,260 @@
+#include "path_tracking/simulation/ClosedLoop.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        void checkPositive(const char *field, double value)
+        {
+            if (!(std::isfinite(value) && value > 0.0))
+                throw Error(std::string("closed loop: ") + field + " is " + formatNumber(value) +
+                            "; it must be a positive number");
+        }
+
+        /** Gathers the figures of a drive while it goes on. */
+        class Recorder
+        {
+        public:
+            Recorder(const Vehicle &vehicle, const TrackingController &controller,
+                     const ClosedLoop::Clearance &clearance, const ClosedLoop::Validity &validity, double checkDistance)
+              : controller_(controller),
+                clearance_(clearance),
+                validity_(validity),
+                checkDistance_(checkDistance),
+                reach_(std::hypot(std::max(vehicle.wheelbase + vehicle.frontOverhang, vehicle.rearOverhang),
+                                  0.5 * vehicle.width))
+            {
+            }
+
+            /** Checks the body at \e pose for collision. */
+            void check(const Pose &pose)
+            {
+                ++figures_.checkedPoses;
+                bool hit = false;
+                if (clearance_)
+                {
+                    const double clearance = clearance_(pose);
+                    figures_.minClearance = std::min(figures_.minClearance, clearance);
+                    hit = !(clearance > 0.0);
+                }
+                if (validity_)
+                    hit = hit || !validity_(pose);
+                if (hit)
+                    ++figures_.collisions;
+                checked_ = pose;
+            }
+
+            /** One step of the plant, \e duration long, that ended in \e state; on leg \e leg near \e s. */
+            void move(const Plant::State &state, double duration, std::size_t leg, double s, bool onLeg)
+            {
+                const double driven = std::hypot(state.pose.x - last_.pose.x, state.pose.y - last_.pose.y);
+                figures_.drivenLength += driven;
+                time_ += duration;
+                accelerationTime_ += duration * std::abs(state.acceleration);
+                steeringTime_ += duration * std::abs(state.steering);
+                const Pose before = last_.pose;
+                last_ = state;
+                if (driven > 0.0 && onLeg)
+                {
+                    const PathProjection place =
+                        controller_.profile().reference().project(leg, state.pose, s - 1.0, s + 1.0);
+                    figures_.maxCrossTrack = std::max(figures_.maxCrossTrack, std::abs(place.lateral));
+                    figures_.maxPositionError = std::max(figures_.maxPositionError, place.distance);
+                    figures_.maxHeadingError = std::max(figures_.maxHeadingError, std::abs(place.yaw));
+                    legTime_ += duration;
+                    crossTrackTime_ += duration * std::abs(place.lateral);
+                }
+                // Checked when the next step might go beyond the distance.
+                if ((clearance_ || validity_) &&
+                    bodyMotion(checked_, state.pose) + bodyMotion(before, state.pose) >= checkDistance_)
+                    check(state.pose);
+            }
+
+            void begin(const Plant::State &state)
+            {
+                last_ = state;
+                checked_ = state.pose;
+                if (clearance_ || validity_)
+                    check(state.pose);
+            }
+
+            Evaluation finish(const Path &path, double travelTime)
+            {
+                const ReferencePath &reference = controller_.profile().reference();
+                if (clearance_ || validity_)
+                    check(last_.pose);
+                figures_.plannedLength = reference.length();
+                figures_.plannedTime = controller_.profile().duration();
+                figures_.travelTime = travelTime;
+                figures_.cornerDeviation = reference.cornerDeviation();
+                figures_.standstills = reference.legs().size() - 1;
+                if (time_ > 0.0)
+                {
+                    figures_.meanAbsAcceleration = accelerationTime_ / time_;
+                    figures_.meanAbsSteering = steeringTime_ / time_;
+                }
+                if (legTime_ > 0.0)
+                    figures_.meanCrossTrack = crossTrackTime_ / legTime_;
+                const Pose &wanted = path.back().pose;
+                figures_.finalPositionError = std::hypot(last_.pose.x - wanted.x, last_.pose.y - wanted.y);
+                figures_.finalYawError = std::abs(wrapAngle(last_.pose.yaw - wanted.yaw));
+                const Pose end = reference.end();
+                figures_.finalReferenceError = std::hypot(last_.pose.x - end.x, last_.pose.y - end.y);
+                figures_.solves = solveTimes_.size();
+                figures_.solveTime = timeStatistics(std::move(solveTimes_));
+                return figures_;
+            }
+
+            void note(const TrackingStep &step)
+            {
+                if (!step.solved)
+                    return;
+                solveTimes_.push_back(step.solveTime);
+                if (step.solverFailed)
+                    ++figures_.solverFailures;
+            }
+
+        private:
+            /** Metres that no point of the body moves farther than. */
+            double bodyMotion(const Pose &from, const Pose &to) const
+            {
+                return std::hypot(to.x - from.x, to.y - from.y) + reach_ * std::abs(wrapAngle(to.yaw - from.yaw));
+            }
+
+            const TrackingController &controller_;
+            const ClosedLoop::Clearance &clearance_;
+            const ClosedLoop::Validity &validity_;
+            double checkDistance_;
+            double reach_;
+            Plant::State last_;
+            Pose checked_;
+            Evaluation figures_;
+            std::vector<double> solveTimes_;
+            double time_{0.0}, legTime_{0.0};
+            double accelerationTime_{0.0}, steeringTime_{0.0}, crossTrackTime_{0.0};
+        };
+    }  // namespace
+
+    void ClosedLoopParameters::validate() const
+    {
+        tracking.validate();
+        disturbances.validate();
+        checkPositive("plantStep", plantStep);
+        checkPositive("checkDistance", checkDistance);
+        checkPositive("patience", patience);
+    }
+
+    ClosedLoop::ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters)
+      : vehicle_(vehicle),
+        parameters_(parameters)
+    {
+        vehicle.validate();
+        parameters.validate();
+    }
+
+    void ClosedLoop::setClearance(Clearance clearance)
+    {
+        clearance_ = std::move(clearance);
+    }
+
+    void ClosedLoop::setValidity(Validity validity)
+    {
+        validity_ = std::move(validity);
+    }
+
+    void ClosedLoop::setMonitor(Monitor monitor)
+    {
+        monitor_ = std::move(monitor);
+    }
+
+    void ClosedLoop::setSolve(TrackingController::Solve solve)
+    {
+        solve_ = std::move(solve);
+    }
+
+    DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
+    {
+        TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering, solve_);
+        const ReferencePath &reference = controller.profile().reference();
+        Plant plant(vehicle_, parameters_.disturbances, start.value_or(path.front().pose), initialSteering,
+                    parameters_.plantStep);
+        Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);
+        recorder.begin(plant.state());
+
+        const double period = parameters_.tracking.mpc.step;
+        const double patience = 60.0 + parameters_.patience * controller.profile().duration();
+        DriveResult result;
+        double t = 0.0, trueS = 0.0;
+        std::size_t trueLeg = 0;
+        const auto addPoint = [&](double time, const Plant::State &state, double steeringRate)
+        {
+            result.trajectory.push_back({time, state.pose.x, state.pose.y, state.pose.yaw, state.speed,
+                                         state.acceleration, state.steering, steeringRate});
+        };
+        const auto addEvent = [&](const std::string &event)
+        {
+            result.events.push_back(formatNumber(std::round(1000.0 * t) / 1000.0) + " s: " + event);
+        };
+
+        for (std::size_t count = 0;; ++count)
+        {
+            t = static_cast<double>(count) * period;
+            if (t > patience)
+                controller.requestStop("the drive takes too long");
+            DriveRecord record;
+            record.t = t;
+            record.car = plant.state();
+            record.measurement = plant.measure();
+            record.control = controller.step(record.measurement);
+            recorder.note(record.control);
+            if (record.control.leg != trueLeg)
+            {
+                trueLeg = record.control.leg;
+                trueS = reference.legs()[trueLeg].beginLength;
+            }
+            const PathProjection place = reference.project(trueLeg, record.car.pose, trueS - 1.0, trueS + 1.0);
+            trueS = place.s;
+            record.crossTrack = place.lateral;
+            record.headingError = place.yaw;
+            if (!record.control.event.empty())
+            {
+                addEvent(record.control.event);
+                if (controller.mode() == TrackingMode::Braking || controller.mode() == TrackingMode::Stopped)
+                    result.message = record.control.event;
+            }
+            const bool over = controller.finished() && record.car.speed == 0.0;
+            if (!over && monitor_ && !monitor_(record))
+                controller.requestStop("the monitor asked for it");
+            result.log.push_back(record);
+            if (over)
+                break;
+            const bool onLeg =
+                record.control.mode == TrackingMode::Driving || record.control.mode == TrackingMode::Braking;
+            double at = 0.0;
+            Plant::State first = record.car;
+            plant.drive(record.control.command, period,
+                        [&](double time, const Plant::State &state)
+                        {
+                            if (at == 0.0)
+                                first.acceleration = state.acceleration;
+                            recorder.move(state, time - at, trueLeg, trueS, onLeg);
+                            at = time;
+                        });
+            addPoint(t, first, (plant.state().steering - record.car.steering) / period);
+        }
+        addPoint(t, plant.state(), 0.0);
+        result.arrived = controller.mode() == TrackingMode::Arrived;
+        if (result.arrived)
+            result.message = "arrived";
+        result.evaluation = recorder.finish(path, t);
+        return result;
+    }
+}  // namespace parking

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/Vehicle.h"
+#include "path_tracking/simulation/Evaluation.h"
+#include "path_tracking/simulation/Plant.h"
+#include "path_tracking/control/TrackingController.h"
+#include "path_tracking/reference/Trajectory.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief How a drive is simulated. */
+    struct ClosedLoopParameters
+    {
+        TrackingParameters tracking;
+        Disturbances disturbances;
+        double plantStep{0.005};  ///< seconds of integration
+        /** Metres that the body moves at most between two collision checks. */
+        double checkDistance{0.02};
+        /** Seconds after which the drive is stopped: this share of the timed path's duration, and a minute. */
+        double patience{2.0};
+
+        /** \brief Throws parking::Error naming the first field out of its range. */
+        void validate() const;
+    };
+
+    /** \brief One period of the drive. */
+    struct DriveRecord
+    {
+        double t{0.0};             ///< seconds, begin of the period
+        Plant::State car;          ///< what it was really doing then
+        Measurement measurement;   ///< what the controller was told
+        TrackingStep control;      ///< what it made of it
+        double crossTrack{0.0};    ///< metres left of the reference, of the true pose
+        double headingError{0.0};  ///< radians, of the true pose
+    };
+
+    /** \brief What came of a drive. */
+    struct DriveResult
+    {
+        bool arrived{false};              ///< standing at the end of the path, not after a safe stop
+        std::string message;              ///< why it ended: "arrived", or the reason of the stop
+        Trajectory trajectory;            ///< the driven one, a point per period and one at the end
+        std::vector<DriveRecord> log;     ///< a record per period
+        std::vector<std::string> events;  ///< with their times: failures, stops
+        Evaluation evaluation;
+    };
+
+    /** \brief Drives a simulated car along a path.
+
+        The controller runs once per period of the MPC, the plant is integrated in smaller steps between. Equal inputs
+        give equal results (but for the solver's times). */
+    class ClosedLoop
+    {
+    public:
+        /** \brief Signed distance in metres from the body at a pose to the nearest obstacle, not positive in collision;
+            a lower bound will do. */
+        using Clearance = std::function<double(const Pose &)>;
+        /** \brief Is the pose free? */
+        using Validity = std::function<bool(const Pose &)>;
+        /** \brief Looks at each period; returning false asks for a safe stop (a changed map, for example). */
+        using Monitor = std::function<bool(const DriveRecord &)>;
+
+        /** \brief Throws parking::Error when \e vehicle or \e parameters are not valid. */
+        ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters = {});
+
+        void setClearance(Clearance clearance);
+        void setValidity(Validity validity);
+        void setMonitor(Monitor monitor);
+        /** \brief Replaces the optimiser (see TrackingController). */
+        void setSolve(TrackingController::Solve solve);
+
+        /** \brief Drives along \e path.
+
+            \param start where the car really stands; the begin of the path when absent
+            \param initialSteering radians, of the wheels
+            Throws parking::Error for a path that cannot be used; what happens on the way is in the result. */
+        DriveResult drive(const Path &path, const std::optional<Pose> &start = std::nullopt,
+                          double initialSteering = 0.0) const;
+
+    private:
+        Vehicle vehicle_;
+        ClosedLoopParameters parameters_;
+        Clearance clearance_;
+        Validity validity_;
+        Monitor monitor_;
+        TrackingController::Solve solve_;
+    };
+}  // namespace parking

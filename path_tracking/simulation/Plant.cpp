@@ -1,0 +1,127 @@
+#include "path_tracking/simulation/Plant.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace parking
+{
+    namespace
+    {
+        void check(const char *field, double value, bool ok, const char *right)
+        {
+            if (!ok)
+                throw Error(std::string("disturbances: ") + field + " is " + formatNumber(value) + "; it must be " +
+                            right);
+        }
+
+        void checkSize(const char *field, double value)
+        {
+            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
+        }
+    }  // namespace
+
+    Disturbances Disturbances::everyday(std::uint64_t seed)
+    {
+        Disturbances disturbances;
+        disturbances.steeringLag = 0.1;
+        disturbances.positionNoise = 0.02;
+        disturbances.yawNoise = 0.5 * PI / 180.0;
+        disturbances.speedBias = 0.05;
+        disturbances.seed = seed;
+        return disturbances;
+    }
+
+    void Disturbances::validate() const
+    {
+        checkSize("steeringLag", steeringLag);
+        checkSize("accelerationLag", accelerationLag);
+        checkSize("positionNoise", positionNoise);
+        checkSize("yawNoise", yawNoise);
+        check("speedBias", speedBias, std::abs(speedBias) < 1.0, "above -1 and below 1");
+        check("steeringOffset", steeringOffset, std::abs(steeringOffset) < 1.0, "above -1 and below 1 radian");
+    }
+
+    Plant::Plant(const Vehicle &vehicle, const Disturbances &disturbances, const Pose &pose, double steering,
+                 double step)
+      : vehicle_(vehicle),
+        disturbances_(disturbances),
+        step_(step),
+        random_(disturbances.seed),
+        pose_(pose),
+        servo_(steering),
+        wheels_(steering)
+    {
+        disturbances.validate();
+        if (!(std::isfinite(step) && step > 0.0))
+            throw Error("plant: the step is " + formatNumber(step) + "; it must be a positive number of seconds");
+    }
+
+    Plant::State Plant::state() const
+    {
+        const double share = 1.0 + disturbances_.speedBias;
+        return {pose_, share * speed_, wheels_ + disturbances_.steeringOffset, share * acceleration_};
+    }
+
+    double Plant::normal()
+    {
+        // Box and Muller's transform: std::normal_distribution differs between standard libraries.
+        const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53;
+        const double w = static_cast<double>(random_() >> 11) * 0x1p-53;
+        return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * PI * w);
+    }
+
+    Measurement Plant::measure()
+    {
+        Measurement measurement{pose_, speed_, wheels_};
+        measurement.pose.x += disturbances_.positionNoise * normal();
+        measurement.pose.y += disturbances_.positionNoise * normal();
+        measurement.pose.yaw = wrapAngle(measurement.pose.yaw + disturbances_.yawNoise * normal());
+        return measurement;
+    }
+
+    void Plant::drive(const Command &command, double duration,
+                      const std::function<void(double time, const State &)> &visit)
+    {
+        const int steps = std::max(1, static_cast<int>(std::ceil(duration / step_ - 1e-9)));
+        const double h = duration / steps;
+        const double servoBegin = servo_;
+        for (int i = 1; i <= steps; ++i)
+        {
+            // The servo moves evenly to its command, no faster than it can.
+            const double share = static_cast<double>(i) / steps;
+            const double wanted = servoBegin + share * (command.steering - servoBegin);
+            const double most = vehicle_.maxSteeringRate * h;
+            servo_ += std::clamp(wanted - servo_, -most, most);
+            servo_ = std::clamp(servo_, -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
+            const double wheelsBefore = wheels_;
+            wheels_ = disturbances_.steeringLag > 0.0
+                          ? servo_ + (wheels_ - servo_) * std::exp(-h / disturbances_.steeringLag)
+                          : servo_;
+
+            double asked = std::clamp(command.acceleration, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+            if (command.hold && asked * speed_ >= 0.0)
+                asked = speed_ == 0.0 ? 0.0 : -std::copysign(vehicle_.maxAcceleration, speed_);
+            acceleration_ = disturbances_.accelerationLag > 0.0
+                                ? asked + (acceleration_ - asked) * std::exp(-h / disturbances_.accelerationLag)
+                                : asked;
+            const double speedBefore = speed_;
+            speed_ += acceleration_ * h;
+            // A held brake does not push the car beyond standstill.
+            if (command.hold && (speedBefore == 0.0 || speedBefore * speed_ <= 0.0 || std::abs(speed_) < 1e-9))
+            {
+                speed_ = 0.0;
+                acceleration_ = 0.0;
+            }
+            const double driven = 0.5 * (speedBefore + speed_) * h * (1.0 + disturbances_.speedBias);
+            const double angle = 0.5 * (wheelsBefore + wheels_) + disturbances_.steeringOffset;
+            pose_ = advance(pose_, vehicle_.curvature(angle), driven);
+            pose_.yaw = wrapAngle(pose_.yaw);
+            if (visit)
+                visit(share * duration, state());
+        }
+    }
+}  // namespace parking

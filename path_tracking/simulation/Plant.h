@@ -1,0 +1,70 @@
+#pragma once
+
+#include "parking_geometry/Vehicle.h"
+#include "path_tracking/control/TrackingController.h"
+
+#include <cstdint>
+#include <functional>
+#include <random>
+
+namespace parking
+{
+    /** \brief What makes the simulated car differ from the controller's model. All zero: the nominal car. */
+    struct Disturbances
+    {
+        double steeringLag{0.0};      ///< seconds, time constant of the wheels behind the servo
+        double accelerationLag{0.0};  ///< seconds, time constant of the drive
+        double positionNoise{0.0};    ///< metres, standard deviation of x and of y of each measurement
+        double yawNoise{0.0};         ///< radians, standard deviation of each measurement
+        double speedBias{0.0};        ///< the car moves (1 + bias) times as fast as it measures
+        double steeringOffset{0.0};   ///< radians that the wheels stand farther left than measured
+        std::uint64_t seed{1};        ///< of the noise
+
+        /** \brief What the figures of docs/path-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
+           and 0.5 degrees, 5 % of speed bias. */
+        static Disturbances everyday(std::uint64_t seed);
+
+        /** \brief Throws parking::Error naming the first field out of its range. */
+        void validate() const;
+    };
+
+    /** \brief A simulated car. */
+    class Plant
+    {
+    public:
+        /** \param step seconds of integration, positive */
+        Plant(const Vehicle &vehicle, const Disturbances &disturbances, const Pose &pose, double steering, double step);
+
+        /** \brief What the car is really doing. */
+        struct State
+        {
+            Pose pose;
+            double speed{0.0};         ///< m/s over ground
+            double steering{0.0};      ///< radians, of the wheels, offset included
+            double acceleration{0.0};  ///< m/s^2 over ground
+        };
+
+        State state() const;
+
+        /** \brief The next measurement; noise advances with every call. */
+        Measurement measure();
+
+        /** \brief Lets the car do as commanded for \e duration seconds; \e visit is called after each integration step.
+         */
+        void drive(const Command &command, double duration,
+                   const std::function<void(double time, const State &)> &visit);
+
+    private:
+        double normal();
+
+        Vehicle vehicle_;
+        Disturbances disturbances_;
+        double step_;
+        std::mt19937_64 random_;
+        Pose pose_;
+        double speed_{0.0};         // as measured
+        double acceleration_{0.0};  // as measured
+        double servo_{0.0};         // where the servo is
+        double wheels_{0.0};        // where the wheels are, as measured
+    };
+}  // namespace parking

@@ -1,0 +1,211 @@
+#include "state_validity/fcl/ConvexDecomposition.h"
+
+#include "parking_geometry/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        double turn(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
+        {
+            return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+        }
+
+        using Corners = std::vector<std::size_t>;
+
+        bool isConvex(const Polygon &points, const Corners &corners)
+        {
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                if (turn(points[corners[i]], points[corners[(i + 1) % corners.size()]],
+                         points[corners[(i + 2) % corners.size()]]) < 0.0)
+                    return false;
+            // Every corner turning left still allows a spiral; a convex outline turns round once.
+            double total = 0.0;
+            for (std::size_t i = 0; i < corners.size(); ++i)
+            {
+                const Eigen::Vector2d in = points[corners[(i + 1) % corners.size()]] - points[corners[i]];
+                const Eigen::Vector2d out =
+                    points[corners[(i + 2) % corners.size()]] - points[corners[(i + 1) % corners.size()]];
+                total += std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+            }
+            return total < 7.0;
+        }
+
+        std::vector<Corners> clipEars(const Polygon &points)
+        {
+            Corners left(points.size());
+            for (std::size_t i = 0; i < left.size(); ++i)
+                left[i] = i;
+            std::vector<Corners> triangles;
+            while (left.size() > 3)
+            {
+                const std::size_t count = left.size();
+                std::size_t best = count;
+                double bestQuality = -1.0;
+                for (std::size_t i = 0; i < count; ++i)
+                {
+                    const Eigen::Vector2d &a = points[left[(i + count - 1) % count]], &b = points[left[i]],
+                                          &c = points[left[(i + 1) % count]];
+                    const double area = turn(a, b, c);
+                    if (area < 0.0)
+                        continue;
+                    bool empty = true;
+                    for (std::size_t k = 0; k + 3 < count && empty; ++k)
+                    {
+                        const Eigen::Vector2d &p = points[left[(i + 2 + k) % count]];
+                        // Reflex or straight corners only can lie in the ear; one that coincides with a corner of the
+                        // ear (a polygon touching itself) does not count.
+                        if (p == a || p == b || p == c)
+                            continue;
+                        empty = !(turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0);
+                    }
+                    if (!empty)
+                        continue;
+                    // The fattest ear first: slivers make poor convex bodies.
+                    const double longest =
+                        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+                    const double quality = longest > 0.0 ? area / longest : 0.0;
+                    if (quality > bestQuality)
+                    {
+                        bestQuality = quality;
+                        best = i;
+                    }
+                }
+                // A simple polygon has an ear always; rounding may hide it where corners almost coincide. A triangle of
+                // no area to speak of is cut off then.
+                if (best == count)
+                {
+                    double smallest = std::numeric_limits<double>::infinity();
+                    for (std::size_t i = 0; i < count; ++i)
+                    {
+                        const double area = std::abs(turn(points[left[(i + count - 1) % count]], points[left[i]],
+                                                          points[left[(i + 1) % count]]));
+                        if (area < smallest)
+                        {
+                            smallest = area;
+                            best = i;
+                        }
+                    }
+                    bestQuality = 0.0;
+                }
+                if (bestQuality > 0.0)
+                    triangles.push_back({left[(best + count - 1) % count], left[best], left[(best + 1) % count]});
+                left.erase(left.begin() + static_cast<long>(best));
+            }
+            if (left.size() == 3 && turn(points[left[0]], points[left[1]], points[left[2]]) > 0.0)
+                triangles.push_back(left);
+            return triangles;
+        }
+
+        /** The outline of two pieces joined across the diagonal (from, to), which runs so in the first piece. */
+        Corners join(const Corners &first, const Corners &second, std::size_t from, std::size_t to)
+        {
+            Corners joined;
+            auto at = std::find(first.begin(), first.end(), to);
+            for (std::size_t i = 0; i < first.size(); ++i)
+            {
+                joined.push_back(*at);
+                if (++at == first.end())
+                    at = first.begin();
+            }
+            // `joined` runs from `to` round to `from`; the rest of the second piece lies between `from` and `to`.
+            at = std::find(second.begin(), second.end(), from);
+            for (std::size_t i = 0; i + 2 < second.size(); ++i)
+            {
+                if (++at == second.end())
+                    at = second.begin();
+                joined.push_back(*at);
+            }
+            return joined;
+        }
+    }  // namespace
+
+    bool crossesItself(const Polygon &polygon)
+    {
+        const std::size_t count = polygon.size();
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % count];
+            const double left = std::min(a.x(), b.x()), right = std::max(a.x(), b.x());
+            const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
+            for (std::size_t k = i + 2; k < count; ++k)
+            {
+                const Eigen::Vector2d &c = polygon[k], &d = polygon[(k + 1) % count];
+                if (std::max(c.x(), d.x()) < left || std::min(c.x(), d.x()) > right || std::max(c.y(), d.y()) < low ||
+                    std::min(c.y(), d.y()) > high)
+                    continue;
+                const double acd = turn(a, c, d), bcd = turn(b, c, d), abc = turn(a, b, c), abd = turn(a, b, d);
+                if (((acd > 0.0 && bcd < 0.0) || (acd < 0.0 && bcd > 0.0)) &&
+                    ((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)))
+                    return true;
+            }
+        }
+        return false;
+    }
+
+    std::vector<Polygon> convexPieces(const Polygon &polygon)
+    {
+        if (crossesItself(polygon))
+            throw Error("the outline of an obstacle polygon crosses itself: it must not");
+        Corners all(polygon.size());
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i] = i;
+        std::vector<Corners> pieces;
+        if (isConvex(polygon, all))
+            pieces.push_back(all);
+        else
+            pieces = clipEars(polygon);
+
+        // Each diagonal appears in two pieces, once in each direction.
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> owner;
+        const auto claim = [&](std::size_t piece)
+        {
+            const Corners &corners = pieces[piece];
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                owner[{corners[i], corners[(i + 1) % corners.size()]}] = piece;
+        };
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            claim(i);
+        bool changed = pieces.size() > 1;
+        while (changed)
+        {
+            changed = false;
+            for (std::size_t i = 0; i < pieces.size() && !changed; ++i)
+                for (std::size_t k = 0; k < pieces[i].size() && !changed; ++k)
+                {
+                    const std::size_t from = pieces[i][k], to = pieces[i][(k + 1) % pieces[i].size()];
+                    const auto other = owner.find({to, from});
+                    if (other == owner.end() || other->second == i)
+                        continue;
+                    const std::size_t second = other->second;
+                    Corners joined = join(pieces[i], pieces[second], from, to);
+                    if (!isConvex(polygon, joined))
+                        continue;
+                    pieces[i] = std::move(joined);
+                    pieces[second].clear();
+                    owner.erase({from, to});
+                    owner.erase({to, from});
+                    claim(i);
+                    changed = true;
+                }
+        }
+        std::vector<Polygon> result;
+        for (const Corners &corners : pieces)
+        {
+            if (corners.size() < 3)
+                continue;
+            Polygon piece;
+            for (const std::size_t corner : corners)
+                piece.push_back(polygon[corner]);
+            if (signedArea(piece) > 0.0)
+                result.push_back(std::move(piece));
+        }
+        return result;
+    }
+}  // namespace parking

@@ -1,0 +1,145 @@
+#include "state_validity/ompl/CurveSpace.h"
+
+#include "state_validity/ompl/OmplCompatibility.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/DubinsStateSpace.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+#include <ompl/util/Exception.h>
+
+namespace ob = ompl::base;
+
+namespace parking
+{
+    namespace
+    {
+        /** Longer than any curve in a world of doubles: what OMPL uses for "none". */
+        constexpr double NO_CURVE = 1e100;
+
+        auto shortestReedsShepp(const ob::ReedsSheppStateSpace &space, const ob::State *from, const ob::State *to)
+        {
+            return ompl_compatibility::reedsSheppPath(space, from, to, 0);
+        }
+
+        auto shortestDubins(const ob::DubinsStateSpace &space, const ob::State *from, const ob::State *to)
+        {
+            return ompl_compatibility::dubinsPath(space, from, to, 0);
+        }
+
+        /** Adds a piece whose length is given for radius 1; \e side is 1 to the left, -1 to the right, 0 straight. */
+        void add(ReedsSheppCurve &curve, double side, double length, double radius)
+        {
+            if (length == 0.0)
+                return;
+            curve.segments[curve.count++] = {side / radius, length * radius};
+        }
+
+        /** Two states whose difference is a turn on the spot: the length of their curve for radius 1 is a constant. */
+        template <class Space, class Length>
+        double recoverRadius(const Space &space, const Length &lengthForUnitRadius)
+        {
+            const auto allocate = [&space]
+            {
+                return space.allocState();
+            };
+            const auto release = [&space](ob::State *state)
+            {
+                space.freeState(state);
+            };
+            const std::unique_ptr<ob::State, decltype(release)> from(allocate(), release), to(allocate(), release);
+            setPose(from.get(), {0.0, 0.0, 0.0});
+            setPose(to.get(), {0.0, 0.0, 0.5 * PI});
+            return space.distance(from.get(), to.get()) / lengthForUnitRadius(from.get(), to.get());
+        }
+    }  // namespace
+
+    CurveSpace::CurveSpace(const ob::StateSpace &space) : space_(&space)
+    {
+        if (const auto *reedsShepp = dynamic_cast<const ob::ReedsSheppStateSpace *>(&space))
+        {
+            kind_ = SpaceKind::ReedsShepp;
+            turningRadius_ = recoverRadius(*reedsShepp, [reedsShepp](const ob::State *from, const ob::State *to)
+                                           { return shortestReedsShepp(*reedsShepp, from, to).length(); });
+        }
+        else if (const auto *dubins = dynamic_cast<const ob::DubinsStateSpace *>(&space))
+        {
+            kind_ = SpaceKind::Dubins;
+            symmetric_ = dubins->hasSymmetricInterpolate();
+            turningRadius_ = recoverRadius(
+                *dubins,
+                [dubins, this](const ob::State *from, const ob::State *to)
+                {
+                    const double there = shortestDubins(*dubins, from, to).length();
+                    return symmetric_ ? std::min(there, shortestDubins(*dubins, to, from).length()) : there;
+                });
+        }
+        else
+            requirePlanarSpace(space);
+        if (kind_ != SpaceKind::SE2 && !(turningRadius_ > 0.0 && std::isfinite(turningRadius_)))
+            throw ompl::Exception("turning radius of space '" + space.getName() +
+                                  "' must be a positive number of metres, not " + std::to_string(turningRadius_));
+    }
+
+    void CurveSpace::curve(const ob::State *from, const ob::State *to, ReedsSheppCurve &curve) const
+    {
+        curve.count = 0;
+        curve.length = std::numeric_limits<double>::infinity();
+        if (kind_ == SpaceKind::ReedsShepp)
+        {
+            using Space = ob::ReedsSheppStateSpace;
+            const auto path = shortestReedsShepp(*static_cast<const Space *>(space_), from, to);
+            if (!(path.length() < NO_CURVE))
+                return;
+            for (std::size_t i = 0; i < 5; ++i)
+            {
+                const auto kind = ompl_compatibility::pieceKind(path.type_, i);
+                if (kind == Space::RS_NOP)
+                    break;
+                add(curve,
+                    kind == Space::RS_LEFT    ? 1.0
+                    : kind == Space::RS_RIGHT ? -1.0
+                                              : 0.0,
+                    path.length_[i], turningRadius_);
+            }
+            curve.length = path.length() * turningRadius_;
+        }
+        else if (kind_ == SpaceKind::Dubins)
+        {
+            using Space = ob::DubinsStateSpace;
+            const Space &space = *static_cast<const Space *>(space_);
+            auto path = shortestDubins(space, from, to);
+            bool reverse = false;
+            if (symmetric_)
+            {
+                const auto back = shortestDubins(space, to, from);
+                if (back.length() < path.length())
+                {
+                    path = back;
+                    reverse = true;
+                }
+            }
+            if (!(path.length() < NO_CURVE))
+                return;
+            for (std::size_t i = 0; i < 3; ++i)
+            {
+                const std::size_t piece = reverse ? 2 - i : i;
+                const auto kind = ompl_compatibility::pieceKind(path.type_, piece);
+                add(curve,
+                    kind == Space::DUBINS_LEFT    ? 1.0
+                    : kind == Space::DUBINS_RIGHT ? -1.0
+                                                  : 0.0,
+                    reverse ? -path.length_[piece] : path.length_[piece], turningRadius_);
+            }
+            curve.length = path.length() * turningRadius_;
+        }
+        else
+            throw ompl::Exception("a plain SE2 space has no curves: its states are joined by straight lines");
+    }
+}  // namespace parking

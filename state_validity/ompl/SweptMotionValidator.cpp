@@ -1,0 +1,230 @@
+#include "state_validity/ompl/SweptMotionValidator.h"
+
+#include "parking_geometry/Pose.h"
+#include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/OmplCompatibility.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/util/Exception.h>
+
+namespace ob = ompl::base;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double MAX_TOLERANCE = 0.1;
+
+        std::shared_ptr<const FootprintChecker> footprintOf(const ob::SpaceInformationPtr &si)
+        {
+            const auto *checker = dynamic_cast<const FclFootprintChecker *>(si->getStateValidityChecker().get());
+            if (checker == nullptr)
+                throw ompl::Exception(
+                    "state validity checker of the space information must be an FclFootprintChecker "
+                    "(set it first), or the footprint must be given");
+            return checker->sharedFootprint();
+        }
+
+        /** The box round the way of the rear axle along an arc. */
+        Rectangle extents(const Pose &from, double curvature, double length)
+        {
+            const Pose to = advance(from, curvature, length);
+            Rectangle box{{std::min(from.x, to.x), std::min(from.y, to.y)},
+                          {std::max(from.x, to.x), std::max(from.y, to.y)}};
+            // In between, x and y are extreme where the heading is a multiple of a right angle.
+            const double first = std::min(from.yaw, to.yaw), last = std::max(from.yaw, to.yaw);
+            for (double quarter = std::ceil(first / (0.5 * PI)); quarter * 0.5 * PI < last; quarter += 1.0)
+            {
+                const Pose at = advance(from, curvature, (quarter * 0.5 * PI - from.yaw) / curvature);
+                box.min = box.min.cwiseMin(Eigen::Vector2d(at.x, at.y));
+                box.max = box.max.cwiseMax(Eigen::Vector2d(at.x, at.y));
+            }
+            return box;
+        }
+
+        bool isWithin(const Rectangle &box, const ob::RealVectorBounds &bounds)
+        {
+            // As tolerant as RealVectorStateSpace::satisfiesBounds, and of the rounding of a curve on top.
+            constexpr double SLACK = 1e-9;
+            return box.min.x() >= bounds.low[0] - SLACK && box.min.y() >= bounds.low[1] - SLACK &&
+                   box.max.x() <= bounds.high[0] + SLACK && box.max.y() <= bounds.high[1] + SLACK;
+        }
+
+        /** How far the rear axle drives along an arc within the bounds: |length| when all of it is. */
+        double lengthWithin(const ob::RealVectorBounds &bounds, const Pose &from, double curvature, double length)
+        {
+            if (isWithin(extents(from, curvature, length), bounds))
+                return std::abs(length);
+            double inside = 0.0, outside = 1.0;
+            while (outside - inside > 1e-9)
+            {
+                const double middle = 0.5 * (inside + outside);
+                (isWithin(extents(from, curvature, middle * length), bounds) ? inside : outside) = middle;
+            }
+            return inside * std::abs(length);
+        }
+    }  // namespace
+
+    SweptMotionValidator::SweptMotionValidator(const ob::SpaceInformationPtr &si,
+                                               std::shared_ptr<const FootprintChecker> footprint, double tolerance)
+      : ob::MotionValidator(si),
+        space_(*si->getStateSpace()),
+        footprint_(std::move(footprint)),
+        tolerance_(tolerance)
+    {
+        if (!footprint_)
+            throw ompl::Exception("footprint checker must not be null");
+        if (!(tolerance > 0.0 && tolerance <= MAX_TOLERANCE))
+            throw ompl::Exception("tolerance of the motion validator must be above 0 m and at most " +
+                                  std::to_string(MAX_TOLERANCE) + " m, not " + std::to_string(tolerance));
+    }
+
+    SweptMotionValidator::SweptMotionValidator(const ob::SpaceInformationPtr &si, double tolerance)
+      : SweptMotionValidator(si, footprintOf(si), tolerance)
+    {
+    }
+
+    bool SweptMotionValidator::checkMotion(const ob::State *s1, const ob::State *s2) const
+    {
+        const bool valid = si_->isValid(s2) && prove(s1, s2, false).whole;
+        ompl_compatibility::countUp(valid ? valid_ : invalid_);
+        return valid;
+    }
+
+    bool SweptMotionValidator::checkMotion(const ob::State *s1, const ob::State *s2,
+                                           std::pair<ob::State *, double> &lastValid) const
+    {
+        const bool endValid = si_->isValid(s2);
+        const Proof proof = prove(s1, s2, true);
+        if (endValid && proof.whole)
+        {
+            ompl_compatibility::countUp(valid_);
+            return true;
+        }
+        ompl_compatibility::countUp(invalid_);
+
+        // OMPL's contract: the state handed back is valid by the space information's own checker, which may know more
+        // than the footprint. It may also be stored in place of s1 or s2, so it is made elsewhere.
+        const auto release = [this](ob::State *state)
+        {
+            si_->freeState(state);
+        };
+        const std::unique_ptr<ob::State, decltype(release)> last(si_->allocState(), release);
+        lastValid.second = proof.fraction;
+        if (proof.whole)
+        {
+            lastValid.second = std::max(0.0, 1.0 - tolerance_ / si_->distance(s1, s2));
+            si_->getStateSpace()->interpolate(s1, s2, lastValid.second, last.get());
+        }
+        else
+            setPose(last.get(), proof.pose);
+        if (!(lastValid.second > 0.0) || !si_->isValid(last.get()))
+        {
+            lastValid.second = 0.0;
+            si_->copyState(last.get(), s1);
+        }
+        if (lastValid.first != nullptr)
+            si_->copyState(lastValid.first, last.get());
+        return false;
+    }
+
+    SweptMotionValidator::Proof SweptMotionValidator::prove(const ob::State *s1, const ob::State *s2, bool exact) const
+    {
+        CheckCounts counts;
+        Proof proof;
+        const Pose from = poseOf(s1);
+        if (space_.kind() == SpaceKind::SE2)
+            proof = proveLine(from, poseOf(s2), exact, counts);
+        else
+        {
+            ReedsSheppCurve curve;
+            space_.curve(s1, s2, curve);
+            proof = proveCurve(from, curve, counts);
+        }
+        counters_.add(counts);
+        return proof;
+    }
+
+    SweptMotionValidator::Proof SweptMotionValidator::proveCurve(const Pose &from, const ReedsSheppCurve &curve,
+                                                                 CheckCounts &counts) const
+    {
+        if (!std::isfinite(curve.length))
+            return {false, 0.0, from};
+        const auto &bounds = static_cast<const ob::SE2StateSpace *>(si_->getStateSpace().get())->getBounds();
+        Pose pose = from;
+        double driven = 0.0;
+        for (std::size_t i = 0; i < curve.count; ++i)
+        {
+            const ArcSegment &arc = curve.segments[i];
+            const double wanted = std::abs(arc.length);
+            double free = lengthWithin(bounds, pose, arc.curvature, arc.length);
+            free = std::min(
+                free, footprint_->freeLength(pose, arc.curvature, std::copysign(free, arc.length), tolerance_, counts));
+            if (free < wanted)
+                return {false, (driven + free) / curve.length,
+                        advance(pose, arc.curvature, std::copysign(free, arc.length))};
+            pose = advance(pose, arc.curvature, arc.length);
+            driven += wanted;
+        }
+        return {true, 1.0, pose};
+    }
+
+    SweptMotionValidator::Proof SweptMotionValidator::proveLine(const Pose &from, const Pose &to, bool exact,
+                                                                CheckCounts &counts) const
+    {
+        if (!isFinite(from) || !isFinite(to))
+            return {false, 0.0, from};
+        const double dx = to.x - from.x, dy = to.y - from.y, turn = wrapAngle(to.yaw - from.yaw);
+        const auto at = [&](double t)
+        {
+            return Pose{from.x + t * dx, from.y + t * dy, from.yaw + t * turn};
+        };
+        // Metres that the fastest point of the body moves at most over the whole motion.
+        const double length =
+            (std::hypot(dx, dy) + std::abs(turn) * footprint_->farthestPoint()) * (1.0 + 1e-9) + 1e-12;
+
+        // Stretches still to be proven free, the earliest on top: all before its begin is proven.
+        std::array<std::pair<double, double>, 128> open;
+        std::size_t count = 0;
+        open[count++] = {0.0, 1.0};
+        double proven = 0.0;
+        while (count > 0)
+        {
+            const auto [begin, end] = open[--count];
+            const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * length;
+            const Pose pose = at(middle);
+            double clearance = footprint_->clearance(pose, half, counts);
+            if (clearance < half && clearance < tolerance_)
+                clearance = footprint_->exactClearance(pose) * (1.0 - 1e-9);
+            if (clearance >= half)
+            {
+                proven = end;
+                continue;
+            }
+            proven = begin;
+            if (clearance < tolerance_)
+            {
+                // Not free here, or too near to tell; all that matters now is how much is free before.
+                if (!exact || half < tolerance_)
+                    break;
+                count = 0;
+                open[count++] = {begin, middle};
+                continue;
+            }
+            const double covered = clearance / length;
+            if (count + 2 > open.size())
+                break;
+            open[count++] = {middle + covered, end};
+            open[count++] = {begin, middle - covered};
+        }
+        return proven >= 1.0 ? Proof{true, 1.0, to} : Proof{false, proven, at(proven)};
+    }
+}  // namespace parking

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "state_validity/ompl/CurveSpace.h"
+#include "state_validity/FootprintChecker.h"
+#include "state_validity/ompl/TierCounters.h"
+
+#include <memory>
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/SpaceInformation.h>
+
+namespace parking
+{
+    /** \anchor SweptMotionValidator
+        \brief Proves motions free along their whole length, not at samples of it.
+
+        For Reeds-Shepp and Dubins spaces the curve is computed once per motion; each of its arcs is swept exactly
+        (FootprintChecker::freeLength). In a plain SE2 space, where position and yaw change linearly together, the
+       motion is covered by stretches that the clearance in their middle proves free: no point of the body moves farther
+       than the clearance there (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of rigid body
+       systems", 1996), halving what remains.
+
+        Sound, not complete: a motion during which the body touches an obstacle is never accepted. A motion may be
+        rejected although it is free when the body, somewhere on the way, is nearer than 1.5 times the tolerance to an
+        obstacle (and at least the tolerance away otherwise accepted). Where a motion starts nearer than that, the
+       tolerance shrinks so that a car can drive away from an obstacle that it all but touches.
+
+        Motions must also stay within the bounds of the state space, and the end state must be valid by the space
+        information's own state validity checker; the start is taken to be valid, as everywhere in OMPL. */
+    class SweptMotionValidator : public ompl::base::MotionValidator
+    {
+    public:
+        static constexpr double DEFAULT_TOLERANCE = 1e-3;
+
+        /** \brief \param tolerance metres, positive; see above
+
+            Throws ompl::Exception for an empty \e footprint, a space of another kind, and a tolerance that is not
+            positive or not below 0.1 m. */
+        SweptMotionValidator(const ompl::base::SpaceInformationPtr &si,
+                             std::shared_ptr<const FootprintChecker> footprint, double tolerance = DEFAULT_TOLERANCE);
+
+        /** \brief Takes the footprint from the space information's state validity checker, which must be an
+            FclFootprintChecker (otherwise ompl::Exception). */
+        explicit SweptMotionValidator(const ompl::base::SpaceInformationPtr &si, double tolerance = DEFAULT_TOLERANCE);
+
+        bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
+
+        /** \brief The same. When the motion is not valid, \e lastValid becomes the fraction of the motion that is
+           proven free (less the tolerance) and, unless null, the state there. */
+        bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
+                         std::pair<ompl::base::State *, double> &lastValid) const override;
+
+        double tolerance() const
+        {
+            return tolerance_;
+        }
+
+        const FootprintChecker &footprint() const
+        {
+            return *footprint_;
+        }
+
+        const CurveSpace &curveSpace() const
+        {
+            return space_;
+        }
+
+        /** \brief Which tier decided how many of the poses that motions were swept from. */
+        CheckCounts counts() const
+        {
+            return counters_.sum();
+        }
+
+        void resetCounts()
+        {
+            counters_.reset();
+        }
+
+    private:
+        /** How much of a motion is proven free: a fraction, and the pose there. */
+        struct Proof
+        {
+            bool whole{false};
+            double fraction{0.0};
+            Pose pose;
+        };
+
+        /** \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
+        Proof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
+        Proof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
+        Proof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
+
+        CurveSpace space_;
+        std::shared_ptr<const FootprintChecker> footprint_;
+        double tolerance_;
+        mutable TierCounters counters_;
+    };
+}  // namespace parking

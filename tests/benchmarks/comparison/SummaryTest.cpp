@@ -1,0 +1,89 @@
+// The summary's figures: time-outs and invalid solutions count as infinite times, lengths are those of solved runs.
+
+#include "benchmarks/summary/Summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+    using namespace parking;
+
+    RunRecord runOf(const std::string &planner, std::size_t run, bool exact, bool valid, const std::string &time,
+                    const std::string &length)
+    {
+        RunRecord record;
+        record.experiment = "garage";
+        record.planner = planner;
+        record.run = run;
+        record.hasPath = !length.empty();
+        record.exact = exact;
+        record.properties["success BOOLEAN"] = exact && valid ? "1" : "0";
+        if (exact)
+            record.properties["first solution time REAL"] = time;
+        if (record.hasPath)
+        {
+            record.properties["path length REAL"] = length;
+            record.properties["cusps INTEGER"] = "3";
+            record.properties["densely valid BOOLEAN"] = valid ? "1" : "0";
+            record.properties["least clearance REAL"] = "0.25";
+        }
+        return record;
+    }
+
+    class SummaryTest : public ::testing::Test
+    {
+    protected:
+        SummaryTest()
+        {
+            config_.planners = {
+                {"good", "RRT", {}, {}, {}}, {"poor", "RRT", {}, {}, {}}, {"absent", "RRT", {}, {}, {}}};
+            experiments_ = {{"garage", "garage.yaml", {}, {0, 1, 2}, "x"}};
+            for (std::size_t run = 0; run < 3; ++run)
+                records_.push_back(
+                    runOf("good", run, true, true, "0." + std::to_string(run + 1), std::to_string(10 + run)));
+            records_.push_back(runOf("poor", 0, true, true, "1.5", "20"));
+            records_.push_back(runOf("poor", 1, true, false, "0.1", "5"));  // not valid: worth nothing
+            records_.push_back(runOf("poor", 2, false, false, "", "7"));    // approximate
+            records_.push_back(runOf("poor", 3, false, false, "", ""));     // nothing
+        }
+
+        BenchmarkConfig config_;
+        std::vector<Experiment> experiments_;
+        std::vector<RunRecord> records_;
+    };
+
+    TEST_F(SummaryTest, CountsEveryRun)
+    {
+        const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);
+        ASSERT_EQ(rows.size(), 2U);
+        EXPECT_EQ(rows[0].solved, 3U);
+        EXPECT_DOUBLE_EQ(rows[0].timeMedian, 0.2);
+        EXPECT_DOUBLE_EQ(rows[0].timeLow, 0.15);
+        EXPECT_DOUBLE_EQ(rows[0].length, 11.0);
+        EXPECT_EQ(rows[1].runs, 4U);
+        EXPECT_EQ(rows[1].solved, 1U);
+        EXPECT_EQ(rows[1].invalid, 1U);
+        EXPECT_EQ(rows[1].approximate, 1U);
+        EXPECT_TRUE(std::isinf(rows[1].timeMedian));
+        EXPECT_DOUBLE_EQ(rows[1].length, 20.0);
+    }
+
+    TEST_F(SummaryTest, TablesSayTheSame)
+    {
+        const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);
+        const std::string text = summaryText(rows), markdown = summaryMarkdown(rows), csv = summaryCsv(rows);
+        for (const std::string &each : {text, markdown})
+        {
+            EXPECT_NE(each.find("3/3"), std::string::npos) << each;
+            EXPECT_NE(each.find("1/4"), std::string::npos) << each;
+            EXPECT_NE(each.find("200 ms"), std::string::npos) << each;
+            EXPECT_NE(each.find("NO (1)"), std::string::npos) << each;
+        }
+        EXPECT_NE(csv.find("garage,poor,4,1,1,1,,"), std::string::npos) << csv;
+        const std::string head = csv.substr(0, csv.find('\n')), row = csv.substr(head.size() + 1);
+        EXPECT_EQ(std::count(head.begin(), head.end(), ','),
+                  std::count(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(row.find('\n')), ','));
+    }
+}  // namespace

@@ -1,0 +1,153 @@
+// Planners by name, and parameters as texts that must be what the planner makes of them.
+
+#include "benchmarks/programs/PlanRun.h"
+#include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/problems/Problem.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using parking_test::expectError;
+
+    std::unique_ptr<Problem> openField()
+    {
+        const parking_test::TemporaryFolder folder;
+        return std::make_unique<Problem>(readScenario(folder.write("field.yaml",
+                                                                   "start: [0, 0, 0]\ngoal: [12, 3, 0.4]\n"
+                                                                   "polygons: [[[5, 5], [6, 5], [6, 6]]]\n")),
+                                         ProblemSettings{});
+    }
+
+    TEST(PlannerRegistry, SpellingDoesNotMatter)
+    {
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        for (const char *name : {"RRTstar", "rrtstar", "RRT*", "rrt_star", "RRT-Star"})
+            EXPECT_EQ(registry.find(name).name, "RRTstar") << name;
+        EXPECT_EQ(registry.find("kpiece").name, "KPIECE1");
+        EXPECT_EQ(registry.find("Improved A*").name, "improved_astar");
+        expectError([&] { registry.find("RTTstar"); }, {"did you mean 'RRTstar'"});
+    }
+
+    TEST(PlannerRegistry, NamesAreTakenOnce)
+    {
+        PlannerRegistry registry = PlannerRegistry::builtIn();
+        const ompl::base::PlannerAllocator allocate = registry.find("PRM").allocate;
+        registry.add({"mine", "a planner", false, allocate, {}});
+        EXPECT_TRUE(registry.knows("Mine"));
+        expectError([&] { registry.add({"M_I_N_E", "again", false, allocate, {}}); }, {"already"});
+        expectError([&] { registry.add({"a b", "", false, allocate, {}}); }, {"'a b'"});
+        expectError([&] { registry.add({"", "", false, allocate, {}}); }, {"name"});
+        expectError([&] { registry.add({"none", "", false, {}, {}}); }, {"allocator"});
+        expectError([&] { registry.addAlias("PRM", "mine"); }, {"already"});
+    }
+
+    TEST(PlannerRegistry, EveryPlannerSolvesAnOpenField)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        for (const PlannerEntry &entry : registry.entries())
+        {
+            SCOPED_TRACE(entry.name);
+            const PlanRun run = planOnce(*problem, entry, {}, entry.optimizing ? 0.3 : 20.0, 1);
+            // SST builds a tree of random drives: too slow a way to promise anything in this time.
+            if (entry.name == "SST" && run.status != PlanStatus::Exact)
+                continue;
+            ASSERT_EQ(run.status, PlanStatus::Exact);
+            EXPECT_TRUE(run.path->recheck.valid) << run.path->recheck.reason;
+            EXPECT_GT(run.path->length, 12.0);
+            EXPECT_GT(run.firstSolutionTime, 0.0);
+        }
+    }
+
+    TEST(PlannerRegistry, EveryInstanceHasAProblemOfItsOwn)
+    {
+        // RRTstar::setup() stores an objective in its problem definition, with which PRM would use all of its time.
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        planOnce(*problem, registry.find("RRTstar"), {}, 0.1, 1);
+        const PlanRun run = planOnce(*problem, registry.find("PRM"), {}, 60.0, 1);
+        EXPECT_EQ(run.status, PlanStatus::Exact);
+        EXPECT_LT(run.planningTime, 30.0);
+    }
+
+    TEST(PlannerRegistry, TurningRadiusIsThatOfTheCar)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PreparedPlanner prepared = problem->prepare(PlannerRegistry::builtIn().find("improved_astar"), {});
+        double radius = 0.0;
+        prepared.planner->params().getParam("turning_radius")->getValue();
+        ASSERT_NO_THROW(radius = std::stod(prepared.planner->params().getParam("turning_radius")->getValue()));
+        EXPECT_NEAR(radius, problem->scenario().vehicle.minTurningRadius(), 1e-4);
+    }
+
+    TEST(PlannerSettings, TextsMustBeOfTheParametersType)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        const auto set = [&](const std::string &planner, const std::string &name, const std::string &value)
+        {
+            return problem->prepare(registry.find(planner), {{name, value}})
+                .planner->params()
+                .getParam(name)
+                ->getValue();
+        };
+        EXPECT_EQ(set("RRTstar", "delay_collision_checking", "no"), "0");
+        EXPECT_EQ(set("RRTstar", "delay_collision_checking", "TRUE"), "1");
+        EXPECT_EQ(set("improved_astar", "heading_bins", "90"), "90");
+        for (const char *value : {"", "1x", "x", "nan", "-1"})
+            expectError([&] { set("improved_astar", "heading_bins", value); }, {"heading_bins"});
+        // 2^32 + 8, which is 8 in 32 bits.
+        expectError([&] { set("improved_astar", "heading_bins", "4294967304"); }, {"heading_bins", "4294967304"});
+        expectError([&] { set("RRTstar", "range", "far"); }, {"range", "far"});
+        expectError([&] { set("RRTstar", "rnge", "1"); }, {"did you mean 'range'"});
+        expectError([&] { set("reeds_shepp", "range", "1"); }, {"no parameters"});
+    }
+
+    TEST(PlannerSettings, AParameterSetComesFirst)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PreparedPlanner prepared = problem->prepare(PlannerRegistry::builtIn().find("improved_astar"),
+                                                          {{"bidirectional", "1"}, {"parameter_set", "hybrid_astar"}});
+        EXPECT_EQ(prepared.planner->params().getParam("bidirectional")->getValue(), "1");
+        const PreparedPlanner plain = problem->prepare(PlannerRegistry::builtIn().find("hybrid_astar"), {});
+        EXPECT_EQ(plain.planner->params().getParam("bidirectional")->getValue(), "0");
+    }
+
+    TEST(MeasuredPlanner, KeepsToTheSecondAndNotesWhenSolutionsImproved)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PreparedPlanner prepared = problem->prepare(PlannerRegistry::builtIn().find("RRTstar"), {});
+        ASSERT_NE(prepared.measured, nullptr);
+        prepared.measured->setTimeLimit(0.3);
+        prepared.planner->solve(ompl::base::plannerNonTerminatingCondition());
+        EXPECT_TRUE(prepared.measured->ranOutOfTime());
+        const SolveRecord &record = *prepared.measured->record();
+        EXPECT_GE(record.wallTime(), 0.3);
+        EXPECT_LT(record.wallTime(), 5.0);  // the machine may be busy
+        const std::vector<Improvement> improvements = record.improvements();
+        ASSERT_FALSE(improvements.empty());
+        for (std::size_t i = 1; i < improvements.size(); ++i)
+        {
+            EXPECT_LT(improvements[i].cost, improvements[i - 1].cost);
+            EXPECT_GE(improvements[i].time, improvements[i - 1].time);
+        }
+        EXPECT_NEAR(record.bestCost(), prepared.problem()->getSolutionPath()->length(), 1e-6);
+    }
+
+    TEST(MeasuredPlanner, HasOneProgressPropertyOnly)
+    {
+        // Those of BIT* are read by the benchmark's thread while the search changes them.
+        const std::unique_ptr<Problem> problem = openField();
+        for (const char *name : {"BITstar", "ABITstar", "AITstar", "RRTstar"})
+        {
+            const PreparedPlanner prepared = problem->prepare(PlannerRegistry::builtIn().find(name), {});
+            EXPECT_EQ(prepared.planner->getPlannerProgressProperties().size(), 1U) << name;
+            EXPECT_EQ(prepared.planner->getPlannerProgressProperties().count("best cost REAL"), 1U) << name;
+        }
+    }
+}  // namespace

@@ -1,0 +1,298 @@
+// The planner without OMPL: shortening, anytime improvement, bounds, approximate ends.
+
+#include "ompl_improved_astar/search/CarPlanner.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+using Outcome = CarPlanner::Outcome;
+
+namespace
+{
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    CarPlannerParameters parametersFor(const CarProblem &problem)
+    {
+        CarPlannerParameters parameters;
+        parameters.search = carParameters();
+        parameters.search.inscribedRadius = problem.world.radius;
+        return parameters;
+    }
+
+    void begin(CarPlanner &planner, CarProblem &problem, const CarPlannerParameters &parameters)
+    {
+        planner.begin(problem.world, parameters);
+        for (const Pose &start : problem.starts)
+            planner.addStart(start);
+        for (const Pose &goal : problem.goals)
+            planner.addGoal(goal);
+    }
+
+    CostModel costModel(const CarPlannerParameters &parameters)
+    {
+        CostModel cost = parameters.search.cost;
+        cost.fullLockCurvature = 1.0 / parameters.search.turningRadius;
+        return cost;
+    }
+
+    StopFunction afterAsking(int times)
+    {
+        return [times, asked = 0]() mutable
+        {
+            return ++asked > times;
+        };
+    }
+}  // namespace
+
+TEST(CarPlanner, solvesAndReportsWhatItReturns)
+{
+    int solved = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        const CarPlannerParameters parameters = parametersFor(problem);
+        CarPlanner planner;
+        begin(planner, problem, parameters);
+        std::vector<double> costs;
+        const Outcome outcome =
+            planner.solve(afterAsking(3000),
+                          [&](const ArcPath &path, double cost)
+                          {
+                              costs.push_back(cost);
+                              EXPECT_NEAR(cost, pathCost(costModel(parameters), path, problem.world), 1e-6);
+                              return false;
+                          });
+        ASSERT_EQ(planner.hasSolution(), outcome == Outcome::Solved);
+        if (outcome != Outcome::Solved)
+        {
+            EXPECT_TRUE(costs.empty());
+            EXPECT_EQ(planner.bestCost(), INFINITE);
+            EXPECT_EQ(planner.suboptimalityBound(), INFINITE);
+            continue;
+        }
+        ++solved;
+        ASSERT_EQ(costs.size(), 1u);
+        EXPECT_EQ(costs.back(), planner.bestCost());
+        EXPECT_EQ(faultOf(planner.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+        EXPECT_GE(planner.suboptimalityBound(), 1.0);
+    }
+    EXPECT_GT(solved, 30);
+}
+
+TEST(CarPlanner, shorteningNeverCostsAnything)
+{
+    int cheaper = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        CarPlannerParameters parameters = parametersFor(problem);
+        parameters.search.cost.clearanceWeight = seed % 2 ? 1.0 : 0.0;
+        CarPlanner with, without;
+        begin(with, problem, parameters);
+        const Outcome outcome = with.solve(afterAsking(3000), nullptr);
+        parameters.shorten = false;
+        begin(without, problem, parameters);
+        ASSERT_EQ(without.solve(afterAsking(3000), nullptr), outcome);
+        if (outcome != Outcome::Solved)
+            continue;
+        EXPECT_EQ(with.statistics().expanded, without.statistics().expanded) << "the search is the same";
+        EXPECT_LE(with.bestCost(), without.bestCost() + 1e-9);
+        cheaper += with.bestCost() < without.bestCost() - 1e-6;
+    }
+    EXPECT_GT(cheaper, 5);
+}
+
+TEST(CarPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
+{
+    int improvements = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = seed < 2 ? maze(2 + static_cast<int>(seed)) : randomProblem(seed);
+        CarPlannerParameters parameters = parametersFor(problem);
+        CarPlanner once;
+        begin(once, problem, parameters);
+        if (once.solve(afterAsking(3000), nullptr) != Outcome::Solved)
+            continue;
+        parameters.anytime = true;
+        CarPlanner planner;
+        begin(planner, problem, parameters);
+        std::vector<double> costs;
+        const auto record = [&](const ArcPath &path, double cost)
+        {
+            EXPECT_EQ(faultOf(path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+            EXPECT_NEAR(cost, pathCost(costModel(parameters), path, problem.world), 1e-6);
+            costs.push_back(cost);
+            return false;
+        };
+        planner.solve(afterAsking(6000), record);
+        ASSERT_FALSE(costs.empty());
+        EXPECT_EQ(costs.front(), once.bestCost()) << "the first solution is the same";
+        for (std::size_t i = 1; i < costs.size(); ++i)
+            ASSERT_LT(costs[i], costs[i - 1]);
+        EXPECT_EQ(planner.bestCost(), costs.back());
+        EXPECT_EQ(faultOf(planner.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+        improvements += static_cast<int>(costs.size()) - 1;
+
+        // Going on never makes it worse.
+        const double before = planner.bestCost();
+        planner.solve(afterAsking(2000), record);
+        EXPECT_LE(planner.bestCost(), before);
+        EXPECT_EQ(planner.bestCost(), costs.back());
+    }
+    EXPECT_GT(improvements, 5);
+}
+
+TEST(CarPlanner, endsWhenTheSolutionIsGoodEnough)
+{
+    CarProblem problem = maze(2);
+    CarPlannerParameters parameters = parametersFor(problem);
+    parameters.anytime = true;
+    CarPlanner planner;
+    begin(planner, problem, parameters);
+    int reports = 0;
+    EXPECT_EQ(planner.solve(nullptr, [&](const ArcPath &, double) { return ++reports == 2; }), Outcome::Solved);
+    EXPECT_EQ(reports, 2);
+}
+
+TEST(CarPlanner, endsByItselfWithTheBareCurve)
+{
+    CarProblem problem{DiscCarWorld({-30.0, -30.0, 30.0, 30.0}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
+    CarPlannerParameters parameters = parametersFor(problem);
+    parameters.search.cost = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0};
+    parameters.anytime = true;
+    CarPlanner planner;
+    begin(planner, problem, parameters);
+    EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
+    EXPECT_NEAR(planner.bestCost(), ReedsShepp(TURNING_RADIUS).distance(problem.starts[0], problem.goals[0]), 1e-9);
+    EXPECT_NEAR(planner.suboptimalityBound(), 1.0, 1e-9);
+}
+
+TEST(CarPlanner, theBoundHoldsForTheBestThatIsEverFound)
+{
+    int bounded = 0;
+    for (std::uint64_t seed = 0; seed < 16; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        CarPlannerParameters parameters = parametersFor(problem);
+        parameters.search.weights = {1.0, 1.0, 0.0, 0.0};
+        parameters.shorten = false;  // what it finds is outside of the discretised problem
+        CarPlanner planner;
+        begin(planner, problem, parameters);
+        if (planner.solve(afterAsking(3000), nullptr) != Outcome::Solved)
+            continue;
+        const double cost = planner.bestCost(), bound = planner.suboptimalityBound();
+        parameters.anytime = true;
+        CarPlanner longer;
+        begin(longer, problem, parameters);
+        longer.solve(afterAsking(10000), nullptr);
+        EXPECT_LE(cost / bound, longer.bestCost() + 1e-6);
+        bounded += bound < INFINITE;
+    }
+    EXPECT_GT(bounded, 5);
+}
+
+TEST(CarPlanner, solvedOnceIsSolvedAgain)
+{
+    CarProblem problem = maze(2);
+    CarPlanner planner;
+    begin(planner, problem, parametersFor(problem));
+    EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
+    const double cost = planner.bestCost();
+    const std::uint64_t expanded = planner.statistics().expanded;
+    EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
+    EXPECT_EQ(planner.bestCost(), cost);
+    EXPECT_EQ(planner.statistics().expanded, expanded);
+    // A start nearer by.
+    planner.addStart({12.0, 0.0, 0.0});
+    EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
+    EXPECT_LT(planner.bestCost(), 0.5 * cost);
+}
+
+TEST(CarPlanner, stoppedItGoesOn)
+{
+    CarProblem problem = maze(3);
+    const CarPlannerParameters parameters = parametersFor(problem);
+    CarPlanner whole, pieces;
+    begin(whole, problem, parameters);
+    ASSERT_EQ(whole.solve(nullptr, nullptr), Outcome::Solved);
+    begin(pieces, problem, parameters);
+    EXPECT_EQ(pieces.solve([] { return true; }, nullptr), Outcome::Stopped);
+    EXPECT_EQ(pieces.statistics().expanded, 0u);
+    int count = 0;
+    while (pieces.solve(afterAsking(5), nullptr) == Outcome::Stopped)
+        ASSERT_LT(++count, 10000);
+    EXPECT_GT(count, 2);
+    EXPECT_EQ(faultOf(pieces.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+}
+
+TEST(CarPlanner, askingForTheBoundAfterwardsDoesNotNeedTheStopFunctionAnyMore)
+{
+    CarProblem problem = maze(3);
+    CarPlannerParameters parameters = parametersFor(problem);
+    CarPlanner planner;
+    begin(planner, problem, parameters);
+    {
+        const auto alive = std::make_unique<bool>(true);
+        int called = 0;
+        planner.solve(
+            [&]
+            {
+                EXPECT_TRUE(*alive);
+                return ++called > 60;
+            },
+            nullptr);
+    }
+    EXPECT_GE(planner.suboptimalityBound(), 1.0);  // the address sanitizer would tell
+}
+
+TEST(CarPlanner, approximatePathsEndAsNearAsTheCarComes)
+{
+    // The goal stands free, but behind a door that is closed or too narrow; or there is no goal at all.
+    const std::vector<CarProblem> problems{{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}},
+                                           {twoRooms(0.0), {{-9.0, 4.0, 1.0}}, {{1.6, -3.0, 0.0}}},
+                                           {twoRooms(1.7), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}}};
+    for (std::size_t i = 0; i < problems.size(); ++i)
+        for (const bool goalKnown : {true, false})
+            for (const bool bidirectional : {true, false})
+                for (const bool roomTold : {true, false})
+                {
+                    SCOPED_TRACE(testing::Message() << "problem " << i << ", goal " << goalKnown << ", bidirectional "
+                                                    << bidirectional << ", room " << roomTold);
+                    CarProblem problem = problems[i];
+                    problem.world.tellsRoom = roomTold;
+                    const Pose target = problem.goals.front();
+                    if (!goalKnown)
+                        problem.goals.clear();
+                    CarPlannerParameters parameters = parametersFor(problem);
+                    parameters.search.bidirectional = bidirectional;
+                    CarPlanner planner;
+                    begin(planner, problem, parameters);
+                    if (goalKnown)
+                    {
+                        const Outcome outcome = planner.solve(afterAsking(4000), nullptr);
+                        // What the disc in the car surely cannot pass is known to be hopeless at once; a door a
+                        // little too narrow for it is not.
+                        if (roomTold && i < 2)
+                        {
+                            ASSERT_EQ(outcome, Outcome::Exhausted);
+                        }
+                        ASSERT_NE(outcome, Outcome::Solved);
+                    }
+                    ArcPath path;
+                    ASSERT_TRUE(planner.approximate(target, nullptr, path));
+                    EXPECT_EQ(faultOf(path, problem.world, problem.starts, {path.end()}, TURNING_RADIUS), "");
+                    const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);
+                    EXPECT_LE(reached, nearestByFlooding(problem.world, problem.starts.front(), target) + 0.1);
+                }
+}

@@ -1,0 +1,488 @@
+// The search over drivable motions: what it returns, and every switch by itself.
+
+#include "ompl_improved_astar/search/CarSearch.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    // What cannot be solved is searched ever more finely, for longer than a test should take.
+    constexpr std::uint64_t MOST_EXPANSIONS = 5000;
+
+    struct Result
+    {
+        SearchOutcome outcome;
+        ArcPath path;
+        double cost;
+        SearchStatistics statistics;
+    };
+
+    Result solve(CarProblem problem, const CarParameters &parameters)
+    {
+        CarSearch search;
+        problem.begin(search, parameters);
+        const SearchOutcome outcome = search.run([&] { return search.statistics().expanded >= MOST_EXPANSIONS; });
+        return {outcome, search.bestPath(), search.bestCost(), search.statistics()};
+    }
+
+    void expectSame(const Result &a, const Result &b)
+    {
+        ASSERT_EQ(a.outcome, b.outcome);
+        ASSERT_EQ(a.cost, b.cost);
+        ASSERT_EQ(a.statistics.expanded, b.statistics.expanded);
+        ASSERT_EQ(a.statistics.generated, b.statistics.generated);
+        ASSERT_EQ(a.statistics.connections, b.statistics.connections);
+        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
+        for (std::size_t i = 0; i < a.path.segments.size(); ++i)
+            ASSERT_TRUE(a.path.segments[i].length == b.path.segments[i].length &&
+                        a.path.segments[i].curvature == b.path.segments[i].curvature);
+    }
+}  // namespace
+
+TEST(CarSearch, pathsAreDrivableFreeAndCostWhatIsSaid)
+{
+    int searched = 0;
+    for (std::uint64_t seed = 0; seed < 80; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        TestRandom random(seed);
+        CarParameters parameters = carParameters();
+        parameters.steeringAngles = 3 + 2 * random.index(3);
+        parameters.bidirectional = random.chance(0.5);
+        parameters.searchFromGoal = random.chance(0.5);
+        parameters.cost = {random.between(0.0, 1.0), random.between(0.0, 2.0), random.between(0.0, 0.3), 0.0, 1.0, 1.0};
+        CarSearch search;
+        problem.begin(search, parameters);
+        CostModel cost = parameters.cost;
+        cost.fullLockCurvature = 1.0 / TURNING_RADIUS;
+        double last = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 4 && search.statistics().expanded < 3000; ++i)
+        {
+            const std::uint64_t end = search.statistics().expanded + 1000;
+            if (search.run([&] { return search.statistics().expanded >= end; }) != SearchOutcome::Improved)
+                break;
+            searched += search.statistics().expanded > 0;
+            ASSERT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+            ASSERT_NEAR(search.bestCost(), pathCost(cost, search.bestPath(), problem.world), 1e-6);
+            ASSERT_LT(search.bestCost(), last) << "improved";
+            last = search.bestCost();
+        }
+    }
+    EXPECT_GT(searched, 40);
+}
+
+TEST(CarSearch, isDeterministicAndAnObjectServesManyQueries)
+{
+    CarSearch reused;
+    for (std::uint64_t seed = 0; seed < 25; ++seed)
+    {
+        CarProblem problem = randomProblem(seed);
+        const Result first = solve(problem, carParameters()), second = solve(problem, carParameters());
+        expectSame(first, second);
+        problem.begin(reused, carParameters());
+        const SearchOutcome outcome = reused.run([&] { return reused.statistics().expanded >= MOST_EXPANSIONS; });
+        expectSame(first, {outcome, reused.bestPath(), reused.bestCost(), reused.statistics()});
+    }
+}
+
+TEST(CarSearch, forwardOnlyNeverReverses)
+{
+    int found = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 4);
+        CarParameters parameters = carParameters();
+        parameters.forwardOnly = true;
+        parameters.bidirectional = seed % 2 == 0;
+        parameters.searchFromGoal = seed % 4 < 2;
+        CarSearch search;
+        problem.begin(search, parameters);
+        if (search.run([&] { return search.statistics().expanded > 3000; }) != SearchOutcome::Improved)
+            continue;
+        ++found;
+        ASSERT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS, true), "");
+    }
+    EXPECT_GT(found, 15);
+    // A goal just behind the car: it has to go round.
+    CarProblem behind{DiscCarWorld({-20.0, -20.0, 20.0, 20.0}), {{0.0, 0.0, 0.0}}, {{-1.0, 0.0, 0.0}}};
+    CarParameters parameters = carParameters();
+    EXPECT_NEAR(solve(behind, parameters).path.length(), 1.0, 1e-9);
+    parameters.forwardOnly = true;
+    EXPECT_GT(solve(behind, parameters).path.length(), 2.0 * PI * TURNING_RADIUS);
+}
+
+TEST(CarSearch, heapAndLinearListAreTheSameSearch)
+{
+    for (std::uint64_t seed = 0; seed < 25; ++seed)
+    {
+        CarParameters parameters = carParameters();
+        const Result heap = solve(randomProblem(seed), parameters);
+        parameters.openList = OpenListKind::Linear;
+        expectSame(heap, solve(randomProblem(seed), parameters));
+    }
+}
+
+TEST(CarSearch, everyDirectionOfSearchReachesTheSame)
+{
+    for (const NamedProblem &each : namedProblems())
+        for (const bool bidirectional : {true, false})
+            for (const bool fromGoal : {true, false})
+            {
+                SCOPED_TRACE(each.name);
+                CarParameters parameters = carParameters();
+                parameters.bidirectional = bidirectional;
+                parameters.searchFromGoal = fromGoal;
+                const Result result = solve(each.problem, parameters);
+                EXPECT_EQ(result.outcome == SearchOutcome::Improved, each.solvable)
+                    << "bidirectional " << bidirectional << ", from goal " << fromGoal;
+                if (result.outcome != SearchOutcome::Improved)
+                    continue;
+                EXPECT_EQ(
+                    faultOf(result.path, each.problem.world, each.problem.starts, each.problem.goals, TURNING_RADIUS),
+                    "");
+            }
+}
+
+TEST(CarSearch, aClosedDoorIsRecognisedByTheRoomThereIs)
+{
+    CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}};
+    CarParameters parameters = carParameters();
+    parameters.inscribedRadius = problem.world.radius;
+    const Result result = solve(problem, parameters);
+    EXPECT_EQ(result.outcome, SearchOutcome::Exhausted);
+    EXPECT_EQ(result.statistics.expanded, 0u) << "not even the disc in the car finds a way";
+    // A door of just the disc's width says nothing against it.
+    problem.world = twoRooms(2.1);
+    EXPECT_EQ(solve(problem, parameters).outcome, SearchOutcome::Improved);
+}
+
+TEST(CarSearch, withoutAnalyticExpansionNothingIsJoined)
+{
+    for (const NamedProblem &each : namedProblems())
+    {
+        SCOPED_TRACE(each.name);
+        CarProblem problem = each.problem;
+        CarParameters parameters = carParameters();
+        parameters.analyticExpansion = false;
+        CarSearch search;
+        problem.begin(search, parameters);
+        EXPECT_NE(search.run([&] { return search.statistics().expanded > 300; }), SearchOutcome::Improved);
+        EXPECT_EQ(search.statistics().connections, 0u);
+        EXPECT_FALSE(search.hasSolution());
+    }
+}
+
+TEST(CarSearch, adaptiveResolutionFindsTheWayOutOfATightSlot)
+{
+    CarProblem tight = tightParallelSlot();
+    CarParameters parameters = carParameters();
+    EXPECT_EQ(solve(tight, parameters).outcome, SearchOutcome::Improved);
+    parameters.adaptiveResolution = false;
+    EXPECT_NE(solve(tight, parameters).outcome, SearchOutcome::Improved);
+    CarProblem wide{twoRooms(5.0), {{-9.0, 0.0, 0.0}}, {{6.0, 2.0, 0.0}}};
+    EXPECT_EQ(solve(wide, parameters).outcome, SearchOutcome::Improved);
+}
+
+TEST(CarSearch, obstacleHeuristicGuidesAndCanBeLeftOut)
+{
+    std::uint64_t with = 0, without = 0;
+    for (int wall = 0; wall < 3; ++wall)
+    {
+        CarProblem problem = maze(wall);
+        CarParameters parameters = carParameters();
+        parameters.inscribedRadius = problem.world.radius;
+        const Result guided = solve(problem, parameters);
+        EXPECT_EQ(guided.outcome, SearchOutcome::Improved);
+        EXPECT_GT(guided.statistics.heuristicCells, 0u);
+        with += guided.statistics.expanded;
+        parameters.obstacleHeuristic = false;
+        const Result plain = solve(problem, parameters);
+        EXPECT_EQ(plain.outcome, SearchOutcome::Improved);
+        EXPECT_EQ(plain.statistics.heuristicCells, 0u);
+        without += plain.statistics.expanded;
+    }
+    EXPECT_LT(with, without);
+}
+
+TEST(CarSearch, eagerLoadingIsTheSameSearchButForTheLoading)
+{
+    for (std::uint64_t seed = 0; seed < 15; ++seed)
+    {
+        const CarProblem problem = randomProblem(seed);
+        CarParameters parameters = carParameters();
+        parameters.low = {-12.0, -12.0};
+        parameters.high = {12.0, 12.0};
+        parameters.inscribedRadius = problem.world.radius;
+        const Result lazy = solve(problem, parameters);
+        parameters.eagerObstacles = true;
+        CarProblem copy = problem;
+        CarSearch search;
+        copy.begin(search, parameters);
+        const auto enough = [&]
+        {
+            return search.statistics().expanded >= MOST_EXPANSIONS;
+        };
+        const SearchOutcome outcome = search.run(enough);
+        expectSame(lazy, {outcome, search.bestPath(), search.bestCost(), search.statistics()});
+        if (search.statistics().expanded > 0)
+        {
+            EXPECT_GT(search.loadingTime(), 0.0);
+        }
+        parameters.eagerObstacles = false;
+        copy.begin(search, parameters);
+        search.run(enough);
+        EXPECT_EQ(search.loadingTime(), 0.0);
+    }
+}
+
+TEST(CarSearch, stopsAndGoesOnToTheSamePath)
+{
+    for (const NamedProblem &each : namedProblems())
+    {
+        SCOPED_TRACE(each.name);
+        const Result whole = solve(each.problem, carParameters());
+        CarProblem problem = each.problem;
+        CarSearch search;
+        problem.begin(search, carParameters());
+        SearchOutcome outcome;
+        int pieces = 0;
+        do
+        {
+            int asked = 0;
+            outcome = search.run([&asked] { return ++asked > 40; });
+            ASSERT_LT(++pieces, 10000);
+        } while (outcome == SearchOutcome::Stopped && search.statistics().expanded < whole.statistics.expanded);
+        if (whole.outcome == SearchOutcome::Improved)
+        {
+            expectSame(whole, {outcome, search.bestPath(), search.bestCost(), search.statistics()});
+        }
+        else
+        {
+            EXPECT_NE(outcome, SearchOutcome::Improved);
+        }
+    }
+}
+
+TEST(CarSearch, aStopIsHeededBeforeTheNextExpansion)
+{
+    CarProblem problem = maze(2);
+    CarSearch search;
+    problem.begin(search, carParameters());
+    EXPECT_EQ(search.run([] { return true; }), SearchOutcome::Stopped);
+    EXPECT_EQ(search.statistics().expanded, 0u);
+    EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 7; }), SearchOutcome::Stopped);
+    EXPECT_EQ(search.statistics().expanded, 7u);
+}
+
+TEST(CarSearch, joinsTheCheapestPairOfRootsInTheOpen)
+{
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        TestRandom random(seed);
+        CarProblem problem{DiscCarWorld({-60.0, -60.0, 60.0, 60.0}), {}, {}};
+        for (int i = 0; i < 3; ++i)
+        {
+            problem.starts.push_back(random.poseIn(-10.0, 10.0));
+            problem.goals.push_back(random.poseIn(-10.0, 10.0));
+        }
+        const Result all = solve(problem, carParameters());
+        double cheapest = std::numeric_limits<double>::infinity();
+        for (const Pose &start : problem.starts)
+            for (const Pose &goal : problem.goals)
+                cheapest = std::min(cheapest, solve({problem.world, {start}, {goal}}, carParameters()).cost);
+        ASSERT_EQ(all.outcome, SearchOutcome::Improved);
+        ASSERT_NEAR(all.cost, cheapest, 1e-9);
+    }
+}
+
+TEST(CarSearch, goalsAddedLaterAreReached)
+{
+    for (const bool bidirectional : {true, false})
+        for (const double nearWeight : {3.0, 0.5})
+        {
+            SCOPED_TRACE(nearWeight);
+            CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
+            // The new goal stands behind a wall in the start's own room.
+            problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
+            CarParameters parameters = carParameters();
+            parameters.bidirectional = bidirectional;
+            parameters.searchFromGoal = false;
+            parameters.weights = {3.0, nearWeight, 30.0, 1e-3};
+            CarSearch search;
+            problem.begin(search, parameters);
+            EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 30; }), SearchOutcome::Stopped);
+            const Pose goal{-3.5, -4.0, 0.5 * PI};
+            ASSERT_GT(problem.world.gap(goal), 0.0);
+            search.addGoal(goal);
+            ASSERT_EQ(search.run(nullptr), SearchOutcome::Improved);
+            EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {goal}, TURNING_RADIUS), "");
+        }
+}
+
+TEST(CarSearch, changedHeuristicsDoNotLoseOpenNodes)
+{
+    // With a weight that falls near the goal, a goal added close by lowers what the open nodes are worth.
+    CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
+    problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
+    CarParameters parameters = carParameters();
+    parameters.bidirectional = false;
+    parameters.searchFromGoal = false;
+    parameters.adaptiveResolution = false;
+    parameters.weights = {3.0, 0.1, 9.0, 0.0};
+    CarSearch search;
+    problem.begin(search, parameters);
+    EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 1; }), SearchOutcome::Stopped);
+    search.addGoal({-3.5, -4.0, 0.5 * PI});
+    EXPECT_EQ(search.run(nullptr), SearchOutcome::Improved);
+}
+
+TEST(CarSearch, startsAddedLaterAreUsed)
+{
+    CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{9.0, -2.0, 0.5 * PI}}};
+    problem.world.boxes.push_back({5.6, -6.0, 6.0, 2.2});
+    CarParameters parameters = carParameters();
+    parameters.inscribedRadius = problem.world.radius;
+    CarSearch search;
+    problem.begin(search, parameters);
+    EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
+    const Pose start{3.5, -4.0, 0.5 * PI};
+    search.addStart(start);
+    ASSERT_EQ(search.run(nullptr), SearchOutcome::Improved);
+    EXPECT_EQ(faultOf(search.bestPath(), problem.world, {start}, problem.goals, TURNING_RADIUS), "");
+}
+
+TEST(CarSearch, aGoalAfterATargetIsReached)
+{
+    CarProblem problem{twoRooms(3.0), {{-9.0, 0.0, 0.0}}, {}};
+    CarSearch search;
+    problem.begin(search, carParameters());
+    search.setTarget({-11.9, -5.9, 0.0});
+    EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 200; }), SearchOutcome::Stopped);
+    const Pose goal{9.0, 2.0, 0.5 * PI};
+    search.addGoal(goal);
+    ASSERT_EQ(search.run([&] { return search.statistics().expanded >= 5000; }), SearchOutcome::Improved);
+    EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {goal}, TURNING_RADIUS), "");
+}
+
+TEST(CarSearch, farGoalsOfASmallCarAreNotTakenForUnreachable)
+{
+    // 150 m are 750 turning radii of a model car.
+    CarProblem problem{DiscCarWorld({-20.0, -20.0, 200.0, 20.0}), {{0.0, 0.0, 0.0}}, {{150.0, 0.0, 0.0}}};
+    problem.world.offsets = {0.0, 0.1};
+    problem.world.radius = 0.1;
+    problem.world.boxes.push_back({70.0, -1.0, 71.0, 1.0});
+    CarParameters parameters = carParameters();
+    parameters.turningRadius = 0.2;
+    parameters.inscribedRadius = 0.1;
+    CarSearch search;
+    problem.begin(search, parameters);
+    ASSERT_EQ(search.run([&] { return search.statistics().expanded >= 20000; }), SearchOutcome::Improved);
+    EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, 0.2), "");
+}
+
+TEST(CarSearch, comesAsNearToATargetAsTheCarCan)
+{
+    for (const auto &[name, problem, target] : targetProblems())
+    {
+        SCOPED_TRACE(name);
+        DiscCarWorld world = problem.world;
+        CarSearch search;
+        search.begin(world, carParameters());
+        search.addStart(problem.starts.front());
+        search.setTarget(target);
+        EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
+        ArcPath path;
+        ASSERT_TRUE(search.nearestPath(target, path));
+        EXPECT_EQ(faultOf(path, world, problem.starts, {path.end()}, TURNING_RADIUS), "");
+        const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);
+        EXPECT_LE(reached, nearestByFlooding(world, problem.starts.front(), target) + 0.1);
+    }
+    ArcPath path;
+    DiscCarWorld world = twoRooms(3.0);
+    CarSearch search;
+    search.begin(world, carParameters());
+    EXPECT_FALSE(search.nearestPath({}, path)) << "without a start";
+}
+
+TEST(CarSearch, lowerBoundIsNeverAboveWhatIsFoundLater)
+{
+    int compared = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        CarParameters parameters = carParameters();
+        parameters.weights = {1.0, 1.0, 0.0, 0.0};
+        parameters.bidirectional = seed % 2 == 0;
+        parameters.searchFromGoal = seed % 4 < 2;
+        parameters.inscribedRadius = problem.world.radius;
+        CarSearch search;
+        problem.begin(search, parameters);
+        double largest = 0.0;
+        for (std::uint64_t end = 5; end < 4000; end += end)
+        {
+            while (search.run([&] { return search.statistics().expanded >= end; }) == SearchOutcome::Improved)
+            {
+            }
+            if (!search.hasSolution())
+                largest = std::max(largest, search.lowerBound());
+            else
+            {
+                ASSERT_LE(search.lowerBound(), search.bestCost());
+                largest = std::max(largest, search.lowerBound());
+            }
+        }
+        if (!search.hasSolution() || largest == 0.0)
+            continue;
+        ++compared;
+        EXPECT_LE(largest, search.bestCost() + 1e-6);
+    }
+    EXPECT_GT(compared, 20);
+}
+
+TEST(CarSearch, nodesFormTreesOfFreeMotions)
+{
+    for (const NamedProblem &each : namedProblems())
+    {
+        SCOPED_TRACE(each.name);
+        CarProblem problem = each.problem;
+        CarSearch search;
+        problem.begin(search, carParameters());
+        search.run([&] { return search.statistics().expanded > 300; });
+        std::vector<std::uint32_t> parents[2];
+        std::vector<Pose> poses[2];
+        search.forEachNode(
+            [&](const Pose &pose, std::uint32_t parent, std::uint32_t index, bool fromStart)
+            {
+                const int side = fromStart ? 0 : 1;
+                ASSERT_EQ(index, parents[side].size());
+                parents[side].push_back(parent);
+                poses[side].push_back(pose);
+                ASSERT_GT(problem.world.gap(pose), 0.0);
+            });
+        for (int side = 0; side < 2; ++side)
+            for (std::size_t i = 0; i < parents[side].size(); ++i)
+            {
+                std::uint32_t at = static_cast<std::uint32_t>(i);
+                for (std::size_t steps = 0; parents[side][at] != CarSearch::NO_NODE; ++steps)
+                {
+                    ASSERT_LT(steps, parents[side].size()) << "a circle";
+                    at = parents[side][at];
+                }
+                ASSERT_LT(at, problem.starts.size() + problem.goals.size());
+            }
+    }
+}

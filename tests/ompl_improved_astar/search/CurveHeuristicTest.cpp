@@ -1,0 +1,281 @@
+// The heuristic that knows curves but no obstacles, and the cost model.
+
+#include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
+#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    ArcPath randomDrive(TestRandom &random, double radius, bool forwardOnly)
+    {
+        ArcPath path{random.poseIn(-5.0, 5.0), {}};
+        const std::uint32_t count = 1 + random.index(6);
+        for (std::uint32_t i = 0; i < count; ++i)
+        {
+            const double length = random.between(0.1, 2.5) * radius;
+            path.append({random.between(-1.0, 1.0) / radius, !forwardOnly && random.chance(0.5) ? -length : length});
+        }
+        return path;
+    }
+}  // namespace
+
+TEST(CurveHeuristic, exactIsTheShortestCurveToTheNearestTarget)
+{
+    for (const CurveFamily family : {CurveFamily::ReedsShepp, CurveFamily::Dubins})
+        for (const bool backwards : {false, true})
+        {
+            const ReedsShepp curves(2.5, family);
+            CurveHeuristic heuristic(curves);
+            heuristic.reset(backwards);
+            TestRandom random(5);
+            std::vector<Pose> targets;
+            for (int i = 0; i < 4; ++i)
+            {
+                targets.push_back(random.poseIn(-10.0, 10.0));
+                heuristic.addTarget(targets.back());
+                for (int j = 0; j < 200; ++j)
+                {
+                    const Pose pose = random.poseIn(-15.0, 15.0);
+                    double shortest = std::numeric_limits<double>::infinity();
+                    for (const Pose &target : targets)
+                        shortest = std::min(shortest,
+                                            backwards ? curves.distance(target, pose) : curves.distance(pose, target));
+                    ASSERT_DOUBLE_EQ(heuristic.exact(pose), shortest);
+                }
+            }
+        }
+}
+
+TEST(CurveHeuristic, exactIsNeverAboveTheLengthOfADrivablePath)
+{
+    for (const CurveFamily family : {CurveFamily::ReedsShepp, CurveFamily::Dubins})
+        for (const double radius : {0.2, 3.7, 10.0})
+        {
+            const ReedsShepp curves(radius, family);
+            TestRandom random(6);
+            for (int i = 0; i < 5000; ++i)
+            {
+                const ArcPath path = randomDrive(random, radius, family == CurveFamily::Dubins);
+                CurveHeuristic forwards(curves);
+                if (i % 100 == 0)
+                {
+                    forwards.reset(false);
+                    forwards.addTarget(path.end());
+                    ASSERT_LE(forwards.exact(path.start), path.length() + 1e-6 * radius);
+                    forwards.reset(true);
+                    forwards.addTarget(path.start);
+                    ASSERT_LE(forwards.exact(path.end()), path.length() + 1e-6 * radius);
+                }
+                ASSERT_LE(curves.distance(path.start, path.end()), path.length() + 1e-6 * radius);
+            }
+        }
+}
+
+TEST(CurveHeuristic, approximateIsCloseToExactAtEveryScale)
+{
+    for (const double radius : {0.2, 4.0, 10.0})
+    {
+        const ReedsShepp curves(radius);
+        CurveHeuristic heuristic(curves);
+        heuristic.reset(false);
+        heuristic.addTarget({3.0 * radius, -2.0 * radius, 0.7});
+        TestRandom random(7);
+        double worst = 0.0, sum = 0.0;
+        constexpr int COUNT = 20000;
+        for (int i = 0; i < COUNT; ++i)
+        {
+            Pose pose = random.poseIn(-8.0, 8.0);
+            pose.x *= radius;
+            pose.y *= radius;
+            const double error = std::abs(heuristic.approximate(pose) - heuristic.exact(pose)) / radius;
+            worst = std::max(worst, error);
+            sum += error;
+        }
+        EXPECT_LT(worst, 0.8);
+        EXPECT_LT(sum / COUNT, 0.06);
+        EXPECT_GT(sum / COUNT, 0.0);
+    }
+}
+
+TEST(CurveHeuristic, approximateGivesTheSameAnswerHoweverOftenAndInWhateverOrder)
+{
+    const ReedsShepp curves(3.0);
+    CurveHeuristic a(curves), b(curves);
+    for (CurveHeuristic *each : {&a, &b})
+    {
+        each->reset(false);
+        each->addTarget({1.0, 2.0, 3.0});
+    }
+    TestRandom random(8);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 40000; ++i)
+        poses.push_back(random.poseIn(-100.0, 100.0));
+    std::vector<double> first, second(poses.size());
+    for (const Pose &pose : poses)
+        first.push_back(a.approximate(pose));
+    for (std::size_t i = poses.size(); i-- > 0;)
+        second[i] = b.approximate(poses[i]);
+    EXPECT_EQ(first, second);
+}
+
+TEST(CurveHeuristic, threadsThatFillTheTableTogetherGetTheSameValues)
+{
+    // More cells than the table holds, so that threads overwrite each other's.
+    constexpr int COUNT = 60000, THREADS = 4;
+    const ReedsShepp curves(2.0);
+    std::vector<std::vector<double>> values(THREADS);
+    std::vector<std::thread> threads;
+    for (std::vector<double> &mine : values)
+        threads.emplace_back(
+            [&curves, &mine]
+            {
+                CurveHeuristic heuristic(curves);
+                heuristic.reset(true);
+                heuristic.addTarget({1.0, 2.0, 3.0});
+                TestRandom random(10);
+                for (int i = 0; i < COUNT; ++i)
+                    mine.push_back(heuristic.approximate(random.poseIn(-40.0, 40.0)));
+            });
+    for (std::thread &thread : threads)
+        thread.join();
+    for (const std::vector<double> &each : values)
+        ASSERT_EQ(each, values.front());
+    // And cells are told apart: what a slot held for another does not come out.
+    CurveHeuristic heuristic(curves);
+    heuristic.reset(true);
+    heuristic.addTarget({1.0, 2.0, 3.0});
+    TestRandom random(10);
+    for (int i = 0; i < COUNT; ++i)
+    {
+        const Pose pose = random.poseIn(-40.0, 40.0);
+        ASSERT_LT(std::abs(values.front()[static_cast<std::size_t>(i)] - heuristic.exact(pose)),
+                  0.8 * curves.turningRadius());
+    }
+}
+
+TEST(CurveHeuristic, lengthsFarBeyondTheTableAreStillLengths)
+{
+    const ReedsShepp curves(1.0);
+    CurveHeuristic heuristic(curves);
+    heuristic.reset(false);
+    heuristic.addTarget({0.0, 0.0, 0.0});
+    for (const double x : {300.0, 327.0, 328.0, 5000.0, 1e6, -1e6})
+        EXPECT_NEAR(heuristic.approximate({x, 0.5 * x, 1.0}), heuristic.exact({x, 0.5 * x, 1.0}), 1.0);
+}
+
+TEST(CurveHeuristic, forgetsValuesWithTheTargets)
+{
+    const ReedsShepp curves(3.0);
+    CurveHeuristic heuristic(curves);
+    heuristic.reset(false);
+    EXPECT_EQ(heuristic.approximate({1.0, 2.0, 0.0}), 0.0) << "nothing is known without targets";
+    heuristic.addTarget({0.0, 0.0, 0.0});
+    EXPECT_NEAR(heuristic.approximate({10.0, 0.0, 0.0}), 10.0, 0.5);
+    heuristic.addTarget({20.0, 0.0, 0.0});
+    EXPECT_NEAR(heuristic.approximate({18.0, 0.0, 0.0}), 2.0, 0.5);
+    heuristic.reset(false);
+    heuristic.addTarget({10.0, 0.0, 0.0});
+    EXPECT_NEAR(heuristic.approximate({10.0, 0.0, 0.0}), 0.0, 0.5);
+    EXPECT_EQ(heuristic.targets().size(), 1u);
+}
+
+/** All objects share one table: at the centres of its cells it has to give what the curves give, whatever other
+    curves, radii, directions and targets have been asked for before. */
+TEST(CurveHeuristic, tabulatedLengthsAreThoseOfTheirOwnCurves)
+{
+    TestRandom random(9);
+    int wrong = 0, count = 0;
+    for (int round = 0; round < 60; ++round)
+    {
+        const CurveFamily family = random.chance(0.5) ? CurveFamily::Dubins : CurveFamily::ReedsShepp;
+        const double radius = random.chance(0.5) ? 3.0 : 4.5;
+        const ReedsShepp curves(radius, family);
+        CurveHeuristic heuristic(curves);
+        heuristic.reset(random.chance(0.5));
+        const Pose target{random.between(-20.0, 20.0), random.between(-20.0, 20.0), 0.0};
+        heuristic.addTarget(target);
+        for (int i = 0; i < 500; ++i)
+        {
+            const bool near = random.chance(0.5);
+            const double cell = near ? 0.04 : 0.16;
+            const int headings = near ? 180 : 60;
+            // Few cells, so that different curves come to ask for the same ones.
+            const double column = static_cast<double>(random.index(8)) - 4.0 + (near ? 0.0 : 12.0);
+            const double row = static_cast<double>(random.index(8)) - 4.0;
+            const double heading = static_cast<double>(random.index(12)) * (headings / 12);
+            const Pose pose{target.x + column * cell * radius, target.y + row * cell * radius,
+                            parking::wrapAngle(heading * 2.0 * PI / headings)};
+            ++count;
+            // A turn of a whole circle and none are the same place: rounding decides, seldom.
+            wrong += std::abs(heuristic.approximate(pose) - heuristic.exact(pose)) > 1e-4 * radius;
+        }
+    }
+    EXPECT_LE(wrong, count / 20) << "of " << count;
+}
+
+TEST(CostModel, pricesLengthGearSteeringAndCloseness)
+{
+    DiscCarWorld world({-10.0, -10.0, 10.0, 10.0});
+    CostModel model;
+    model.fullLockCurvature = 0.25;
+    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, 3.0}, world), 3.0);
+    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, -3.0}, world), 3.0);
+    EXPECT_DOUBLE_EQ(model.join({0.25, 1.0}, {-0.25, -1.0}), 0.0);
+    model.reversePenalty = 0.5;
+    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, 3.0}, world), 3.0);
+    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, -3.0}, world), 4.5);
+    model.gearChangePenalty = 2.0;
+    EXPECT_DOUBLE_EQ(model.join({0.25, 1.0}, {-0.25, -1.0}), 2.0);
+    EXPECT_DOUBLE_EQ(model.join({0.25, -1.0}, {-0.25, -1.0}), 0.0);
+    model.steeringChangePenalty = 0.1;
+    EXPECT_DOUBLE_EQ(model.join({0.25, -1.0}, {-0.25, -1.0}), 0.2);
+    EXPECT_DOUBLE_EQ(model.join({0.0, 1.0}, {0.25, -1.0}), 2.1);
+    const ArcPath path{{}, {{0.25, 1.0}, {0.0, -2.0}, {0.0, 1.0}}};
+    EXPECT_DOUBLE_EQ(pathCost(model, path, world), 1.0 + 2.1 + 3.0 + 2.0 + 1.0);
+
+    model = {};
+    model.clearanceWeight = 3.0;
+    model.clearanceRange = 1.0;
+    const double far = model.drive({0.0, 0.0, 0.0}, {0.0, 2.0}, world);
+    EXPECT_DOUBLE_EQ(far, 2.0) << "more than the range away";
+    // Along the wall, 0.25 m from it: three quarters of the weight on every metre.
+    EXPECT_NEAR(model.drive({0.0, 10.0 - 0.95 - 0.25, 0.0}, {0.0, 2.0}, world), 2.0 + 0.75 * 3.0 * 2.0, 1e-9);
+}
+
+TEST(CostModel, curvesAndPathsCostTheSameAndNeverLessThanTheirLength)
+{
+    DiscCarWorld world = randomField(1);
+    const ReedsShepp curves(4.0);
+    TestRandom random(9);
+    std::vector<ReedsSheppCurve> candidates;
+    for (int i = 0; i < 200; ++i)
+    {
+        CostModel model{random.between(0.0, 1.0),
+                        random.between(0.0, 2.0),
+                        random.between(0.0, 1.0),
+                        i % 2 ? random.between(0.0, 2.0) : 0.0,
+                        1.0,
+                        0.25};
+        const Pose from = random.poseIn(-8.0, 8.0), to = random.poseIn(-8.0, 8.0);
+        curves.candidates(from, to, candidates);
+        for (const ReedsSheppCurve &curve : candidates)
+        {
+            ArcPath path{from, {}};
+            path.segments.assign(curve.segments.begin(), curve.segments.begin() + static_cast<long>(curve.count));
+            ASSERT_NEAR(curveCost(model, from, curve, world), pathCost(model, path, world), 1e-9);
+            ASSERT_GE(curveCost(model, from, curve, world), curve.length - 1e-9);
+        }
+    }
+}

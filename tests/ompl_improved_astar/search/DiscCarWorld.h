@@ -1,0 +1,183 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/Pose.h"
+#include "tests/ompl_improved_astar/TestRandom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parking_test
+{
+    /** \brief A solid axis-parallel box. */
+    struct Box
+    {
+        double lowX, lowY, highX, highY;
+    };
+
+    /** \brief The world of the search's tests: a car made of discs along its axis, among boxes inside of a box.
+
+        Distances are exact and simple, so that this world is its own judge; nothing of the library is in it. */
+    class DiscCarWorld : public parking::search::MotionEnvironment
+    {
+    public:
+        explicit DiscCarWorld(const Box &insideOf, std::vector<Box> obstacles = {})
+          : inside(insideOf),
+            boxes(std::move(obstacles))
+        {
+        }
+
+        Box inside;
+        std::vector<Box> boxes;
+        std::vector<double> offsets{0.0, 1.3, 2.6};  ///< of the discs' centres ahead of the rear axle
+        double radius{0.95};
+        bool tellsRoom{true};
+        std::uint64_t questions{0};
+        std::uint64_t pathsAsked{0};
+
+        /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
+        double distanceFrom(double x, double y) const
+        {
+            double least = std::min({x - inside.lowX, inside.highX - x, y - inside.lowY, inside.highY - y});
+            for (const Box &box : boxes)
+                least = std::min(least, std::hypot(std::max({box.lowX - x, 0.0, x - box.highX}),
+                                                   std::max({box.lowY - y, 0.0, y - box.highY})));
+            return std::max(0.0, least);
+        }
+
+        /** \brief Distance between the car and the obstacles; negative when they overlap. */
+        double gap(const parking::Pose &pose) const
+        {
+            double least = std::numeric_limits<double>::infinity();
+            for (const double offset : offsets)
+                least = std::min(
+                    least, distanceFrom(pose.x + offset * std::cos(pose.yaw), pose.y + offset * std::sin(pose.yaw)));
+            return least - radius;
+        }
+
+        bool isFree(const parking::Pose &pose) override
+        {
+            ++questions;
+            return gap(pose) > 0.0;
+        }
+
+        double clearance(const parking::Pose &pose) override
+        {
+            return std::max(0.0, gap(pose));
+        }
+
+        double freeLength(const parking::Pose &from, double curvature, double length) override
+        {
+            ++questions;
+            const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
+            double farthest = 0.0;
+            for (const double offset : offsets)
+                farthest = std::max(farthest, std::abs(offset));
+            const double speed = std::hypot(1.0, farthest * curvature);
+            double driven = 0.0;
+            while (driven < whole)
+            {
+                const double room = gap(advance(from, curvature, direction * driven));
+                if (room < 1e-4)
+                    return std::max(0.0, driven - 1e-6);
+                driven += room / speed;
+            }
+            return gap(advance(from, curvature, length)) >= 1e-4 ? whole : whole - 1e-6;
+        }
+
+        double roomAt(double x, double y) override
+        {
+            return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
+        }
+
+        bool acceptPath(const parking::ArcPath & /*path*/) override
+        {
+            ++pathsAsked;
+            return true;
+        }
+
+        parking::Pose freePose(TestRandom &random)
+        {
+            for (;;)
+            {
+                const double x = random.between(inside.lowX, inside.highX),
+                             y = random.between(inside.lowY, inside.highY);
+                const parking::Pose pose{x, y, random.between(-parking::PI, parking::PI)};
+                if (gap(pose) > 0.02)
+                    return pose;
+            }
+        }
+    };
+
+    /** \brief A field of 24 m with boxes thrown into it. */
+    inline DiscCarWorld randomField(std::uint64_t seed, std::uint32_t count = 10)
+    {
+        TestRandom random(seed);
+        DiscCarWorld world({-12.0, -12.0, 12.0, 12.0});
+        for (std::uint32_t i = 0; i < count; ++i)
+        {
+            const double x = random.between(-12.0, 12.0), y = random.between(-12.0, 12.0);
+            const double w = random.between(0.2, 3.0), h = random.between(0.2, 3.0);
+            world.boxes.push_back({x - w, y - h, x + w, y + h});
+        }
+        return world;
+    }
+
+    /** \brief Two rooms of 12 m with a doorway of the given width between them; 0: none. */
+    inline DiscCarWorld twoRooms(double door)
+    {
+        DiscCarWorld world({-12.0, -6.0, 12.0, 6.0});
+        world.boxes.push_back({-0.5, -6.0, 0.5, -0.5 * door});
+        world.boxes.push_back({-0.5, 0.5 * door, 0.5, 6.0});
+        return world;
+    }
+
+    /** \brief A slot of the given width between blocks, off an aisle of 6 m; the car parks at (0, 1) heading out. */
+    inline DiscCarWorld slot(double width)
+    {
+        DiscCarWorld world({-12.0, -1.0, 12.0, 11.0});
+        world.boxes.push_back({-12.0, -1.0, -0.5 * width, 5.0});
+        world.boxes.push_back({0.5 * width, -1.0, 12.0, 5.0});
+        return world;
+    }
+
+    /** \brief What is wrong with a path, or nothing: curvature, direction, ends, collisions (every 2 mm). */
+    inline std::string faultOf(const parking::ArcPath &path, const DiscCarWorld &world,
+                               const std::vector<parking::Pose> &starts, const std::vector<parking::Pose> &goals,
+                               double turningRadius, bool forwardOnly = false)
+    {
+        const auto isOneOf = [](const parking::Pose &pose, const std::vector<parking::Pose> &poses, double tolerance)
+        {
+            return std::any_of(poses.begin(), poses.end(),
+                               [&](const parking::Pose &each)
+                               {
+                                   return std::hypot(pose.x - each.x, pose.y - each.y) <= tolerance &&
+                                          std::abs(parking::wrapAngle(pose.yaw - each.yaw)) <= tolerance;
+                               });
+        };
+        if (!isOneOf(path.start, starts, 0.0))
+            return "does not begin at a start";
+        if (!isOneOf(path.end(), goals, 1e-6))
+            return "does not end at a goal";
+        parking::Pose pose = path.start;
+        for (const parking::ArcSegment &segment : path.segments)
+        {
+            if (std::abs(segment.curvature) > (1.0 + 1e-9) / turningRadius)
+                return "turns too sharply";
+            if (forwardOnly && segment.length < 0.0)
+                return "drives in reverse";
+            const double steps = std::ceil(std::abs(segment.length) / 0.002);
+            for (double i = 0.0; i <= steps; i += 1.0)
+                if (!(world.gap(advance(pose, segment.curvature, segment.length * i / std::max(1.0, steps))) > 0.0))
+                    return "collides";
+            pose = advance(pose, segment.curvature, segment.length);
+        }
+        return {};
+    }
+}  // namespace parking_test

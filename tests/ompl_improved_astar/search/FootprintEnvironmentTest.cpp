@@ -1,0 +1,188 @@
+// What the search asks of the world, answered by the footprint checker within the bounds of the state space, and by any
+// other checker.
+
+#include "ompl_improved_astar/FootprintEnvironment.h"
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
+#include "ompl_improved_astar/search/CurveCheck.h"
+#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/state_validity/RandomWorlds.h"
+
+#include <gtest/gtest.h>
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr double TOLERANCE = 1e-3;
+
+    bool isInside(const Bounds &bounds, const Pose &pose)
+    {
+        return (pose.x >= bounds.min.x()) && (pose.x <= bounds.max.x()) && (pose.y >= bounds.min.y()) &&
+               (pose.y <= bounds.max.y());
+    }
+}  // namespace
+
+TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
+{
+    const Vehicle vehicle;
+    int whole = 0, atBounds = 0, atObstacles = 0;
+    for (std::uint64_t seed = 0; seed < 6; ++seed)
+    {
+        const World world = randomPolygonWorld(seed);
+        const FootprintChecker checker(world.obstacles, vehicle);
+        const Bounds bounds{{-9.0, -4.0}, {7.0, 11.0}};
+        FootprintEnvironment environment(checker, bounds, TOLERANCE);
+        Random random(seed);
+        for (int i = 0; i < 800;)
+        {
+            const Pose from{random.between(-10.0, 8.0), random.between(-5.0, 12.0), random.between(-PI, PI)};
+            if (!checker.isFree(from))
+                continue;
+            ++i;
+            ASSERT_EQ(environment.isFree(from), isInside(bounds, from));
+            const double curvature = random.chance(0.3) ? 0.0 : random.between(-0.25, 0.25);
+            const double length = random.magnitude(0.05, 9.0), wanted = std::abs(length);
+            const double free = environment.freeLength(from, curvature, length);
+            const double byChecker = checker.freeLength(from, curvature, length);
+            ASSERT_LE(free, byChecker);
+            for (double driven = 0.0; driven < free; driven += 0.01)
+                ASSERT_TRUE(isInside(bounds, advance(from, curvature, std::copysign(driven, length))));
+            if (!isInside(bounds, from))
+            {
+                ASSERT_EQ(free, 0.0);
+                continue;
+            }
+            if (free >= wanted)
+            {
+                ++whole;
+                continue;
+            }
+            // No shorter than need be: just beyond its end is a wall, of one kind or the other.
+            const Pose beyond = advance(from, curvature, std::copysign(free + 2.0 * TOLERANCE, length));
+            const bool leaves = !isInside(bounds, beyond);
+            ASSERT_TRUE(leaves || free >= byChecker - 1e-12) << free << " of " << byChecker;
+            ++(leaves ? atBounds : atObstacles);
+        }
+    }
+    EXPECT_GT(whole, 300);
+    EXPECT_GT(atBounds, 300);
+    EXPECT_GT(atObstacles, 300);
+}
+
+TEST(FootprintEnvironment, severalMotionsFromOnePoseAreWhatEachIsAlone)
+{
+    const Vehicle vehicle;
+    for (std::uint64_t seed = 0; seed < 4; ++seed)
+    {
+        const World world = randomPolygonWorld(seed);
+        const FootprintChecker checker(world.obstacles, vehicle);
+        FootprintEnvironment environment(checker, {{-9.0, -4.0}, {7.0, 11.0}}, TOLERANCE);
+        Random random(seed + 50);
+        std::vector<ArcSegment> arcs;
+        std::vector<double> free;
+        for (int i = 0; i < 500; ++i)
+        {
+            const Pose from = i % 2 == 0 ? world.anywhere(random)
+                                         : world.touching(random, vehicle, std::abs(random.magnitude(1e-6, 0.5)));
+            arcs.clear();
+            for (std::size_t k = 0; k < 1 + random.index(6); ++k)
+                arcs.push_back({random.chance(0.3) ? 0.0 : random.between(-0.3, 0.3), random.magnitude(0.01, 8.0)});
+            free.assign(arcs.size(), -1.0);
+            environment.freeLengths(from, arcs.data(), arcs.size(), free.data());
+            for (std::size_t k = 0; k < arcs.size(); ++k)
+                ASSERT_EQ(free[k], environment.freeLength(from, arcs[k].curvature, arcs[k].length));
+        }
+    }
+}
+
+/** Looking at the ends of the pieces first changes the cost of the answer, not the answer. */
+TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
+{
+    const ReedsShepp curves(3.0);
+    int free = 0, blocked = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        DiscCarWorld world = randomField(seed);
+        TestRandom random(seed);
+        std::vector<ReedsSheppCurve> candidates;
+        for (int i = 0; i < 20; ++i)
+        {
+            const Pose from = world.freePose(random), to = world.freePose(random);
+            curves.candidates(from, to, candidates, 40.0);
+            for (const ReedsSheppCurve &curve : candidates)
+            {
+                bool swept = true;
+                Pose pose = from;
+                for (std::size_t k = 0; k < curve.count && swept; ++k)
+                {
+                    const ArcSegment &piece = curve.segments[k];
+                    swept = world.freeLength(pose, piece.curvature, piece.length) >= std::abs(piece.length);
+                    pose = advance(pose, piece.curvature, piece.length);
+                }
+                ASSERT_EQ(isCurveFree(world, from, curve, to, CurveEnd::Start), swept);
+                // From the other end the sweep stops elsewhere, but a path that is clear by a hand's breadth is so from
+                // both.
+                if (isCurveFree(world, from, curve, to, CurveEnd::Goal) != swept)
+                {
+                    double least = 1.0;
+                    Pose at = from;
+                    for (std::size_t k = 0; k < curve.count; ++k)
+                        for (int m = 0; m <= 200; ++m)
+                        {
+                            const double part = curve.segments[k].length * m / 200.0;
+                            least =
+                                std::min(least, std::abs(world.gap(advance(at, curve.segments[k].curvature, part))));
+                            if (m == 200)
+                                at = advance(at, curve.segments[k].curvature, part);
+                        }
+                    ASSERT_LT(least, 0.02);
+                }
+                ++(swept ? free : blocked);
+            }
+        }
+    }
+    EXPECT_GT(free, 500);
+    EXPECT_GT(blocked, 3000);
+}
+
+/** A checker that takes its time must not be asked on and on when the time is up. */
+TEST(StateSpaceEnvironment, posesOfMotionsAreAskedForUntilTheTimeIsUpAndHardlyLonger)
+{
+    const auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(3.0);
+    ompl::base::RealVectorBounds bounds(2);
+    bounds.setLow(-10.0);
+    bounds.setHigh(10.0);
+    space->setBounds(bounds);
+    const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
+    int asked = 0;
+    si->setStateValidityChecker([&asked](const ompl::base::State *) { return ++asked > 0; });
+    si->setup();
+    StateSpaceEnvironment environment(si, 0.1, {}, false);
+    for (int i = 0; i < 100; ++i)
+        ASSERT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
+    EXPECT_EQ(asked, 100);
+    EXPECT_FALSE(environment.wasInterrupted());
+    environment.setStop([] { return true; });
+    asked = 0;
+    int free = 0;
+    for (int i = 0; i < 100; ++i)
+        free += environment.isPassable({0.0, 0.0, 0.0});
+    EXPECT_LE(asked, 8);
+    EXPECT_EQ(free, asked);
+    EXPECT_TRUE(environment.wasInterrupted());
+    // Whether a pose as such is free is another question.
+    EXPECT_TRUE(environment.isFree({0.0, 0.0, 0.0}));
+    environment.setStop(nullptr);
+    EXPECT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
+    EXPECT_FALSE(environment.isPassable({11.0, 0.0, 0.0}));
+}

@@ -1,0 +1,354 @@
+// The obstacle-aware heuristic: against plain Dijkstra, asked lazily and at once, and as a lower bound.
+
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    using Place = std::pair<int, int>;
+
+    /** Dijkstra over the same cells as the class documents them: eight neighbours, centred on \e toward, open unless
+        the disc surely hits something wherever in the cell it stands. */
+    class PlainDijkstra
+    {
+    public:
+        PlainDijkstra(const DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward,
+                      const std::vector<Eigen::Vector2d> &targets)
+          : resolution_(resolution),
+            toward_(toward)
+        {
+            std::priority_queue<std::pair<double, Place>, std::vector<std::pair<double, Place>>, std::greater<>> open;
+            for (const Eigen::Vector2d &target : targets)
+                open.push({0.0, place(target)});
+            while (!open.empty())
+            {
+                const auto [g, at] = open.top();
+                open.pop();
+                if (!settled_.emplace(at, g).second)
+                    continue;
+                for (int dr = -1; dr <= 1; ++dr)
+                    for (int dc = -1; dc <= 1; ++dc)
+                    {
+                        const Place next{at.first + dc, at.second + dr};
+                        const double x = toward.x() + (next.first + 0.5) * resolution;
+                        const double y = toward.y() + (next.second + 0.5) * resolution;
+                        if (mayHoldDisc(world, x, y, resolution, radius))
+                            open.push({g + std::hypot(dc, dr) * resolution, next});
+                    }
+            }
+        }
+
+        double distance(double x, double y) const
+        {
+            const auto found = settled_.find(place({x, y}));
+            return found == settled_.end() ? INFINITE : found->second;
+        }
+
+    private:
+        /** One of the sixteen parts of the cell may hold the disc's centre. */
+        static bool mayHoldDisc(const DiscCarWorld &world, double x, double y, double resolution, double radius)
+        {
+            for (const double dx : {-0.375, -0.125, 0.125, 0.375})
+                for (const double dy : {-0.375, -0.125, 0.125, 0.375})
+                    if (world.distanceFrom(x + dx * resolution, y + dy * resolution) +
+                            std::sqrt(0.5) * resolution / 4.0 >=
+                        radius)
+                        return true;
+            return false;
+        }
+
+        Place place(const Eigen::Vector2d &point) const
+        {
+            return {static_cast<int>(std::floor((point.x() - toward_.x()) / resolution_)),
+                    static_cast<int>(std::floor((point.y() - toward_.y()) / resolution_))};
+        }
+
+        double resolution_;
+        Eigen::Vector2d toward_;
+        std::map<Place, double> settled_;
+    };
+
+    /** A world whose outside is closed to discs of at least 1.5 cells. */
+    DiscCarWorld smallWorld(std::uint64_t seed)
+    {
+        TestRandom random(seed);
+        DiscCarWorld world({-6.0, -6.0, 6.0, 6.0});
+        for (int i = 0; i < 8; ++i)
+        {
+            const double x = random.between(-6.0, 6.0), y = random.between(-6.0, 6.0);
+            const double w = random.between(0.05, 1.5), h = random.between(0.05, 1.5);
+            world.boxes.push_back({x - w, y - h, x + w, y + h});
+        }
+        return world;
+    }
+
+    Eigen::Vector2d anywhere(TestRandom &random)
+    {
+        const double x = random.between(-6.0, 6.0);
+        return {x, random.between(-6.0, 6.0)};
+    }
+
+    void expectSame(double actual, double expected)
+    {
+        if (expected == INFINITE)
+            EXPECT_EQ(actual, INFINITE);
+        else
+            EXPECT_NEAR(actual, expected, 1e-4 * (1.0 + expected));
+    }
+
+    /** Length of a way of the disc from one point to another, nearly the shortest; infinite when none was found. */
+    double wayOfDisc(const DiscCarWorld &world, double radius, const Eigen::Vector2d &from, const Eigen::Vector2d &to)
+    {
+        constexpr double SIDE = 0.15, KEPT = 0.005;
+        const auto isFree = [&](const Eigen::Vector2d &p)
+        {
+            return world.distanceFrom(p.x(), p.y()) >= radius + KEPT;
+        };
+        const auto isSegmentFree = [&](const Eigen::Vector2d &a, const Eigen::Vector2d &b)
+        {
+            const double steps = std::ceil((b - a).norm() / KEPT);
+            for (double i = 0.0; i <= steps; i += 1.0)
+                if (!isFree(a + (b - a) * (i / std::max(1.0, steps))))
+                    return false;
+            return true;
+        };
+        // Breadth-first over cells that contain the point asked about, then the string is pulled tight.
+        const auto centre = [&](const Place &p)
+        {
+            return Eigen::Vector2d(from.x() + p.first * SIDE, from.y() + p.second * SIDE);
+        };
+        std::map<Place, std::pair<double, Place>> settled;
+        using Item = std::tuple<double, Place, Place>;
+        std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
+        open.push({0.0, {0, 0}, {0, 0}});
+        Place last{};
+        bool found = false;
+        while (!open.empty() && !found)
+        {
+            const auto [g, at, parent] = open.top();
+            open.pop();
+            if (!settled.emplace(at, std::pair{g, parent}).second)
+                continue;
+            if ((centre(at) - to).norm() < SIDE && isSegmentFree(centre(at), to))
+            {
+                last = at;
+                found = true;
+            }
+            for (int dr = -1; dr <= 1; ++dr)
+                for (int dc = -1; dc <= 1; ++dc)
+                {
+                    const Place next{at.first + dc, at.second + dr};
+                    if ((dr != 0 || dc != 0) && isFree(centre(next)))
+                        open.push({g + std::hypot(dc, dr) * SIDE, next, at});
+                }
+        }
+        if (!found)
+            return INFINITE;
+        std::vector<Eigen::Vector2d> points{to};
+        for (Place at = last; at != Place{0, 0}; at = settled.at(at).second)
+            points.push_back(centre(at));
+        points.push_back(from);
+        double length = 0.0;
+        for (std::size_t i = 0; i + 1 < points.size();)
+        {
+            std::size_t j = points.size() - 1;
+            while (j > i + 1 && !isSegmentFree(points[i], points[j]))
+                --j;
+            length += (points[j] - points[i]).norm();
+            i = j;
+        }
+        return length;
+    }
+
+    /** \brief The heuristic, set up as it is made. */
+    class HeuristicIn : public ObstacleHeuristic
+    {
+    public:
+        HeuristicIn(DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward)
+        {
+            reset(world, resolution, radius, toward);
+        }
+    };
+}  // namespace
+
+TEST(ObstacleHeuristic, isDijkstrasDistance)
+{
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        DiscCarWorld world = smallWorld(seed);
+        TestRandom random(seed + 100);
+        const double resolution = random.between(0.3, 0.6), radius = 1.6 * resolution;
+        const Eigen::Vector2d toward = anywhere(random);
+        std::vector<Eigen::Vector2d> targets;
+        for (std::uint64_t i = 0; i <= seed % 3; ++i)
+            targets.push_back(anywhere(random));
+        HeuristicIn heuristic(world, resolution, radius, toward);
+        for (const Eigen::Vector2d &target : targets)
+            heuristic.addTarget(target.x(), target.y());
+        const PlainDijkstra oracle(world, resolution, radius, toward, targets);
+        for (int i = 0; i < 200; ++i)
+        {
+            const Eigen::Vector2d p = anywhere(random);
+            expectSame(heuristic.distance(p.x(), p.y(), nullptr), oracle.distance(p.x(), p.y()));
+        }
+    }
+}
+
+TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
+{
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        DiscCarWorld world = smallWorld(seed);
+        TestRandom random(seed);
+        const Eigen::Vector2d toward = anywhere(random), target = anywhere(random);
+        std::vector<Eigen::Vector2d> points;
+        for (int i = 0; i < 60; ++i)
+            points.push_back(anywhere(random));
+        std::vector<double> forwards, backwards(points.size());
+        HeuristicIn lazy(world, 0.3, 0.5, toward), reverse(world, 0.3, 0.5, toward);
+        lazy.addTarget(target.x(), target.y());
+        reverse.addTarget(target.x(), target.y());
+        for (const Eigen::Vector2d &p : points)
+            forwards.push_back(lazy.distance(p.x(), p.y(), nullptr));
+        for (std::size_t i = points.size(); i-- > 0;)
+            backwards[i] = reverse.distance(points[i].x(), points[i].y(), nullptr);
+        EXPECT_EQ(forwards, backwards);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            EXPECT_EQ(lazy.distance(points[i].x(), points[i].y(), nullptr), forwards[i]);
+    }
+}
+
+TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
+{
+    DiscCarWorld world({-300.0, -300.0, 300.0, 300.0});
+    HeuristicIn heuristic(world, 0.5, 1.0, {0.0, 0.0});
+    heuristic.addTarget(10.0, 0.0);
+    heuristic.distance(0.0, 0.0, nullptr);
+    EXPECT_LT(heuristic.settledCells(), 1000u) << "of 1.4 million";
+    const std::uint64_t before = heuristic.settledCells();
+    heuristic.distance(0.0, 0.0, nullptr);
+    EXPECT_EQ(heuristic.settledCells(), before);
+}
+
+TEST(ObstacleHeuristic, stopsAndGoesOn)
+{
+    DiscCarWorld world({-60.0, -60.0, 60.0, 60.0}, {{-50.0, -1.0, 60.0, 1.0}});
+    HeuristicIn heuristic(world, 0.3, 0.5, {50.0, 10.0}), other(world, 0.3, 0.5, {50.0, 10.0});
+    heuristic.addTarget(50.0, -10.0);
+    other.addTarget(50.0, -10.0);
+    EXPECT_EQ(heuristic.distance(50.0, 10.0, [] { return true; }), INFINITE);
+    EXPECT_LE(heuristic.settledCells(), 2000u);
+    const double distance = heuristic.distance(50.0, 10.0, nullptr);
+    EXPECT_EQ(distance, other.distance(50.0, 10.0, nullptr));
+    EXPECT_GT(distance, 200.0) << "round the wall";
+}
+
+TEST(ObstacleHeuristic, resetForgetsTheWorldAndTheTargets)
+{
+    DiscCarWorld closed = twoRooms(0.0), open = twoRooms(4.0);
+    DiscCarWorld world = closed;
+    HeuristicIn heuristic(world, 0.3, 0.9, {-6.0, 0.0});
+    heuristic.addTarget(6.0, 0.0);
+    EXPECT_EQ(heuristic.distance(-6.0, 0.0, nullptr), INFINITE);
+    world.boxes = open.boxes;
+    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0});
+    EXPECT_EQ(heuristic.distance(-6.0, 0.0, nullptr), INFINITE) << "without a target";
+    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0});
+    heuristic.addTarget(6.0, 0.0);
+    EXPECT_NEAR(heuristic.distance(-6.0, 0.0, nullptr), 12.0, 0.6);
+}
+
+TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
+{
+    for (std::uint64_t seed = 0; seed < 5; ++seed)
+    {
+        DiscCarWorld world = smallWorld(seed);
+        HeuristicIn lazy(world, 0.25, 0.5, {0.0, 0.0}), eager(world, 0.25, 0.5, {0.0, 0.0});
+        eager.load({-6.0, -6.0}, {6.0, 6.0}, nullptr);
+        lazy.addTarget(5.0, 5.0);
+        eager.addTarget(5.0, 5.0);
+        TestRandom random(seed);
+        for (int i = 0; i < 100; ++i)
+        {
+            const Eigen::Vector2d p = anywhere(random);
+            EXPECT_EQ(lazy.distance(p.x(), p.y(), nullptr), eager.distance(p.x(), p.y(), nullptr));
+        }
+    }
+}
+
+TEST(ObstacleHeuristic, lowerBoundIsNeverAboveTheWayOfTheDisc)
+{
+    int compared = 0;
+    double tightest = 0.0;
+    for (std::uint64_t seed = 0; seed < 25; ++seed)
+    {
+        DiscCarWorld world = smallWorld(seed);
+        TestRandom random(seed + 500);
+        const double radius = random.between(0.1, 0.7), resolution = random.between(0.15, 0.6);
+        const Eigen::Vector2d target = anywhere(random), toward = anywhere(random);
+        if (world.distanceFrom(target.x(), target.y()) < radius + 0.01)
+            continue;
+        HeuristicIn heuristic(world, resolution, radius, toward);
+        heuristic.addTarget(target.x(), target.y());
+        for (int i = 0; i < 8; ++i)
+        {
+            const Eigen::Vector2d p = anywhere(random);
+            const double way = wayOfDisc(world, radius, p, target);
+            if (way == INFINITE)
+                continue;
+            const double bound = heuristic.lowerBound(p.x(), p.y(), nullptr);
+            ASSERT_LE(bound, way + 1e-6) << "seed " << seed << ", point " << i;
+            tightest = std::max(tightest, bound / way);
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 40);
+    EXPECT_GT(tightest, 0.6) << "a bound of nothing holds, too, but helps nobody";
+}
+
+TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
+{
+    // Thin walls from below and above in turn, two cells apart, whose ends the disc's centre has to weave between by a
+    // quarter of a cell: the way is hardly longer than straight, while the cells' centres go up and down.
+    constexpr double RADIUS = 0.8;
+    constexpr int WALLS = 40;
+    DiscCarWorld world({-20.0, -10.0, 2.0 * WALLS + 20.0, 12.0});
+    for (int i = 0; i < WALLS; ++i)
+    {
+        const double x = 2.0 * i + 1.5;
+        world.boxes.push_back(i % 2 == 0 ? Box{x - 1e-3, -10.0, x + 1e-3, 1.25 - RADIUS}
+                                         : Box{x - 1e-3, 0.75 + RADIUS, x + 1e-3, 12.0});
+    }
+    const Eigen::Vector2d from(-2.0, 1.0), to(2.0 * WALLS + 2.0, 1.0);
+    HeuristicIn heuristic(world, 1.0, RADIUS, {0.0, 0.0});
+    heuristic.addTarget(to.x(), to.y());
+    const double way = wayOfDisc(world, RADIUS, from, to);
+    ASSERT_LT(way, 1.1 * (to - from).norm());
+    EXPECT_LE(heuristic.lowerBound(from.x(), from.y(), nullptr), way);
+}
+
+TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
+{
+    DiscCarWorld world({-1e6, -1e6, 1e6, 1e6});
+    HeuristicIn heuristic(world, 0.03, 0.1, {0.0, 0.0});
+    heuristic.addTarget(500.0, 0.0);
+    EXPECT_LT(heuristic.lowerBound(0.0, 0.0, nullptr), 500.0) << "infinite would say that there is no way";
+}

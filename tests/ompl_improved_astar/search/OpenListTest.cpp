@@ -1,0 +1,103 @@
+// The open list: its order, and that heap and linear list are the same but for their speed.
+
+#include "ompl_improved_astar/search/containers/OpenList.h"
+#include "tests/ompl_improved_astar/TestRandom.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+#include <vector>
+
+using namespace parking::search;
+using parking_test::TestRandom;
+
+namespace
+{
+    std::vector<std::uint32_t> drain(OpenList &list)
+    {
+        std::vector<std::uint32_t> nodes;
+        while (!list.empty())
+            nodes.push_back(list.pop().node);
+        return nodes;
+    }
+
+    class OpenListOrder : public testing::TestWithParam<OpenListKind>
+    {
+    };
+}  // namespace
+
+TEST_P(OpenListOrder, isByFThenHThenInsertion)
+{
+    OpenList list(GetParam());
+    list.push(2.0, 0.0, 0);
+    list.push(1.0, 5.0, 1);
+    list.push(1.0, 4.0, 2);
+    list.push(1.0, 4.0, 3);
+    list.push(1.0, 4.0, 4);
+    list.push(0.5, 9.0, 5);
+    list.push(1.0, 5.0, 6);
+    EXPECT_EQ(drain(list), (std::vector<std::uint32_t>{5, 2, 3, 4, 1, 6, 0}));
+}
+
+TEST_P(OpenListOrder, matchesASortedSetOnRandomPushesAndPops)
+{
+    TestRandom random(1);
+    OpenList list(GetParam());
+    std::set<std::tuple<double, double, std::uint32_t>> oracle;  // the node numbers rise with the insertions
+    std::uint32_t inserted = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+        if (oracle.empty() || random.chance(0.55))
+        {
+            // Few different values, so that ties are common.
+            const double f = random.index(12), h = random.index(4);
+            list.push(f, h, inserted);
+            oracle.emplace(f, h, inserted++);
+        }
+        else
+        {
+            const auto &[f, h, node] = *oracle.begin();
+            ASSERT_EQ(list.top().node, node);
+            const OpenList::Entry entry = list.pop();
+            ASSERT_EQ(std::make_tuple(entry.f, entry.h, entry.node), std::make_tuple(f, h, node));
+            oracle.erase(oracle.begin());
+        }
+        ASSERT_EQ(list.size(), oracle.size());
+        ASSERT_EQ(list.empty(), oracle.empty());
+    }
+}
+
+TEST_P(OpenListOrder, rekeySortsAnewAndDropsWhatItIsToldTo)
+{
+    TestRandom random(2);
+    OpenList list(GetParam());
+    for (std::uint32_t node = 0; node < 500; ++node)
+        list.push(random.between(0.0, 1.0), 0.0, node);
+    // The order of the numbers backwards, odd ones left out.
+    list.rekey(
+        [](OpenList::Entry &entry)
+        {
+            entry.f = -static_cast<double>(entry.node);
+            return entry.node % 2 == 0;
+        });
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t node = 500; node >= 2;)
+        expected.push_back(node -= 2);
+    EXPECT_EQ(drain(list), expected);
+}
+
+TEST_P(OpenListOrder, clearBeginsAnew)
+{
+    OpenList list(GetParam());
+    list.push(1.0, 1.0, 7);
+    list.clear();
+    EXPECT_TRUE(list.empty());
+    EXPECT_EQ(list.size(), 0u);
+    list.push(1.0, 1.0, 8);
+    list.push(1.0, 1.0, 9);
+    EXPECT_EQ(drain(list), (std::vector<std::uint32_t>{8, 9}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, OpenListOrder, testing::Values(OpenListKind::BinaryHeap, OpenListKind::Linear),
+                         [](const auto &each) { return each.param == OpenListKind::Linear ? "linear" : "heap"; });

@@ -1,0 +1,143 @@
+#include "parking_geometry/Error.h"
+#include "parking_geometry/curves/ReedsShepp.h"
+
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/DubinsStateSpace.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+
+    double gap(const Pose &a, const Pose &b)
+    {
+        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
+    }
+
+    Pose drive(const Pose &from, const ReedsSheppCurve &curve)
+    {
+        ArcPath path{from, {curve.segments.begin(), curve.segments.begin() + static_cast<long>(curve.count)}};
+        return path.end();
+    }
+
+    class RandomPoses
+    {
+    public:
+        Pose operator()(double extent)
+        {
+            std::uniform_real_distribution<double> position(-extent, extent), angle(-PI, PI);
+            return {position(generator_), position(generator_), angle(generator_)};
+        }
+
+    private:
+        std::mt19937 generator_{20240701};
+    };
+
+    template <class Space>
+    double omplDistance(Space &space, const Pose &a, const Pose &b)
+    {
+        ompl::base::ScopedState<ompl::base::SE2StateSpace> from(space), to(space);
+        from->setXY(a.x, a.y);
+        from->setYaw(a.yaw);
+        to->setXY(b.x, b.y);
+        to->setYaw(b.yaw);
+        return space->distance(from.get(), to.get());
+    }
+}  // namespace
+
+TEST(ReedsShepp, EveryWordEndsAtTheGoalAndTheShortestIsFirst)
+{
+    RandomPoses random;
+    std::vector<ReedsSheppCurve> curves;
+    for (const double extent : {0.5, 3.0, 20.0})
+        for (int i = 0; i < 20000; ++i)
+        {
+            const ReedsShepp solver(1.0 + (i % 7));
+            const Pose from = random(extent), to = random(extent);
+            solver.candidates(from, to, curves);
+            ASSERT_FALSE(curves.empty());
+            for (const ReedsSheppCurve &curve : curves)
+            {
+                ASSERT_LT(gap(drive(from, curve), to), 1e-6) << extent << " " << i;
+                ASSERT_GE(curve.length, curves.front().length);
+                for (std::size_t k = 0; k < curve.count; ++k)
+                    ASSERT_LE(std::abs(curve.segments[k].curvature) * solver.turningRadius(), 1.0 + 1e-12);
+            }
+            ASSERT_NEAR(solver.distance(from, to), curves.front().length, 1e-9);
+            ASSERT_NEAR(solver.shortest(from, to).length, curves.front().length, 1e-9);
+        }
+}
+
+TEST(ReedsShepp, LengthAgreesWithOmpl)
+{
+    RandomPoses random;
+    for (const double radius : {1.0, 3.0, 5.3})
+    {
+        const ReedsShepp solver(radius), dubins(radius, CurveFamily::Dubins);
+        auto reedsSheppSpace = std::make_shared<ompl::base::ReedsSheppStateSpace>(radius);
+        auto dubinsSpace = std::make_shared<ompl::base::DubinsStateSpace>(radius);
+        ompl::base::RealVectorBounds bounds(2);
+        bounds.setLow(-100.0);
+        bounds.setHigh(100.0);
+        reedsSheppSpace->setBounds(bounds);
+        dubinsSpace->setBounds(bounds);
+        for (int i = 0; i < 20000; ++i)
+        {
+            const Pose from = random(12.0), to = random(12.0);
+            ASSERT_NEAR(solver.distance(from, to), omplDistance(reedsSheppSpace, from, to), 1e-6);
+            ASSERT_NEAR(dubins.distance(from, to), omplDistance(dubinsSpace, from, to), 1e-6);
+        }
+    }
+}
+
+TEST(ReedsShepp, DubinsDrivesForwardsOnly)
+{
+    RandomPoses random;
+    const ReedsShepp solver(2.0, CurveFamily::Dubins);
+    std::vector<ReedsSheppCurve> curves;
+    for (int i = 0; i < 20000; ++i)
+    {
+        const Pose from = random(8.0), to = random(8.0);
+        solver.candidates(from, to, curves);
+        ASSERT_FALSE(curves.empty());
+        for (const ReedsSheppCurve &curve : curves)
+        {
+            ASSERT_LT(gap(drive(from, curve), to), 1e-6);
+            ASSERT_EQ(curve.cusps(), 0u);
+            for (std::size_t k = 0; k < curve.count; ++k)
+                ASSERT_GT(curve.segments[k].length, 0.0);
+        }
+    }
+}
+
+TEST(ReedsShepp, LongestIsABoundOnBothSides)
+{
+    const ReedsShepp solver(1.0);
+    const Pose from{}, to{2.0, 1.0, 0.4};
+    std::vector<ReedsSheppCurve> curves;
+    const double shortest = solver.distance(from, to);
+    solver.candidates(from, to, curves, shortest * (1.0 - 1e-9));
+    EXPECT_TRUE(curves.empty());
+    solver.candidates(from, to, curves, shortest * (1.0 + 1e-9));
+    EXPECT_EQ(curves.size(), 1u);
+}
+
+TEST(ReedsShepp, NoMotionBetweenEqualPoses)
+{
+    const ReedsShepp solver(3.0);
+    const Pose pose{1.0, 2.0, 3.0};
+    EXPECT_NEAR(solver.distance(pose, pose), 0.0, 1e-9);
+}
+
+TEST(ReedsShepp, RejectsBadRadius)
+{
+    EXPECT_THROW(ReedsShepp(0.0), Error);
+    EXPECT_THROW(ReedsShepp(-1.0), Error);
+    EXPECT_THROW(ReedsShepp(std::nan("")), Error);
+    EXPECT_THROW(ReedsShepp(std::numeric_limits<double>::infinity()), Error);
+    EXPECT_NO_THROW(ReedsShepp(1e-3));
+}

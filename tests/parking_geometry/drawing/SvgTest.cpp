@@ -1,0 +1,410 @@
+#include "parking_geometry/drawing/Svg.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+#include "parking_geometry/drawing/CellOutlines.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/drawing/SvgText.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using namespace parking_test;
+
+namespace
+{
+    std::size_t countOf(const std::string &text, const std::string &part)
+    {
+        std::size_t count = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+            ++count;
+        return count;
+    }
+
+    /** Is this well-formed: every element closed in order, attributes quoted, no stray markup? Enough XML for files
+        that only hold elements, attributes and text. */
+    testing::AssertionResult isWellFormed(const std::string &xml)
+    {
+        std::vector<std::string> open;
+        std::size_t i = 0, roots = 0;
+        const auto fail = [&](const std::string &why)
+        {
+            return testing::AssertionFailure() << why << " at " << i << ": " << xml.substr(i > 40 ? i - 40 : 0, 100);
+        };
+        while (i < xml.size())
+        {
+            const char c = xml[i];
+            if (c == '&')
+            {
+                const std::size_t end = xml.find(';', i);
+                const std::string entity = end == std::string::npos ? "" : xml.substr(i, end - i + 1);
+                if (entity != "&amp;" && entity != "&lt;" && entity != "&gt;" && entity != "&quot;")
+                    return fail("entity " + entity);
+            }
+            if (static_cast<unsigned char>(c) < ' ' && c != '\n')
+                return fail("control character");
+            if (c != '<')
+            {
+                if (c == '>')
+                    return fail("stray >");
+                if (open.empty() && !std::isspace(static_cast<unsigned char>(c)))
+                    return fail("text outside of the root");
+                ++i;
+                continue;
+            }
+            const std::size_t end = xml.find('>', i);
+            if (end == std::string::npos)
+                return fail("tag without end");
+            std::string tag = xml.substr(i + 1, end - i - 1);
+            if (tag.find('<') != std::string::npos || countOf(tag, "\"") % 2 != 0)
+                return fail("broken tag");
+            i = end + 1;
+            if (tag[0] == '/')
+            {
+                if (open.empty() || open.back() != tag.substr(1))
+                    return fail("closes " + tag);
+                open.pop_back();
+                continue;
+            }
+            if (open.empty())
+                ++roots;
+            if (tag.back() != '/')
+                open.push_back(tag.substr(0, tag.find(' ')));
+            // An attribute may stand only once in an element.
+            std::map<std::string, int> names;
+            std::size_t at = tag.find(' ');
+            while (at != std::string::npos && at + 1 < tag.size() && tag[at + 1] != '/')
+            {
+                const std::size_t equals = tag.find("=\"", at);
+                if (equals == std::string::npos)
+                    return fail("attribute without value in " + tag);
+                if (++names[tag.substr(at + 1, equals - at - 1)] > 1)
+                    return fail("attribute twice in " + tag);
+                at = tag.find(' ', tag.find('"', equals + 2));
+            }
+        }
+        if (!open.empty() || roots != 1)
+            return fail("not closed");
+        return testing::AssertionSuccess();
+    }
+
+    Scenario slotScenario()
+    {
+        Scenario scenario;
+        scenario.name = "example";
+        scenario.vehicle = vehicleByName("vw_golf8");
+        scenario.start = {0.0, 0.0, 0.0};
+        scenario.slot = ParkingSlot{};
+        scenario.slot->pose = {12.0, -5.0, 0.5 * PI};
+        scenario.goals = scenario.slot->goals(scenario.vehicle);
+        scenario.polygons = {{{8, -8}, {10, -8}, {10, -3}, {8, -3}}, {{900, 900}, {901, 900}, {901, 901}}};
+        scenario.bounds = {{-20, -20}, {40, 30}};
+        return scenario;
+    }
+
+    Path zigzag()
+    {
+        ArcPath arcs;
+        arcs.start = {0.0, 0.0, 0.0};
+        arcs.append({0.0, 6.0});
+        arcs.append({0.2, 4.0});
+        arcs.append({-0.2, -5.0});
+        arcs.append({0.0, 1.0});
+        return arcs.sample(0.05);
+    }
+
+    /** Number of cells whose middle the outlines hold by the even-odd rule, compared cell by cell. */
+    void expectOutlinesCover(const OccupancyGrid &grid, Cell kind, const Bounds &window)
+    {
+        const std::vector<Polygon> outlines = outlineCells(grid, kind, window);
+        for (std::size_t row = 0; row < grid.height(); ++row)
+            for (std::size_t column = 0; column < grid.width(); ++column)
+            {
+                const Pose middle = compose(grid.origin(), {(static_cast<double>(column) + 0.5) * grid.resolution(),
+                                                            (static_cast<double>(row) + 0.5) * grid.resolution(), 0.0});
+                const Eigen::Vector2d at(middle.x, middle.y);
+                if ((at - window.min).minCoeff() < 0.0 || (window.max - at).minCoeff() < 0.0)
+                    continue;
+                const auto around = std::count_if(outlines.begin(), outlines.end(),
+                                                  [&at](const Polygon &outline) { return contains(outline, at); });
+                ASSERT_EQ(around % 2 == 1, grid.at(column, row) == kind) << column << ' ' << row;
+            }
+    }
+}  // namespace
+
+TEST(SvgText, PixelsAreShortAndPlain)
+{
+    EXPECT_EQ(px(0.0), "0");
+    EXPECT_EQ(px(-0.001), "0");
+    EXPECT_EQ(px(100.0), "100");
+    EXPECT_EQ(px(12.345), "12.35");
+    EXPECT_EQ(px(-1.5), "-1.5");
+    EXPECT_EQ(px(std::numeric_limits<double>::quiet_NaN()), "0");
+    EXPECT_LT(px(1e300).size(), 64u);
+}
+
+TEST(SvgText, EscapesMarkupAndBrokenText)
+{
+    EXPECT_EQ(escaped("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
+    EXPECT_EQ(escaped("gr\xC3\xBC\xC3\x9F"), "gr\xC3\xBC\xC3\x9F");
+    EXPECT_EQ(escaped("a\x01\xFF\xC3"), "a???");
+}
+
+TEST(SvgText, TicksAreRound)
+{
+    EXPECT_DOUBLE_EQ(roundStep(7.3), 5.0);
+    EXPECT_DOUBLE_EQ(roundStep(5.0), 5.0);
+    EXPECT_DOUBLE_EQ(roundStep(0.03), 0.02);
+    EXPECT_DOUBLE_EQ(roundStep(1.99), 1.0);
+    EXPECT_EQ(tickLabel(0.3, 0.1), "0.3");
+    EXPECT_EQ(tickLabel(-0.0000001, 0.1), "0.0");
+    EXPECT_EQ(tickLabel(20.0, 5.0), "20");
+}
+
+TEST(CellOutlines, CoverExactlyTheCells)
+{
+    std::mt19937 random(8);
+    for (const Pose &origin : {Pose{}, Pose{3.0, -2.0, 0.7}, Pose{-1.0, 2.0, -2.5}})
+        for (const unsigned share : {2u, 4u, 10u})
+        {
+            OccupancyGrid grid(23, 17, 0.5, origin);
+            for (std::size_t row = 0; row < grid.height(); ++row)
+                for (std::size_t column = 0; column < grid.width(); ++column)
+                    if (random() % share == 0)
+                        grid.set(column, row, Cell::Occupied);
+            const Bounds everything{{-100, -100}, {100, 100}}, part{{0, 0}, {5, 3}}, nothing{{200, 200}, {300, 300}};
+            expectOutlinesCover(grid, Cell::Occupied, everything);
+            expectOutlinesCover(grid, Cell::Free, everything);
+            expectOutlinesCover(grid, Cell::Occupied, part);
+            EXPECT_TRUE(outlineCells(grid, Cell::Occupied, nothing).empty());
+        }
+}
+
+TEST(CellOutlines, OneBlockIsOneOutlineOfFourCorners)
+{
+    OccupancyGrid grid(10, 10, 1.0);
+    for (std::size_t row = 2; row < 6; ++row)
+        for (std::size_t column = 3; column < 9; ++column)
+            grid.set(column, row, Cell::Occupied);
+    std::vector<Polygon> outlines = outlineCells(grid, Cell::Occupied, {{0, 0}, {10, 10}});
+    ASSERT_EQ(outlines.size(), 1u);
+    EXPECT_EQ(outlines[0].size(), 4u);
+    EXPECT_DOUBLE_EQ(signedArea(outlines[0]), 24.0);
+    // Cells that touch at a corner only are apart, also for those who fill outlines one by one.
+    OccupancyGrid corners(4, 4, 1.0);
+    corners.set(1, 1, Cell::Occupied);
+    corners.set(2, 2, Cell::Occupied);
+    EXPECT_EQ(outlineCells(corners, Cell::Occupied, {{0, 0}, {4, 4}}).size(), 2u);
+    grid.set(5, 3, Cell::Free);
+    outlines = outlineCells(grid, Cell::Occupied, {{0, 0}, {10, 10}});
+    ASSERT_EQ(outlines.size(), 2u);
+    EXPECT_DOUBLE_EQ(signedArea(outlines[0]) + signedArea(outlines[1]), 23.0);
+    EXPECT_LT(std::min(signedArea(outlines[0]), signedArea(outlines[1])), 0.0);
+}
+
+TEST(SvgMap, ShowsAtLeastWhatWasAskedAtEqualScaleWithYUp)
+{
+    for (const Bounds &asked : {Bounds{{0, 0}, {10, 10}}, Bounds{{0, 0}, {100, 1}}, Bounds{{0, 0}, {1, 100}}})
+    {
+        const SvgMap map(asked);
+        EXPECT_LE((map.view().min - asked.min).maxCoeff(), 1e-9);
+        EXPECT_GE((map.view().max - asked.max).minCoeff(), -1e-9);
+        const Eigen::Vector2d size = map.view().max - map.view().min;
+        EXPECT_NEAR(map.width() / size.x(), map.height() / size.y(), 1e-9);
+        EXPECT_LE(map.height(), map.width() + 1e-9);
+        EXPECT_GE(map.height(), 0.35 * map.width());
+    }
+    SvgMap map({{0, 0}, {10, 10}}, 100.0);
+    map.drawDot(SvgLayer::Marks, {2.0, 1.0}, 3.0, SvgStyle());
+    EXPECT_NE(map.toSvg(0, 0).find("cx=\"20\" cy=\"90\""), std::string::npos);
+    map.drawDot(SvgLayer::Marks, {20.0, 1.0}, 3.0, SvgStyle());
+    EXPECT_EQ(countOf(map.toSvg(0, 0), "<circle"), 1u);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    expectError([] { SvgMap({{0, 0}, {0, 5}}); }, {"view"});
+    expectError([] { SvgMap({{0, 0}, {-1, 5}}); }, {"view"});
+    expectError([nan] { SvgMap({{0, 0}, {nan, 5}}); }, {"view"});
+}
+
+TEST(SvgScenario, FitsTheViewToThePathNotToTheMap)
+{
+    const Scenario scenario = slotScenario();
+    const Path path = zigzag();
+    const Bounds view = viewAround(scenario, path);
+    EXPECT_LT((view.max - view.min).maxCoeff(), 40.0);
+    for (const PathState &state : path)
+        for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(state.pose))
+        {
+            EXPECT_GT((corner - view.min).minCoeff(), 2.9);
+            EXPECT_GT((view.max - corner).minCoeff(), 2.9);
+        }
+}
+
+TEST(SvgFigure, DrawsAScenarioWithItsPath)
+{
+    const Scenario scenario = slotScenario();
+    const Path path = zigzag();
+    SvgMap map(viewAround(scenario, path));
+    drawScenario(map, scenario);
+    drawPath(map, path, scenario.vehicle);
+    drawTrack(map, {{0, 0, 0}, {5, 1, 0}}, svg_colour::DRIVEN, "driven");
+    map.drawText({1.0, 1.0}, "<P>", "#000000");
+    SvgFigure figure("A & B", "2 < 3");
+    figure.setMap(map);
+    figure.addPlot(curvaturePlot(path, scenario.vehicle));
+    const std::string svg = figure.toString();
+    EXPECT_TRUE(isWellFormed(svg));
+    for (const char *expected :
+         {"A &amp; B", "2 &lt; 3", "&lt;P&gt;", ">forward<", ">reverse<", ">start<", ">goal<", ">slot<", ">driven<",
+          ">obstacle<", "curvature (1/m)", svg_colour::FORWARD, svg_colour::REVERSE})
+        EXPECT_NE(svg.find(expected), std::string::npos) << expected;
+    EXPECT_EQ(countOf(svg, "<circle"), 2u + 2u);  // two changes of direction, two rear axles
+    EXPECT_EQ(countOf(svg, ">forward<"), 1u);
+    EXPECT_LT(svg.size(), 60000u);
+    // The far obstacle is left out.
+    Scenario without = scenario;
+    without.polygons.pop_back();
+    SvgMap same(viewAround(without, path)), other(viewAround(scenario, path));
+    drawScenario(same, without);
+    drawScenario(other, scenario);
+    EXPECT_EQ(same.toSvg(0, 0), other.toSvg(0, 0));
+}
+
+TEST(SvgFigure, IsTheSameForTheSameInput)
+{
+    const auto draw = []
+    {
+        const Scenario scenario = slotScenario();
+        SvgMap map(viewAround(scenario, zigzag()));
+        drawScenario(map, scenario);
+        drawPath(map, zigzag(), scenario.vehicle);
+        SvgFigure figure("x");
+        figure.setMap(map);
+        return figure.toString();
+    };
+    EXPECT_EQ(draw(), draw());
+}
+
+TEST(SvgFigure, GridsStaySmall)
+{
+    Scenario scenario = slotScenario();
+    scenario.polygons.clear();
+    scenario.grid = OccupancyGrid(2000, 2000, 0.05, {-50.0, -50.0, 0.1}, Cell::Unknown);
+    for (std::size_t row = 300; row < 1800; ++row)
+        for (std::size_t column = 300; column < 1800; ++column)
+            scenario.grid->set(column, row, column % 500 < 60 ? Cell::Occupied : Cell::Free);
+    SvgMap map({{-50, -50}, {50, 50}});
+    drawScenario(map, scenario);
+    SvgFigure figure;
+    figure.setMap(map);
+    const std::string svg = figure.toString();
+    EXPECT_TRUE(isWellFormed(svg));
+    EXPECT_LT(svg.size(), 20000u);
+    EXPECT_NE(svg.find("unknown (not to be entered)"), std::string::npos);
+}
+
+TEST(SvgFigure, DrawsEveryBundledScenario)
+{
+    for (const char *name : {"perpendicular", "perceived_street", "multi_storey", "underground_garage"})
+    {
+        const Scenario scenario =
+            readScenario(std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios/" + name + ".yaml");
+        SvgMap map(viewAround(scenario));
+        drawScenario(map, scenario);
+        SvgFigure figure(name);
+        figure.setMap(map);
+        EXPECT_TRUE(isWellFormed(figure.toString())) << name;
+        EXPECT_LT(figure.toString().size(), 120000u) << name;
+    }
+}
+
+TEST(SvgFigure, DrawsPathsOfAnyLength)
+{
+    const Vehicle car;
+    for (const std::size_t count : {0u, 1u, 2u, 3u})
+    {
+        Path path = zigzag();
+        path.resize(count);
+        SvgMap map({{-5, -5}, {10, 5}});
+        drawPath(map, path, car);
+        SvgFigure figure;
+        figure.setMap(map);
+        figure.addPlot(curvaturePlot(path, car));
+        EXPECT_TRUE(isWellFormed(figure.toString())) << count;
+    }
+}
+
+TEST(SvgPlot, DrawsWhateverTheValues)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    const std::vector<std::vector<double>> values = {{},
+                                                     {1.0},
+                                                     {2.0, 2.0, 2.0},
+                                                     {0.0, 1e-12},
+                                                     {1e9, 1e9 + 1},
+                                                     {nan, 1.0, nan},
+                                                     {infinite, nan},
+                                                     {-1e300, 1e300},
+                                                     {1e-300, 2e-300}};
+    for (const std::vector<double> &x : values)
+        for (const std::vector<double> &y : values)
+        {
+            SvgPlot plot;
+            plot.title = "t";
+            const std::size_t count = std::min(x.size(), y.size());
+            plot.series.push_back({"a",
+                                   {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(count)},
+                                   {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(count)},
+                                   "",
+                                   false});
+            const std::string svg = plot.toSvg(0, 0, 600);
+            EXPECT_TRUE(isWellFormed(svg));
+            EXPECT_LT(svg.size(), 20000u);
+            EXPECT_EQ(svg.find("nan"), std::string::npos);
+        }
+    SvgPlot plot;
+    plot.title = "speed";
+    plot.series.push_back({"v", {1, 2}, {1}, "", false});
+    expectError([&plot] { plot.toSvg(0, 0, 600); }, {"'speed'", "'v'", "2", "1"});
+}
+
+TEST(SvgPlot, AConstantRunsThroughTheMiddle)
+{
+    SvgPlot plot;
+    plot.series.push_back({"", {0, 1}, {2, 2}, "#123456", false});
+    const std::string svg = plot.toSvg(0, 0, 600);
+    EXPECT_NE(svg.find("<path d=\"M62 90L590 90\" fill=\"none\" stroke=\"#123456\""), std::string::npos) << svg;
+}
+
+TEST(SvgPlot, BreaksTheLineWhereValuesAreMissing)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    SvgPlot plot;
+    plot.series.push_back({"", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}, "#123456", true});
+    const std::string svg = plot.toSvg(0, 0, 600);
+    const std::size_t at = svg.find("#123456");
+    const std::size_t path = svg.rfind("<path d=\"", at);
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(countOf(svg.substr(path, at - path), "M"), 2u);
+    EXPECT_NE(svg.find("stroke-dasharray=\"6 4\""), std::string::npos);
+}
+
+TEST(SvgFigure, IsWrittenWholeOrNotAtAll)
+{
+    const TemporaryFolder folder;
+    SvgFigure figure("x");
+    figure.write(folder.path("figure.svg"));
+    EXPECT_EQ(contentOf(folder.path("figure.svg")), figure.toString());
+    SvgPlot bad;
+    bad.series.push_back({"v", {1, 2}, {1}, "", false});
+    figure.addPlot(bad);
+    expectError([&] { figure.write(folder.path("other.svg")); }, {"series"});
+    expectError([&] { SvgFigure("x").write(folder.path("none/x.svg")); }, {"none/x.svg"});
+    EXPECT_EQ(folder.listing(), "figure.svg\n");
+}

@@ -1,0 +1,350 @@
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+#include "tests/parking_geometry/io/TestImages.h"
+#include "parking_geometry/io/ScenarioReader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using namespace parking_test;
+
+namespace
+{
+    class MapReader : public testing::Test
+    {
+    protected:
+        /** Reads an image with a YAML file of its own; \e more are further lines of it. */
+        OccupancyGrid read(const std::string &image, const std::string &more = "")
+        {
+            folder_.write("map.img", image);
+            return readRosMap(folder_.write("map.yaml", "image: map.img\nresolution: 0.1\norigin: [0, 0, 0]\n" + more));
+        }
+
+        /** The cells as letters, top row first, as one sees the image. */
+        std::string cells(const std::string &image, const std::string &more = "")
+        {
+            const OccupancyGrid grid = read(image, more);
+            std::string text;
+            for (std::size_t row = grid.height(); row-- > 0;)
+            {
+                for (std::size_t column = 0; column < grid.width(); ++column)
+                    text += ".#?"[static_cast<std::size_t>(grid.at(column, row))];
+                text += row ? "/" : "";
+            }
+            return text;
+        }
+
+        void expectImageError(const std::string &image, std::vector<std::string> parts)
+        {
+            parts.emplace_back("map.img: ");
+            expectError([&] { read(image); }, parts);
+        }
+        void expectYamlError(const std::string &text, const std::vector<std::string> &parts)
+        {
+            SCOPED_TRACE(text);
+            folder_.write("map.img", "P2 2 1 1 0 1");
+            expectError([&] { readRosMap(folder_.write("map.yaml", text)); }, parts);
+        }
+
+        TemporaryFolder folder_;
+    };
+
+    std::string raw(const std::string &header, const std::vector<int> &bytes)
+    {
+        std::string text = header;
+        for (const int byte : bytes)
+            text += static_cast<char>(byte);
+        return text;
+    }
+
+    TestPng grey(std::size_t width, std::size_t height, const std::vector<std::uint16_t> &samples)
+    {
+        TestPng image;
+        image.width = width;
+        image.height = height;
+        image.samples = samples;
+        return image;
+    }
+}  // namespace
+
+TEST_F(MapReader, ReadsPlainAndRawPgmWithTheLowerRowFirst)
+{
+    EXPECT_EQ(cells("P2\n3 2\n255\n254 205 0\n0 254 254\n"), ".?#/#..");
+    EXPECT_EQ(cells(raw("P5\n3 2\n255\n", {254, 205, 0, 0, 254, 254})), ".?#/#..");
+    const OccupancyGrid grid = read("P2 2 2 1  1 0  1 1");
+    EXPECT_EQ(grid.at(1, 1), Cell::Occupied);  // the upper right pixel
+    EXPECT_EQ(grid.at(1, 0), Cell::Free);
+    EXPECT_DOUBLE_EQ(grid.resolution(), 0.1);
+}
+
+TEST_F(MapReader, SkipsCommentsInPgm)
+{
+    EXPECT_EQ(cells("P2 # CREATOR: x\n# 9 9\n2 1 # size\n255#most\n254 # a pixel\n0\n# end"), ".#");
+    EXPECT_EQ(cells(raw("P5 # comment\r\n#another\n2 1\n# third\n255\n", {254, 0})), ".#");
+    // The first blank after the largest value ends the header: what follows is pixels, whatever it looks like.
+    EXPECT_EQ(cells(raw("P5 3 1 255\n", {'#', ' ', '\n'})), "###");
+}
+
+TEST_F(MapReader, ScalesByTheLargestValue)
+{
+    EXPECT_EQ(cells("P2 4 1 1  1 0 0 1"), ".##.");
+    EXPECT_EQ(cells("P2 4 1 100  100 81 80 35"), "..??");
+    EXPECT_EQ(cells("P2 2 1 65535  65535 0"), ".#");
+    // Two bytes a pixel, the high one first.
+    EXPECT_EQ(cells(raw("P5 3 1 65535\n", {0xFF, 0xFF, 0xD0, 0x00, 0x00, 0xFF})), "..#");
+    EXPECT_EQ(cells(raw("P5 3 1 256\n", {0x01, 0x00, 0x00, 0xFF, 0x00, 0x00})), "..#");
+}
+
+TEST_F(MapReader, ThresholdsSplitAsMapServersDo)
+{
+    // Occupied only above the upper, free only below the lower threshold: the thresholds themselves are unknown.
+    EXPECT_EQ(cells("P2 4 1 100  34 35 80 81", "occupied_thresh: 0.65\nfree_thresh: 0.2\n"), "#??.");
+    EXPECT_EQ(cells("P2 2 1 255  204 205", "free_thresh: 0.2\n"), "?.");
+    EXPECT_EQ(cells("P2 4 1 255  205 206 90 89"), "?.?#");  // map_saver's grey for unknown
+    EXPECT_EQ(cells("P2 3 1 255  0 128 255", "occupied_thresh: 0.5\nfree_thresh: 0.5\n"), "#..");
+    EXPECT_EQ(cells("P2 3 1 255  0 128 255", "occupied_thresh: 1\nfree_thresh: 0\n"), "???");
+}
+
+TEST_F(MapReader, NegateTurnsBlackAndWhiteRound)
+{
+    const std::string image = "P2 4 1 255  255 0 50 49";
+    for (const std::string yes : {"1", "true", "yes"})
+        EXPECT_EQ(cells(image, "negate: " + yes + "\n"), "#.?.");
+    for (const std::string no : {"0", "false", "no"})
+        EXPECT_EQ(cells(image, "negate: " + no + "\n"), ".###");
+}
+
+TEST_F(MapReader, ModesDifferInWhatTheyKeepApart)
+{
+    const std::string image = "P2 5 1 255  255 205 0 100 10";
+    EXPECT_EQ(cells(image, "mode: trinary\n"), ".?#?#");
+    EXPECT_EQ(cells(image, "mode: scale\n"), cells(image));
+    // raw: the pixel is the percentage itself, and more than 100 says unknown.
+    EXPECT_EQ(cells("P2 6 1 255  255 101 100 66 65 10", "mode: raw\n"), "??##?.");
+    EXPECT_EQ(cells("P2 3 1 255  255 155 154", "mode: raw\nnegate: 1\n"), ".#?");
+    expectYamlError("image: map.img\nresolution: 1\norigin: [0, 0, 0]\nmode: ternary\n",
+                    {"map.yaml:4", "'ternary'", "'trinary'"});
+}
+
+TEST_F(MapReader, OriginKeepsItsYaw)
+{
+    folder_.write("map.img", "P2 2 1 1 0 1");
+    const OccupancyGrid grid =
+        readRosMap(folder_.write("map.yaml", "image: map.img\nresolution: 2\norigin: [3, -4, 7]\n"));
+    EXPECT_EQ(grid.origin().x, 3.0);
+    EXPECT_EQ(grid.origin().y, -4.0);
+    EXPECT_NEAR(grid.origin().yaw, 7.0 - 2 * PI, 1e-12);
+}
+
+TEST_F(MapReader, ReadsGreyPngOfEveryDepth)
+{
+    EXPECT_EQ(cells(encodePng(grey(3, 2, {254, 205, 0, 0, 254, 254}))), ".?#/#..");
+    TestPng image = grey(3, 1, {65535, 52685, 100});
+    image.bitDepth = 16;
+    EXPECT_EQ(cells(encodePng(image)), ".?#");
+    image = grey(9, 2, {1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1});
+    image.bitDepth = 1;
+    EXPECT_EQ(cells(encodePng(image)), ".#.#.#.#./########.");
+    image = grey(4, 1, {0, 1, 2, 3});
+    image.bitDepth = 2;
+    EXPECT_EQ(cells(encodePng(image)), "##?.");
+    image = grey(4, 1, {15, 12, 11, 3});
+    image.bitDepth = 4;
+    EXPECT_EQ(cells(encodePng(image)), ".??#");
+}
+
+TEST_F(MapReader, ReadsColourPngByTheMeanOfItsChannels)
+{
+    TestPng image;
+    image.width = 4;
+    image.height = 1;
+    image.colourType = PNG_COLOR_TYPE_RGB;
+    image.samples = {255, 255, 255, 255, 0, 0, 205, 205, 205, 0, 255, 255};
+    EXPECT_EQ(cells(encodePng(image)), ".#??");
+    image.bitDepth = 16;
+    image.samples = {65535, 65535, 65535, 65535, 0, 0, 52685, 52685, 52685, 0, 65535, 65535};
+    EXPECT_EQ(cells(encodePng(image)), ".#??");
+}
+
+TEST_F(MapReader, WhatIsNotOpaqueIsUnknown)
+{
+    TestPng image;
+    image.width = 5;
+    image.height = 1;
+    image.colourType = PNG_COLOR_TYPE_GRAY_ALPHA;
+    image.samples = {255, 255, 0, 255, 205, 255, 255, 0, 0, 254};
+    EXPECT_EQ(cells(encodePng(image)), ".#???");
+    image.colourType = PNG_COLOR_TYPE_RGB_ALPHA;
+    image.samples = {255, 255, 255, 255, 0, 0, 0, 255, 205, 205, 205, 255, 255, 255, 255, 0, 0, 0, 0, 254};
+    for (const std::string mode : {"trinary", "scale"})
+        EXPECT_EQ(cells(encodePng(image), "mode: " + mode + "\n"), ".#???");
+}
+
+TEST_F(MapReader, ReadsPalettePng)
+{
+    TestPng image;
+    image.width = 5;
+    image.height = 2;
+    image.colourType = PNG_COLOR_TYPE_PALETTE;
+    image.palette = {0, 0, 0, 255, 255, 255, 205, 205, 205, 254, 254, 254};
+    image.samples = {0, 1, 2, 3, 0, 3, 2, 1, 0, 0};
+    EXPECT_EQ(cells(encodePng(image)), "#.?.#/.?.##");
+    image.bitDepth = 2;
+    EXPECT_EQ(cells(encodePng(image)), "#.?.#/.?.##");
+    image.paletteAlpha = {255, 0};
+    EXPECT_EQ(cells(encodePng(image)), "#??.#/.??##");
+}
+
+TEST_F(MapReader, ReadsInterlacedPng)
+{
+    TestPng image = grey(17, 13, {});
+    std::mt19937 random(4);
+    for (int i = 0; i < 17 * 13; ++i)
+        image.samples.push_back(random() % 3 == 0 ? 0 : random() % 2 ? 205 : 254);
+    const std::string plain = cells(encodePng(image));
+    image.interlaced = true;
+    EXPECT_EQ(cells(encodePng(image)), plain);
+}
+
+TEST_F(MapReader, AnImageOfAnotherSizeThanAnnouncedIsAnError)
+{
+    expectImageError("P2 2 2 255  1 2 3", {"truncated"});
+    expectImageError("P2 2 2 255  1 2 3 4 5", {"more than the 2 x 2"});
+    expectImageError(raw("P5 2 2 255\n", {1, 2, 3}), {"truncated", "2 x 2"});
+    expectImageError(raw("P5 2 2 255\n", {1, 2, 3, 4, 5}), {"too long", "2 x 2"});
+    EXPECT_NO_THROW(read(raw("P5 2 2 255\n", {1, 2, 3, 4, '\n'})));
+    expectImageError(raw("P5 2 2 65535\n", {1, 2, 3, 4, 5, 6, 7}), {"truncated"});
+    const std::string png = encodePng(grey(40, 40, std::vector<std::uint16_t>(1600, 77)));
+    expectImageError(png.substr(0, png.size() / 2), {"not a valid PNG"});
+    expectImageError(png.substr(0, 20), {"not a valid PNG", "truncated"});
+}
+
+TEST_F(MapReader, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken)
+{
+    expectImageError("P5 0 5 255\n", {"0 x 5", "at least 1"});
+    expectImageError("P5 65536 65536 255\n", {"65536 x 65536", "2^31"});
+    expectImageError("P5 99999999999999999999 1 255\n", {"the width", "'99999999999999999999'"});
+    expectImageError("P5 40000 40000 255\n1", {"truncated", "40000 x 40000"});
+    expectImageError("P2 40000 40000 255\n1", {"truncated"});
+    // A PNG whose header was changed to a huge size, with its checksum put right (as an attacker would).
+    std::string png = encodePng(grey(1, 1, {1}));
+    const std::string huge("\x00\x00\x9C\x40\x00\x00\x9C\x40\x08\x00\x00\x00\x00", 13);
+    png.replace(16, 13, huge);
+    const std::string chunk = png.substr(12, 17);
+    std::uint32_t crc = 0xFFFFFFFF;
+    for (const char c : chunk)
+    {
+        crc ^= static_cast<unsigned char>(c);
+        for (int k = 0; k < 8; ++k)
+            crc = crc & 1 ? crc >> 1 ^ 0xEDB88320 : crc >> 1;
+    }
+    crc ^= 0xFFFFFFFF;
+    for (int k = 0; k < 4; ++k)
+        png[static_cast<std::size_t>(29 + k)] = static_cast<char>(crc >> (24 - 8 * k) & 0xFF);
+    expectImageError(png, {"truncated", "40000 x 40000"});
+}
+
+TEST_F(MapReader, OtherImageTroubleIsNamed)
+{
+    expectImageError("P6 1 1 255\n123", {"neither a PGM (P2, P5) nor a PNG"});
+    expectImageError("P5 2 1 255\n", {"truncated"});
+    expectImageError("P5", {"truncated", "the width"});
+    expectImageError("P5 2", {"truncated", "the height"});
+    expectImageError("P5 2 1", {"truncated", "the largest value"});
+    expectImageError("P5 2 1 70000\n12", {"the largest value", "65535"});
+    expectImageError("P5 2 1 0\n12", {"the largest value is 0"});
+    expectImageError("P5 -2 1 255\n12", {"the width is '-2'"});
+    expectImageError("P2 2 1 255 12 x", {"a pixel is 'x'"});
+    expectImageError("P2 2 1 200 12 201", {"a pixel is '201'", "200"});
+    expectImageError(raw("P5 2 1 200\n", {12, 201}), {"a pixel is 201", "200"});
+}
+
+TEST_F(MapReader, YamlTroubleIsNamedWithItsLine)
+{
+    const std::string good = "image: map.img\nresolution: 1\norigin: [0, 0, 0]\n";
+    folder_.write("map.img", "P2 2 1 1 0 1");
+    EXPECT_NO_THROW(readRosMap(folder_.write("map.yaml", good + "frame: world\n")));
+    expectYamlError("resolution: 1\norigin: [0, 0, 0]\n", {"map.yaml:1", "'image' is missing"});
+    expectYamlError("image: map.img\norigin: [0, 0, 0]\n", {"'resolution' is missing"});
+    expectYamlError("image: map.img\nresolution: 1\n", {"'origin' is missing"});
+    expectYamlError("image: map.img\nresolution: 0\norigin: [0, 0, 0]\n",
+                    {"map.yaml:2", "resolution is 0", "positive"});
+    expectYamlError("image: map.img\nresolution: -1\norigin: [0, 0, 0]\n", {"map.yaml:2", "resolution is -1"});
+    expectYamlError("image: map.img\nresolution: .inf\norigin: [0, 0, 0]\n", {"map.yaml:2", "resolution"});
+    expectYamlError("image: map.img\nresolution: 1\norigin: [0, 0]\n", {"map.yaml:3", "origin has 2 entries"});
+    expectYamlError(good + "negate: 2\n", {"map.yaml:4", "negate is '2'"});
+    expectYamlError(good + "negat: 1\n", {"map.yaml:4", "'negat'", "'negate'"});
+    expectYamlError(good + "free_thresh: 1.5\n", {"map.yaml:4", "free_thresh is 1.5", "0 to 1"});
+    expectYamlError(good + "free_thresh: 0.7\n", {"map.yaml:4", "free_thresh is 0.7", "0.65"});
+    expectYamlError("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n", {"none.pgm", "No such file"});
+    expectError([&] { readRosMap(folder_.path("none.yaml")); }, {"none.yaml", "No such file"});
+}
+
+TEST_F(MapReader, ReadsTheRealMaps)
+{
+    const std::filesystem::path data = std::filesystem::path(PARKING_SHARED_DATA) / "maps";
+    if (!std::filesystem::is_directory(data))
+        GTEST_SKIP() << "the maps are not at " << data;
+    int count = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(data))
+        if (entry.path().extension() == ".yaml")
+        {
+            const OccupancyGrid grid = readRosMap(entry.path().string());
+            const std::vector<Cell> &all = grid.cells();
+            EXPECT_GT(std::count(all.begin(), all.end(), Cell::Free), 1000) << entry.path();
+            EXPECT_GT(std::count(all.begin(), all.end(), Cell::Occupied), 500) << entry.path();
+            ++count;
+        }
+    EXPECT_GT(count, 0);
+}
+
+TEST_F(MapReader, DamagedImagesGiveErrorsAndNothingWorse)
+{
+    TestPng colours;
+    colours.width = 5;
+    colours.height = 4;
+    colours.colourType = PNG_COLOR_TYPE_RGB_ALPHA;
+    for (std::uint16_t i = 0; i < 80; ++i)
+        colours.samples.push_back(static_cast<std::uint16_t>(i * 3));
+    TestPng palette = grey(6, 3, {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2});
+    palette.colourType = PNG_COLOR_TYPE_PALETTE;
+    palette.palette = {0, 0, 0, 255, 255, 255, 200, 200, 200};
+    palette.interlaced = true;
+    const std::vector<std::string> images = {"P2 # c\n4 3 255\n1 2 3 4 250 6 7 8 9 200 11 12\n",
+                                             raw("P5\n# c\n3 2 300\n", {1, 2, 0, 4, 0, 6, 1, 8, 0, 7, 0, 3}),
+                                             encodePng(colours), encodePng(palette)};
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> byte(0, 255);
+    const auto expectSound = [this](const std::string &image)
+    {
+        try
+        {
+            const OccupancyGrid grid = read(image);
+            EXPECT_EQ(grid.cells().size(), grid.width() * grid.height());
+        }
+        catch (const Error &error)
+        {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    };
+    for (const std::string &image : images)
+        for (std::size_t i = 0; i < image.size(); ++i)
+        {
+            SCOPED_TRACE("position " + std::to_string(i));
+            if (i > 0)
+                expectSound(image.substr(0, i));
+            for (int k = 0; k < 3; ++k)
+            {
+                std::string changed = image;
+                changed[i] = static_cast<char>(byte(random));
+                expectSound(changed);
+            }
+            std::string longer = image;
+            longer.insert(i, 1, static_cast<char>(byte(random)));
+            expectSound(longer);
+        }
+}

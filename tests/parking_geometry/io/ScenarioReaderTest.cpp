@@ -1,0 +1,413 @@
+#include "parking_geometry/io/ScenarioReader.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::errorOf;
+using parking_test::expectError;
+using parking_test::TemporaryFolder;
+
+namespace
+{
+    /** Start at 10, 20; goal 5 m ahead; a triangle and a clockwise non-convex polygon. */
+    const std::string CASE =
+        "10,20,0.5,15,20,-0.25,2,3,5,"
+        "12,25,14,25,13,27,"
+        "20,10,22,10,22,12,21,10.5,20,12";
+
+    const std::string SCENARIO =
+        "# A comment\n"
+        "name: example\n"
+        "vehicle: vw_golf8\n"
+        "start: [10, 20, 0.5]\n"
+        "goal: [15.5, 20, -0.25]\n"
+        "polygons:\n"
+        "  - [[12, 25], [14, 25], [13, 27]]\n"
+        "  - - [20, 10]\n"
+        "    - [22, 10]\n"
+        "    - [22, 12]\n";
+
+    /** The same text with one line replaced; an empty \e by removes it. */
+    std::string with(std::string text, const std::string &line, const std::string &by)
+    {
+        const std::size_t at = text.find(line);
+        EXPECT_NE(at, std::string::npos) << line;
+        return text.replace(at, line.size(), by);
+    }
+
+    class ReaderTest : public testing::Test
+    {
+    protected:
+        Scenario read(const std::string &text, const std::string &name = "example.yaml")
+        {
+            return readScenario(folder_.write(name, text));
+        }
+        Scenario readCase(const std::string &text)
+        {
+            return readTpcapCase(folder_.write("case.csv", text));
+        }
+        void expectYamlError(const std::string &text, const std::vector<std::string> &parts)
+        {
+            SCOPED_TRACE(text);
+            expectError([&] { read(text); }, parts);
+        }
+        void expectCaseError(const std::string &text, std::vector<std::string> parts)
+        {
+            SCOPED_TRACE(text);
+            parts.emplace_back("case.csv: ");
+            expectError([&] { readCase(text); }, parts);
+        }
+
+        TemporaryFolder folder_;
+    };
+
+    using TpcapReader = ReaderTest;
+    using YamlReader = ReaderTest;
+}  // namespace
+
+TEST_F(TpcapReader, ReadsACaseIntoTheFrameOfItsStart)
+{
+    const Scenario scenario = readCase(CASE);
+    EXPECT_EQ(scenario.name, "case");
+    EXPECT_EQ(scenario.vehicle.name, "tpcap");
+    EXPECT_EQ(scenario.start.x, 0.0);
+    EXPECT_EQ(scenario.start.y, 0.0);
+    EXPECT_EQ(scenario.start.yaw, 0.5);
+    ASSERT_EQ(scenario.goals.size(), 1u);
+    EXPECT_EQ(scenario.goals[0].x, 5.0);
+    EXPECT_EQ(scenario.goals[0].y, 0.0);
+    EXPECT_EQ(scenario.goals[0].yaw, -0.25);
+    ASSERT_EQ(scenario.polygons.size(), 2u);
+    EXPECT_EQ(scenario.polygons[0], (Polygon{{2, 5}, {4, 5}, {3, 7}}));
+    ASSERT_EQ(scenario.polygons[1].size(), 5u);
+    EXPECT_EQ(scenario.polygons[1][3], Eigen::Vector2d(11, -9.5));
+    EXPECT_EQ(scenario.worldOffset, Eigen::Vector2d(10, 20));
+    EXPECT_FALSE(scenario.grid);
+    EXPECT_FALSE(scenario.slot);
+    // Box of start, goal and obstacles, and 10 m more on every side.
+    EXPECT_EQ(scenario.bounds.min, Eigen::Vector2d(-10, -20));
+    EXPECT_EQ(scenario.bounds.max, Eigen::Vector2d(22, 17));
+    const Pose world = scenario.toWorld(scenario.goals[0]);
+    EXPECT_EQ(world.x, 15.0);
+    EXPECT_EQ(world.y, 20.0);
+}
+
+TEST_F(TpcapReader, TakesBothLineEndsBlanksAndALastComma)
+{
+    const Scenario plain = readCase(CASE);
+    for (const std::string &text :
+         {CASE + "\n", CASE + "\r\n", CASE + ",\r\n", "\xEF\xBB\xBF" + CASE, with(CASE, "12,25,", "12,25,\n"),
+          with(CASE, "12,25,", " 12 ,\t25 ,"), with(CASE, "10,20,", "+10,2.0e1,"), CASE + "\n\n"})
+    {
+        const Scenario scenario = readCase(text);
+        EXPECT_EQ(scenario.polygons, plain.polygons) << text;
+        EXPECT_EQ(scenario.start.yaw, plain.start.yaw);
+    }
+}
+
+TEST_F(TpcapReader, WrapsYaw)
+{
+    const Scenario scenario = readCase("0,0,6.5,1,0,-9.0,0");
+    EXPECT_NEAR(scenario.start.yaw, 6.5 - 2 * PI, 1e-12);
+    EXPECT_NEAR(scenario.goals[0].yaw, -9.0 + 2 * PI, 1e-12);
+    EXPECT_TRUE(scenario.polygons.empty());
+}
+
+TEST_F(TpcapReader, KeepsItsPrecisionFarFromTheOrigin)
+{
+    // 4e9 m and a binary fraction: exact in a double, so nothing may be lost.
+    const Scenario scenario = readCase(
+        "4500000000.25,-5500000000.5,0,4500000003.75,-5500000001.5,1,1,3,"
+        "4500000001.25,-5500000000.5,4500000002.25,-5500000000.5,4500000002.25,-5499999999.5");
+    EXPECT_EQ(scenario.goals[0].x, 3.5);
+    EXPECT_EQ(scenario.goals[0].y, -1.0);
+    EXPECT_EQ(scenario.polygons[0], (Polygon{{1, 0}, {2, 0}, {2, 1}}));
+    EXPECT_EQ(scenario.toWorld(scenario.goals[0]).x, 4500000003.75);
+    EXPECT_EQ(scenario.toWorld(scenario.goals[0]).y, -5500000001.5);
+}
+
+TEST_F(TpcapReader, SaysWhatIsWrong)
+{
+    expectCaseError("1,2,3", {"too few numbers", "3", "the goal's x"});
+    expectCaseError("1,2,3,4,5,6", {"too few numbers", "the number of obstacles"});
+    expectCaseError("0,0,0,1,1,1,2,3", {"too few numbers", "2 obstacles"});
+    expectCaseError("0,0,0,1,1,1,1,3,0,0,1,1,1", {"too few numbers", "6", "5"});
+    expectCaseError("0,0,0,1,1,1,1,3,0,0,1,1,1,0,7", {"too many numbers", "6", "7"});
+    expectCaseError("0,0,0,1,1,1,0,7", {"too many numbers"});
+    expectCaseError("0,0,0,1,1,1,1,2,0,0,1,1", {"obstacle 1 has 2 corners", "at least 3"});
+    expectCaseError("0,0,0,1,1,1,-1", {"number 7 is -1", "whole number"});
+    expectCaseError("0,0,0,1,1,1,1.5", {"number 7 is 1.5"});
+    expectCaseError("0,0,0,1,1,1,1e300", {"number 7"});
+    expectCaseError("0,0,0,1,1,1,999999999", {"too few numbers"});
+    expectCaseError("0,0,nan,1,1,1,0", {"number 3 is 'nan'", "finite"});
+    expectCaseError("0,0,0,inf,1,1,0", {"number 4 is 'inf'"});
+    expectCaseError("0,0,0,1e999,1,1,0", {"number 4"});
+    expectCaseError("0,0,0,x1,1,1,0", {"number 4 is 'x1'"});
+    expectCaseError("0,0,0,1.0.0,1,1,0", {"number 4 is '1.0.0'"});
+    expectCaseError("0,0,,1,1,1,0", {"number 3 is ''"});
+    expectCaseError("0;0;0;1;1;1;0", {"number 1"});
+    expectCaseError("0,0,0,1e7,1,1,0", {"the goal", "10000000 m from the start"});
+    expectCaseError("1e308,0,0,-1e308,1,1,0", {"the goal", "inf"});
+    expectCaseError("0,0,0,1,1,1,1,3,0,0,1,0,1e9,1", {"obstacle 1"});
+    expectCaseError(std::string("0,0,0,\0,1,1,0", 13), {"number 4"});
+}
+
+TEST_F(TpcapReader, FileErrorsAreNamed)
+{
+    expectError([&] { readScenario(folder_.path("none.csv")); }, {"none.csv", "No such file"});
+    std::filesystem::create_directory(folder_.path("folder.csv"));
+    expectError([&] { readScenario(folder_.path("folder.csv")); }, {"folder.csv", "is a folder"});
+    expectError([&] { read("", "empty.csv"); }, {"empty.csv", "is empty"});
+    expectError([&] { read(" \r\n", "blank.csv"); }, {"blank.csv", "blanks"});
+    expectError([&] { read("0,0,0", "folder.csv/case.csv"); }, {"case.csv", "too few"});
+    expectError([&] { readScenario("/dev/zero"); }, {"/dev/zero", "16 MiB"});
+}
+
+TEST_F(TpcapReader, TheCarMayBeChosen)
+{
+    const std::string file = folder_.write("case.csv", CASE);
+    EXPECT_EQ(readScenario(file, {"toyota_yaris"}).vehicle.name, "toyota_yaris");
+    expectError([&] { readScenario(file, {"trabant"}); }, {"'trabant'", "vw_golf8"});
+}
+
+TEST_F(TpcapReader, ReadsTheRealCases)
+{
+    const std::filesystem::path data = std::filesystem::path(PARKING_SHARED_DATA) / "tpcap";
+    if (!std::filesystem::is_directory(data))
+        GTEST_SKIP() << "the TPCAP cases are not at " << data;
+    int count = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(data))
+    {
+        const Scenario scenario = readScenario(entry.path().string());
+        EXPECT_EQ(scenario.name, entry.path().stem().string());
+        EXPECT_GE(scenario.polygons.size(), 2u);
+        EXPECT_LE(std::abs(scenario.goals.at(0).yaw), PI);
+        EXPECT_LT(std::hypot(scenario.goals[0].x, scenario.goals[0].y), 60.0);
+        EXPECT_LT((scenario.bounds.max - scenario.bounds.min).maxCoeff(), 200.0);
+        ++count;
+    }
+    EXPECT_GT(count, 0);
+}
+
+TEST_F(YamlReader, ReadsPolygonsVehicleStartAndGoal)
+{
+    const Scenario scenario = read(SCENARIO);
+    EXPECT_EQ(scenario.name, "example");
+    EXPECT_EQ(scenario.vehicle.name, "vw_golf8");
+    EXPECT_EQ(scenario.start.yaw, 0.5);
+    EXPECT_EQ(scenario.goals.at(0).x, 5.5);
+    EXPECT_EQ(scenario.worldOffset, Eigen::Vector2d(10, 20));
+    ASSERT_EQ(scenario.polygons.size(), 2u);
+    EXPECT_EQ(scenario.polygons[1], (Polygon{{10, -10}, {12, -10}, {12, -8}}));
+    EXPECT_EQ(scenario.bounds.min, Eigen::Vector2d(-10, -20));
+    EXPECT_EQ(scenario.bounds.max, Eigen::Vector2d(22, 17));
+    EXPECT_TRUE(scenario.unknownIsOccupied);
+    EXPECT_FALSE(read(SCENARIO + "unknown_is_occupied: false\n").unknownIsOccupied);
+    EXPECT_EQ(read(with(SCENARIO, "name: example\n", "")).name, "example");
+    EXPECT_EQ(read(with(SCENARIO, "name: example\n", ""), "other.yml").name, "other");
+    EXPECT_EQ(read(with(SCENARIO, "vehicle: vw_golf8\n", "")).vehicle.name, "tpcap");
+    EXPECT_EQ(read("start: [0, 0, 0]\ngoal: [1, 0, 0]\npolygons: []\n").polygons.size(), 0u);
+    // Polygons may stand under map as well.
+    EXPECT_EQ(read("start: [10, 20, 0]\ngoal: [11, 20, 0]\nmap:\n  polygons:\n    - [[12, 25], [14, 25], [13, 27]]\n")
+                  .polygons,
+              (std::vector<Polygon>{{{2, 5}, {4, 5}, {3, 7}}}));
+}
+
+TEST_F(YamlReader, IsRecognisedByContent)
+{
+    EXPECT_EQ(read(SCENARIO, "scenario.csv").vehicle.name, "vw_golf8");
+    EXPECT_EQ(read(CASE, "case.yaml").polygons.size(), 2u);
+    expectError([&] { read("hello\n", "hello.yaml"); }, {"hello.yaml:1", "'hello'", "mapping"});
+    expectError([&] { read("hello\n", "hello.csv"); }, {"hello.csv", "number 1 is 'hello'"});
+}
+
+TEST_F(YamlReader, ReadsAVehicleGivenByItsFieldsOrAFile)
+{
+    const std::string fields =
+        "vehicle: {name: mine, wheelbase: 2.5, front_overhang: 0.8, rear_overhang: 0.7, width: 1.7, "
+        "max_steering_angle: 0.6}";
+    const Scenario scenario = read(with(SCENARIO, "vehicle: vw_golf8", fields));
+    EXPECT_EQ(scenario.vehicle.name, "mine");
+    EXPECT_EQ(scenario.vehicle.rearOverhang, 0.7);
+    folder_.write("cars/mine.yaml",
+                  "wheelbase: 2.4\nfront_overhang: 0.8\nrear_overhang: 0.7\nwidth: 1.7\nmax_steering_angle: 0.6\n");
+    EXPECT_EQ(read(with(SCENARIO, "vw_golf8", "cars/mine.yaml")).vehicle.wheelbase, 2.4);
+    expectYamlError(with(SCENARIO, "vehicle: vw_golf8", "vehicle: {wheelbase: 2.5}"),
+                    {"example.yaml:3", "front_overhang", "vehicle"});
+    expectYamlError(with(SCENARIO, "vehicle: vw_golf8", with(fields, "width: 1.7", "width: 0")),
+                    {"example.yaml", "width is 0"});
+    expectYamlError(with(SCENARIO, "vw_golf8", "vw_golf9"), {"example.yaml:3", "'vw_golf9'", "'vw_golf8'"});
+    expectYamlError(with(SCENARIO, "vw_golf8", "cars/none.yaml"), {"none.yaml", "No such file"});
+}
+
+TEST_F(YamlReader, ReadsASlot)
+{
+    const std::string slot =
+        "slot:\n  kind: perpendicular\n  pose: [15, 15, 1.5707963267948966]\n  length: 5\n  width: 2.5\n";
+    const std::string text = with(SCENARIO, "goal: [15.5, 20, -0.25]\n", slot);
+    const Scenario reverse = read(text);
+    ASSERT_TRUE(reverse.slot);
+    EXPECT_EQ(reverse.slot->kind, SlotKind::Perpendicular);
+    EXPECT_EQ(reverse.slot->entry, SlotEntry::Reverse);
+    EXPECT_EQ(reverse.slot->pose.x, 5.0);
+    ASSERT_EQ(reverse.goals.size(), 1u);
+    // The middle of the body lies in the middle of the slot.
+    const Vehicle &car = reverse.vehicle;
+    EXPECT_NEAR(reverse.goals[0].x, 5.0, 1e-9);
+    EXPECT_NEAR(reverse.goals[0].y, -5.0 - 0.5 * car.length() + car.rearOverhang, 1e-9);
+    EXPECT_NEAR(reverse.goals[0].yaw, 0.5 * PI, 1e-9);
+    EXPECT_EQ(read(with(text, "  length: 5\n", "  length: 5\n  entry: either\n")).goals.size(), 2u);
+    const Scenario offset = read(with(text, "  length: 5\n", "  length: 5\n  depth: 0.2\n  lateral_offset: 0.1\n"));
+    EXPECT_NEAR(offset.goals[0].x, 4.9, 1e-9);
+    EXPECT_NEAR(offset.goals[0].y, -5.0 - 2.5 + 0.2 + car.rearOverhang, 1e-9);
+
+    expectYamlError(with(text, "length: 5", "length: 4.2"), {"example.yaml:6", "length is 4.2", "cm"});
+    expectYamlError(with(text, "width: 2.5", "width: -1"), {"example.yaml:6", "width"});
+    expectYamlError(with(text, "  width: 2.5\n", ""), {"example.yaml:6", "'width' is missing in slot"});
+    expectYamlError(with(text, "perpendicular", "diagonal"), {"example.yaml:6", "'diagonal'", "angled"});
+    expectYamlError(with(text, "kind:", "knd:"), {"example.yaml:6", "'knd'", "did you mean 'kind'"});
+    expectYamlError(with(text, "  length: 5\n", "  length: 5\n  entry: sideways\n"),
+                    {"example.yaml:9", "'sideways'", "reverse"});
+    expectYamlError(text + "goal: [1, 2, 3]\n", {"both goal and slot"});
+}
+
+TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
+{
+    expectYamlError(SCENARIO + "stat: 1\n", {"example.yaml:11", "'stat'", "did you mean 'start'"});
+    expectYamlError(SCENARIO + "start: [0, 0, 0]\n", {"example.yaml:11", "'start' is given twice"});
+    expectYamlError(with(SCENARIO, "start: [10, 20, 0.5]\n", ""), {"example.yaml", "'start' is missing"});
+    expectYamlError(with(SCENARIO, "goal: [15.5, 20, -0.25]\n", ""), {"example.yaml", "neither goal nor slot"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, 20]"),
+                    {"example.yaml:4", "start has 2 entries", "3 numbers"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, 20, 0.5, 0]"), {"example.yaml:4", "start has 4 entries"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "10"), {"example.yaml:4", "start is '10'"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, .nan, 0.5]"), {"example.yaml:4", "start holds '.nan'"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, nan, 0.5]"), {"example.yaml:4", "start holds 'nan'"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, 20m, 0.5]"), {"example.yaml:4", "'20m'"});
+    expectYamlError(with(SCENARIO, ", [13, 27]]", "]"), {"example.yaml:7", "polygon 1 has 2 corners", "at least 3"});
+    expectYamlError(with(SCENARIO, "[13, 27]", "[13]"), {"example.yaml:7", "a corner of polygon 1 has 1 entries"});
+    expectYamlError(with(SCENARIO, "    - [22, 12]\n", "    - 22\n"), {"example.yaml:10", "polygon 2"});
+    expectYamlError(with(SCENARIO, "[13, 27]", "[13, 2e8]"), {"obstacle 1", "m from the start"});
+    expectYamlError("start: [0, 0, 0]\ngoal: [1, 0, 0]\npolygons: 3\n", {"example.yaml:3", "list of polygons"});
+    expectYamlError("start: [0, 0, 0]\ngoal: [1, 0, 0]\n", {"neither map nor polygons"});
+    expectYamlError(SCENARIO + "map: x.yaml\n", {"both map and polygons"});
+    expectYamlError(SCENARIO + "unknown_is_occupied: perhaps\n", {"example.yaml:11", "'perhaps'", "true or false"});
+    expectYamlError("start: [0, 0, 0\ngoal: 1\n", {"example.yaml:", "not valid YAML"});
+    expectYamlError("name: \"\\\n\\\x01\"\n", {"example.yaml:", "not valid YAML", "escape"});
+    expectYamlError("? [a, b]\n: 1\n", {"a key is a list"});
+    expectYamlError(": : :\n", {"example.yaml"});
+    expectYamlError("&a [*a]\n", {"example.yaml"});
+    expectYamlError("# only: a comment\n", {"example.yaml", "must be a mapping"});
+    expectYamlError("a: " + std::string(100000, '['), {"example.yaml"});
+}
+
+TEST_F(YamlReader, NamesTheMapThatIsMissing)
+{
+    const std::string text = "start: [1, 1, 0]\ngoal: [2, 1, 0]\nmap: maps/lot.yaml\n";
+    expectYamlError(text, {"maps/lot.yaml", "No such file"});
+    expectYamlError(with(text, "lot.yaml", "lot.pgm"), {"example.yaml:3", "'maps/lot.pgm'", "YAML file"});
+}
+
+TEST_F(YamlReader, PutsAMapIntoTheFrameOfTheStart)
+{
+    folder_.write("maps/lot.yaml", "image: lot.pgm\nresolution: 0.5\norigin: [4000000000, 100, 0]\n");
+    folder_.write(
+        "maps/lot.pgm", "P2 20 10 1\n" +
+                            []
+                            {
+                                std::string s;
+                                for (int i = 0; i < 200; ++i)
+                                    s += i == 0 ? "0 " : "1 ";
+                                return s;
+                            }());
+    const std::string text = "start: [4000000004, 102, 0]\ngoal: [4000000006, 103, 0]\nmap: maps/lot.yaml\n";
+    const Scenario scenario = read(text);
+    ASSERT_TRUE(scenario.grid);
+    EXPECT_EQ(scenario.grid->origin().x, -4.0);
+    EXPECT_EQ(scenario.grid->origin().y, -2.0);
+    EXPECT_EQ(scenario.grid->at(0, 9), Cell::Occupied);
+    EXPECT_EQ(scenario.bounds.min, Eigen::Vector2d(-4, -2));
+    EXPECT_EQ(scenario.bounds.max, Eigen::Vector2d(6, 3));
+    EXPECT_EQ(scenario.goals.at(0).x, 2.0);
+    EXPECT_TRUE(scenario.polygons.empty());
+
+    // Both sides of the map's edge.
+    EXPECT_NO_THROW(read(with(text, "4000000004, 102", "4000000010, 105")));
+    for (const std::string outside :
+         {"4000000010.5, 102", "3999999999.5, 102", "4000000004, 99.5", "4000000004, 105.5"})
+        expectYamlError(with(text, "4000000004, 102", outside), {"start outside the map"});
+}
+
+TEST_F(YamlReader, ATurnedMapIsBoundedByItsBox)
+{
+    folder_.write("lot.yaml", "image: lot.pgm\nresolution: 1\norigin: [1, 1, 1.5707963267948966]\n");
+    folder_.write("lot.pgm", "P2 4 2 1  1 1 1 1 1 1 1 1");
+    const Scenario scenario = read("start: [0, 2, 0]\ngoal: [0, 3, 0]\nmap: lot.yaml\n");
+    EXPECT_NEAR(scenario.bounds.min.x(), -1.0, 1e-9);
+    EXPECT_NEAR(scenario.bounds.max.x(), 1.0, 1e-9);
+    EXPECT_NEAR(scenario.bounds.min.y(), -1.0, 1e-9);
+    EXPECT_NEAR(scenario.bounds.max.y(), 3.0, 1e-9);
+    expectYamlError("start: [2, 2, 0]\ngoal: [0, 3, 0]\nmap: lot.yaml\n", {"start outside the map"});
+}
+
+namespace
+{
+    /** Reads damaged files: each must give an error of one line or a scenario in order. */
+    void expectSound(const std::string &file)
+    {
+        try
+        {
+            const Scenario scenario = readScenario(file);
+            ASSERT_FALSE(scenario.goals.empty());
+            EXPECT_TRUE(isFinite(scenario.start));
+            EXPECT_TRUE(isFinite(scenario.goals[0]));
+            EXPECT_TRUE(scenario.bounds.min.allFinite() && scenario.bounds.max.allFinite());
+            for (const Polygon &polygon : scenario.polygons)
+            {
+                EXPECT_GE(polygon.size(), 3u);
+                for (const Eigen::Vector2d &corner : polygon)
+                    EXPECT_TRUE(corner.allFinite());
+            }
+            EXPECT_NO_THROW(scenario.vehicle.validate());
+        }
+        catch (const Error &error)
+        {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    }
+}  // namespace
+
+TEST_F(YamlReader, DamagedFilesGiveErrorsAndNothingWorse)
+{
+    const std::string slot = with(SCENARIO, "goal: [15.5, 20, -0.25]\n",
+                                  "slot: {kind: parallel, pose: [15, 15, 1], length: 6, width: 2.5, entry: reverse}\n");
+    std::mt19937 random(2);
+    std::uniform_int_distribution<int> byte(0, 255);
+    const std::string nasty = "[]{}:,#&*!|>'\"%@`-?\n\t 0e9.+\\";
+    std::uniform_int_distribution<std::size_t> pick(0, nasty.size() - 1);
+    for (const std::string &text : {CASE, SCENARIO, slot})
+        for (std::size_t i = 0; i < text.size(); ++i)
+        {
+            SCOPED_TRACE("position " + std::to_string(i));
+            expectSound(folder_.write("damaged", text.substr(0, i) + (i ? "" : " ")));
+            std::string changed = text;
+            changed[i] = static_cast<char>(byte(random));
+            expectSound(folder_.write("damaged", changed));
+            changed = text;
+            changed[i] = nasty[pick(random)];
+            expectSound(folder_.write("damaged", changed));
+            changed = text;
+            changed.insert(i, 1, nasty[pick(random)]);
+            expectSound(folder_.write("damaged", changed));
+            changed = text;
+            changed.erase(i, 1);
+            expectSound(folder_.write("damaged", changed));
+        }
+}

@@ -1,0 +1,159 @@
+#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::expectError;
+using parking_test::PolygonWorld;
+using parking_test::RandomParking;
+
+namespace
+{
+    double gap(const Pose &a, const Pose &b)
+    {
+        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
+    }
+}  // namespace
+
+TEST(MultiMoveParking, ExitsLieInTheAisleAndAlongIt)
+{
+    RandomParking random(31);
+    for (int i = 0; i < 3000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const ParkingSlot slot = random.slot(car);
+        ReverseParkingOptions options;
+        options.aisleWidth = random.uniform(3.0, 7.0);
+        const SlotExitTask task = slotExitTask(ReverseParking(car, options), slot, slot.entry, slot.side);
+        EXPECT_LT(gap(task.parked, slot.goals(car).front()), 1e-12);
+        ASSERT_FALSE(task.exits.empty());
+        const PolygonWorld world(car, slotSurroundings(slot, slot.side, options.aisleWidth));
+        EXPECT_TRUE(world.isFree(task.parked));
+        for (const Pose &exit : task.exits)
+        {
+            EXPECT_TRUE(world.isFree(exit));
+            EXPECT_NEAR(std::sin(exit.yaw - slot.aisleYaw(slot.side)), 0.0, 1e-9);
+            for (const Eigen::Vector2d &corner : car.footprint(exit))
+                EXPECT_TRUE((corner.array() > task.min.array()).all() && (corner.array() < task.max.array()).all());
+        }
+        // The single sweep leaves the slot in the direction of these exits.
+        const ReverseParkingResult sweep = ReverseParking(car).plan(slot);
+        if (sweep.fits())
+        {
+            EXPECT_NEAR(wrapAngle(sweep.path.start.yaw - task.exits.front().yaw), 0.0, 1e-9);
+        }
+    }
+}
+
+TEST(MultiMoveParking, OneSweepNeedsNoPlanner)
+{
+    const ReverseParking parking{Vehicle()};
+    const ReverseParkingResult result = planInMoves(parking, ParkingSlot(), {},
+                                                    [](const SlotExitTask &) -> ArcPath
+                                                    {
+                                                        ADD_FAILURE() << "asked without need";
+                                                        return {};
+                                                    });
+    EXPECT_TRUE(result.fits());
+    EXPECT_EQ(result.moves(), 1u);
+}
+
+TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
+{
+    // An aisle that is too narrow for one sweep, and a planner that need not care: there are no callables.
+    ReverseParkingOptions options;
+    options.aisleWidth = 3.0;
+    const ReverseParking parking(Vehicle(), options);
+    ParkingSlot slot;
+    ASSERT_EQ(parking.plan(slot).status, ReverseParkingStatus::AisleTooNarrow);
+    int asked = 0;
+    const SlotExitPlanner shunts = [&](const SlotExitTask &task)
+    {
+        // Straight to and fro, then to the exit by way of its pose: the exit is made to fit the path.
+        ++asked;
+        ArcPath path{task.parked, {{0.0, 1.0}, {0.0, -0.5}}};
+        if (task.side == SlotSide::Left)
+            return ArcPath{task.parked, {}};
+        const Pose exit = relativeTo(path.end(), task.exits.front());
+        // Turn by pi/2 to the right and straight lines: ahead - r, then the arc, then right - r.
+        const double radius = 3.1;
+        path.append({0.0, exit.x - radius});
+        path.append({-1.0 / radius, radius * 0.5 * PI});
+        path.append({0.0, -exit.y - radius});
+        return path;
+    };
+    const ReverseParkingResult result = planInMoves(parking, slot, {}, shunts);
+    ASSERT_TRUE(result.fits()) << result.message;
+    EXPECT_EQ(asked, 2);
+    EXPECT_LT(gap(result.path.end(), result.goal), 1e-9);
+    EXPECT_EQ(result.moves(), result.path.cusps() + 1);
+    EXPECT_GE(result.moves(), 3u);
+    EXPECT_TRUE(result.message.empty());
+
+    // With a way on either side the one with fewer moves wins, whichever is asked for first.
+    for (const SlotSide better : {SlotSide::Right, SlotSide::Left})
+    {
+        const SlotExitPlanner both = [&](const SlotExitTask &task)
+        {
+            const double mirror = task.side == SlotSide::Left ? -1.0 : 1.0, radius = 3.1;
+            ArcPath path{task.parked, {}};
+            if (task.side != better)
+                path.segments = {{0.0, 1.0}, {0.0, -0.5}, {0.0, 0.5}, {0.0, -0.5}};
+            const Pose exit = relativeTo(path.end(), task.exits.front());
+            path.append({0.0, exit.x - radius});
+            path.append({-mirror / radius, radius * 0.5 * PI});
+            path.append({0.0, -mirror * exit.y - radius});
+            return path;
+        };
+        EXPECT_EQ(planInMoves(parking, slot, {}, both).side, better);
+    }
+
+    const ReverseParkingResult none = planInMoves(parking, slot, {},
+                                                  [](const SlotExitTask &task) {
+                                                      return ArcPath{task.parked, {}};
+                                                  });
+    EXPECT_EQ(none.status, ReverseParkingStatus::AisleTooNarrow);
+
+    const auto shifted = [&](const SlotExitTask &task)
+    {
+        ArcPath path = shunts(task);
+        path.start.x += 0.01;
+        return path;
+    };
+    expectError([&] { planInMoves(parking, slot, {}, shifted); }, {"multi-move", "begin"});
+    const auto elsewhere = [&](const SlotExitTask &task)
+    {
+        return ArcPath{task.parked, {{0.0, 1.0}}};
+    };
+    expectError([&] { planInMoves(parking, slot, {}, elsewhere); }, {"multi-move", "exits"});
+    FootprintQueries closed;
+    closed.isPathFree = [](const Path &)
+    {
+        return false;
+    };
+    expectError([&] { planInMoves(parking, slot, closed, shunts); }, {"multi-move", "free"});
+}
+
+TEST(MultiMoveParking, SmallestSlotBisects)
+{
+    const ReverseParking parking{Vehicle()};
+    ParkingSlot slot;
+    slot.kind = SlotKind::Parallel;
+    slot.length = 12.0;
+    const auto fits = [&](const ParkingSlot &tried)
+    {
+        return parking.plan(tried).fits();
+    };
+    const double least = smallestSlot(slot, &ParkingSlot::length, parking.vehicle().length(), fits, 1e-4);
+    EXPECT_NEAR(least, parking.plan(slot).neededSlotLength, 1e-4);
+    slot.length = 6.0;
+    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits); }, {"smallest slot", "larger"});
+    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits, 0.0); }, {"precision"});
+}

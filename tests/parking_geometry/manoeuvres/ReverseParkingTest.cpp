@@ -1,0 +1,357 @@
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::expectError;
+using parking_test::PolygonWorld;
+using parking_test::RandomParking;
+
+namespace
+{
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    double gap(const Pose &a, const Pose &b)
+    {
+        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
+    }
+
+    ReverseParkingOptions grazing(double aisleWidth = INFINITE, double guardLength = 3.0)
+    {
+        ReverseParkingOptions options;
+        options.clearance = 0.0;
+        options.aisleWidth = aisleWidth;
+        options.guardLength = guardLength;
+        return options;
+    }
+
+    /** A parallel slot with another length; with a given depth its rear end stays where it is. */
+    ParkingSlot lengthened(const ParkingSlot &slot, double length)
+    {
+        ParkingSlot result = slot;
+        result.length = length;
+        if (slot.depth)
+            result.pose = compose(slot.pose, {0.5 * (length - slot.length), 0.0, 0.0});
+        return result;
+    }
+
+}  // namespace
+
+TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
+{
+    RandomParking random(21);
+    int fits = 0;
+    for (int i = 0; i < 100000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        if (slot.kind == SlotKind::Parallel)
+            slot = lengthened(slot, slot.length + random.uniform(0.0, 6.0));
+        ReverseParkingOptions options;
+        options.clearance = random.coin() ? 0.0 : random.uniform(0.0, 0.1);
+        options.guardLength = random.uniform(0.0, 3.0);
+        const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
+        ASSERT_EQ(gap(result.goal, slot.goals(car).front()), 0.0);
+        if (!result.fits())
+        {
+            ASSERT_TRUE(result.path.segments.empty());
+            ASSERT_GT(result.missing, 0.0);
+            ASSERT_NE(result.message.find(" cm"), std::string::npos);
+            ASSERT_EQ(result.moves(), 0u);
+            continue;
+        }
+        ++fits;
+        // Closure. Segments of constant curvature are tangent by construction; what remains is the goal.
+        ASSERT_LT(gap(result.path.end(), result.goal), 1e-9);
+        ASSERT_EQ(result.moves(), 1u);
+        ASSERT_TRUE(result.message.empty());
+        const double direction = slot.entry == SlotEntry::Forward ? 1.0 : -1.0;
+        for (const ArcSegment &segment : result.path.segments)
+        {
+            ASSERT_GT(direction * segment.length, 0.0);
+            ASSERT_LE(std::abs(segment.curvature), (1.0 + 1e-12) / car.minTurningRadius());
+        }
+        // P lies along the aisle, headed so that the car drives off in its direction.
+        const bool turned = slot.entry == SlotEntry::Forward && slot.kind != SlotKind::Parallel;
+        ASSERT_NEAR(wrapAngle(result.path.start.yaw - slot.aisleYaw(slot.side) - (turned ? PI : 0.0)), 0.0, 1e-9);
+        ASSERT_EQ(result.guardLength, options.guardLength);
+        if (options.guardLength > 0.0)
+        {
+            ASSERT_NEAR(std::abs(result.path.segments.front().length), options.guardLength, 1e-12);
+            ASSERT_EQ(result.path.segments.front().curvature, 0.0);
+        }
+        if (slot.kind == SlotKind::Parallel)
+        {
+            ASSERT_GE(result.firstRadius, result.minRadius - 1e-9);
+            ASSERT_LE(result.firstRadius, result.maxRadius + 1e-9);
+        }
+    }
+    EXPECT_GT(fits, 50000);
+}
+
+TEST(ReverseParking, TheBodyStaysFreeAlongTheWholeManoeuvre)
+{
+    RandomParking random(22);
+    int fits = 0;
+    for (int i = 0; i < 5000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        if (slot.kind == SlotKind::Parallel)
+            slot = lengthened(slot, slot.length + random.uniform(0.0, 6.0));
+        const ReverseParkingOptions options = grazing(random.uniform(2.0, 9.0), random.uniform(0.0, 4.0));
+        const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
+        if (!result.fits())
+            continue;
+        ++fits;
+        const PolygonWorld world(car, slotSurroundings(slot, slot.side, options.aisleWidth, 30.0));
+        ASSERT_TRUE(world.isPathFree(result.path, 1e-3)) << i;
+    }
+    EXPECT_GT(fits, 1000);
+}
+
+TEST(ReverseParking, ClearanceIsKept)
+{
+    RandomParking random(23);
+    for (int i = 0; i < 300; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        slot.depth.reset();
+        slot.lateralOffset = 0.0;
+        slot.length += 0.2;
+        slot.width += 0.2;
+        ReverseParkingOptions options;
+        options.clearance = 0.1;
+        const ReverseParking parking(car, options);
+        if (slot.kind == SlotKind::Parallel)
+            slot = lengthened(slot, std::min(40.0, parking.plan(slot).neededSlotLength + 1e-6));
+        const ReverseParkingResult result = parking.plan(slot);
+        if (!result.fits())
+            continue;
+        const PolygonWorld world(car, slotSurroundings(slot, slot.side));
+        for (const PathState &state : result.path.sample(0.02))
+            ASSERT_GE(world.clearance(state.pose), 0.1 - 1e-6);
+    }
+}
+
+TEST(ReverseParking, MirroredSlotsGiveMirroredManoeuvres)
+{
+    RandomParking random(27);
+    for (int i = 0; i < 100000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car), mirrored = slot;
+        mirrored.pose = {slot.pose.x, -slot.pose.y, -slot.pose.yaw};
+        mirrored.lateralOffset = -slot.lateralOffset;
+        mirrored.side = slot.side == SlotSide::Left ? SlotSide::Right : SlotSide::Left;
+        if (slot.kind == SlotKind::Parallel)
+            slot.length = mirrored.length += 3.0;
+        const ReverseParking parking(car, grazing(random.uniform(3.0, 12.0)));
+        const ReverseParkingResult a = parking.plan(slot), b = parking.plan(mirrored);
+        ASSERT_EQ(a.status, b.status);
+        ASSERT_NEAR(a.missing, b.missing, 1e-9);
+        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
+        if (!a.fits())
+            continue;
+        ASSERT_LT(gap({a.path.start.x, -a.path.start.y, -a.path.start.yaw}, b.path.start), 1e-9);
+        for (std::size_t k = 0; k < a.path.segments.size(); ++k)
+        {
+            ASSERT_NEAR(a.path.segments[k].curvature, -b.path.segments[k].curvature, 1e-9);
+            ASSERT_NEAR(a.path.segments[k].length, b.path.segments[k].length, 1e-9);
+        }
+    }
+}
+
+TEST(ReverseParking, MovedSlotsGiveMovedManoeuvres)
+{
+    RandomParking random(28);
+    for (int i = 0; i < 100000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        if (slot.kind == SlotKind::Parallel)
+            slot.length += 3.0;
+        const Pose motion = random.pose(100.0);
+        ParkingSlot moved = slot;
+        moved.pose = compose(motion, slot.pose);
+        const ReverseParking parking(car, grazing(random.uniform(3.0, 12.0)));
+        const ReverseParkingResult a = parking.plan(slot), b = parking.plan(moved);
+        ASSERT_EQ(a.status, b.status);
+        ASSERT_NEAR(a.missing, b.missing, 1e-9);
+        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
+        if (a.fits())
+        {
+            ASSERT_LT(gap(compose(motion, a.path.start), b.path.start), 1e-9);
+        }
+        for (std::size_t k = 0; k < a.path.segments.size(); ++k)
+            ASSERT_NEAR(a.path.segments[k].length, b.path.segments[k].length, 1e-9);
+    }
+}
+
+TEST(ReverseParking, VerdictsNameWhatIsMissing)
+{
+    const Vehicle car;
+    ReverseParkingOptions options;
+    options.clearance = 0.0;
+    ParkingSlot slot;
+    slot.kind = SlotKind::Parallel;
+    slot.side = SlotSide::Right;
+    slot.length = 6.0;
+    slot.width = 2.3;
+    const ReverseParkingResult tooShort = ReverseParking(car, options).plan(slot);
+    EXPECT_EQ(tooShort.status, ReverseParkingStatus::SlotTooShort);
+    EXPECT_LT(tooShort.maxRadius, car.minTurningRadius());
+    EXPECT_NEAR(tooShort.missing, tooShort.neededSlotLength - 6.0, 1e-9);
+    EXPECT_NE(tooShort.message.find("R_min is 3.006 m"), std::string::npos) << tooShort.message;
+    EXPECT_NE(tooShort.message.find("R_max"), std::string::npos) << tooShort.message;
+
+    slot.length = 12.0;
+    slot.width = car.width + 0.02;
+    const ReverseParkingResult kerb = ReverseParking(car, options).plan(slot);
+    EXPECT_EQ(kerb.status, ReverseParkingStatus::SlotTooNarrow);
+    EXPECT_NE(kerb.message.find("kerb"), std::string::npos) << kerb.message;
+    // With the kerb as far away as the message asks for, and the car where it was, it fits; with less it does not.
+    for (const double change : {-1e-6, 1e-6})
+    {
+        ParkingSlot wider = slot;
+        wider.width += kerb.missing + change;
+        wider.lateralOffset = 0.5 * (kerb.missing + change);
+        EXPECT_EQ(ReverseParking(car, options).plan(wider).fits(), change > 0.0);
+    }
+
+    slot = ParkingSlot();
+    slot.width = car.width + 0.06;
+    options.clearance = 0.05;
+    const ReverseParkingResult narrow = ReverseParking(car, options).plan(slot);
+    EXPECT_EQ(narrow.status, ReverseParkingStatus::SlotTooNarrow);
+    EXPECT_NEAR(narrow.missing, 0.02, 1e-9);
+    EXPECT_NE(narrow.message.find("2 cm"), std::string::npos) << narrow.message;
+
+    slot.width = 2.5;
+    options.aisleWidth = 3.0;
+    const ReverseParkingResult aisle = ReverseParking(car, options).plan(slot);
+    EXPECT_EQ(aisle.status, ReverseParkingStatus::AisleTooNarrow);
+    EXPECT_NE(aisle.message.find("aisle, 3 m"), std::string::npos) << aisle.message;
+}
+
+TEST(ReverseParking, NonsenseIsAnError)
+{
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.length = 4.0;
+    expectError([&] { ReverseParking(car).plan(slot); }, {"slot", "length", "68.9 cm"});
+    slot.length = -1.0;
+    expectError([&] { ReverseParking(car).plan(slot); }, {"slot", "length", "positive"});
+    expectError([&] { ReverseParking(car).planAll(slot); }, {"slot", "length", "positive"});
+    Vehicle bad;
+    bad.wheelbase = 0.0;
+    expectError([&] { ReverseParking parking(bad); }, {"wheelbase"});
+    const auto badOption = [&](double ReverseParkingOptions::*option, double value, const char *name)
+    {
+        ReverseParkingOptions options;
+        options.*option = value;
+        expectError([&] { ReverseParking parking(car, options); }, {"reverse parking", name});
+    };
+    badOption(&ReverseParkingOptions::aisleWidth, 0.0, "aisle width");
+    badOption(&ReverseParkingOptions::clearance, -0.01, "clearance");
+    badOption(&ReverseParkingOptions::guardLength, -1.0, "guard length");
+    badOption(&ReverseParkingOptions::guardLength, INFINITE, "guard length");
+    badOption(&ReverseParkingOptions::preferredRadius, -1.0, "preferred radius");
+    badOption(&ReverseParkingOptions::step, 0.0, "step");
+}
+
+TEST(ReverseParking, TheWorldMayBeKinderThanTheModel)
+{
+    // A parallel slot of 6 m is too short between cars; without the one ahead it is entered in one sweep.
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.kind = SlotKind::Parallel;
+    slot.side = SlotSide::Right;
+    slot.length = 6.0;
+    slot.width = 2.5;
+    std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right);
+    const ReverseParking parking(car);
+    const PolygonWorld full(car, obstacles);
+    EXPECT_EQ(parking.plan(slot, full.queries()).status, ReverseParkingStatus::SlotTooShort);
+    obstacles.erase(obstacles.begin());
+    const PolygonWorld open(car, obstacles);
+    const ReverseParkingResult result = parking.plan(slot, open.queries());
+    ASSERT_TRUE(result.fits()) << result.message;
+    EXPECT_TRUE(open.isPathFree(result.path));
+}
+
+TEST(ReverseParking, TheWorldMayBeHarsherThanTheModel)
+{
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.side = SlotSide::Right;
+    const ReverseParking parking(car);
+    const ReverseParkingResult free = parking.plan(slot);
+    ASSERT_TRUE(free.fits());
+    std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right);
+    // The inner neighbour sticks out by 60 cm: the turn must begin later.
+    const double y = -0.5 * slot.width;
+    obstacles.push_back({{2.5, y - 2.0}, {3.1, y - 2.0}, {3.1, y}, {2.5, y}});
+    const PolygonWorld crooked(car, obstacles);
+    ASSERT_FALSE(crooked.isPathFree(free.path));
+    const ReverseParkingResult later = parking.plan(slot, crooked.queries());
+    ASSERT_TRUE(later.fits()) << later.message;
+    EXPECT_TRUE(crooked.isPathFree(later.path));
+    // The guard line is as long as the world leaves it.
+    const double front = later.path.start.y - car.wheelbase - car.frontOverhang;
+    obstacles.push_back({{3.2, front}, {9.0, front}, {9.0, front + 0.7}, {3.2, front + 0.7}});
+    const PolygonWorld closed(car, obstacles);
+    const ReverseParkingResult shorter = parking.plan(slot, closed.queries());
+    ASSERT_TRUE(shorter.fits()) << shorter.message;
+    EXPECT_LT(shorter.guardLength, parking.options().guardLength);
+    EXPECT_TRUE(closed.isPathFree(shorter.path));
+    // A wall before the mouth blocks every variant.
+    obstacles.push_back({{4.5, -20.0}, {5.0, -20.0}, {5.0, 20.0}, {4.5, 20.0}});
+    const PolygonWorld walled(car, obstacles);
+    const ReverseParkingResult blocked = parking.plan(slot, walled.queries());
+    EXPECT_EQ(blocked.status, ReverseParkingStatus::Blocked);
+    EXPECT_TRUE(blocked.path.segments.empty());
+    EXPECT_NE(blocked.message.find("block"), std::string::npos);
+}
+
+TEST(ReverseParking, EitherTriesEverySideAndEntry)
+{
+    const Vehicle car;
+    ParkingSlot slot;
+    slot.entry = SlotEntry::Either;
+    const ReverseParking parking(car);
+    const std::vector<ReverseParkingResult> all = parking.planAll(slot);
+    ASSERT_EQ(all.size(), 4u);
+    EXPECT_EQ(all[0].entry, SlotEntry::Reverse);
+    EXPECT_EQ(all[0].side, SlotSide::Right);
+    EXPECT_EQ(all[3].entry, SlotEntry::Forward);
+    EXPECT_EQ(all[3].side, SlotSide::Left);
+    // Right is blocked: plan() takes the left.
+    std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right);
+    obstacles.push_back({{2.6, -2.5}, {9.0, -2.5}, {9.0, -2.0}, {2.6, -2.0}});
+    const PolygonWorld world(car, obstacles);
+    const ReverseParkingResult result = parking.plan(slot, world.queries());
+    ASSERT_TRUE(result.fits());
+    EXPECT_EQ(result.side, SlotSide::Left);
+    EXPECT_TRUE(world.isPathFree(result.path));
+}
+
+TEST(ReverseParking, JoinedPathsMeet)
+{
+    const ArcPath first{{1.0, 2.0, 0.3}, {{0.2, 3.0}}};
+    ArcPath second{first.end(), {{0.2, 1.0}, {0.0, -2.0}}};
+    const ArcPath path = joined(first, second);
+    EXPECT_EQ(path.segments.size(), 2u) << "equal neighbours are one piece";
+    EXPECT_LT(gap(path.end(), second.end()), 1e-9);
+    second.start.x += 1e-3;
+    expectError([&] { joined(first, second); }, {"apart", "must start where the first ends"});
+}

@@ -1,0 +1,448 @@
+#include "parking_geometry/smoothing/PathSmoother.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "tests/parking_geometry/smoothing/SmoothPathChecks.h"
+#include "parking_geometry/curves/ReedsShepp.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+using parking_test::distance;
+using parking_test::expectDrivable;
+using parking_test::expectError;
+using parking_test::gap;
+using parking_test::PolygonWorld;
+using parking_test::RandomParking;
+
+namespace
+{
+    ArcPath reedsShepp(RandomParking &random, const Vehicle &car, double radiusFactor)
+    {
+        ArcPath path{random.pose(8.0), {}};
+        const ReedsSheppCurve curve =
+            ReedsShepp(radiusFactor * car.minTurningRadius()).shortest(path.start, random.pose(8.0));
+        for (std::size_t i = 0; i < curve.count; ++i)
+            path.append(curve.segments[i]);
+        return path;
+    }
+
+    /** Small obstacles 5 to 30 cm beside the body somewhere along the path, which stays free. */
+    std::vector<Polygon> debris(RandomParking &random, const Vehicle &car, const ArcPath &path, int count)
+    {
+        std::vector<Polygon> result;
+        const Path states = path.sample(0.1);
+        for (int i = 0; i < count; ++i)
+        {
+            const Pose at = states[static_cast<std::size_t>(random.below(static_cast<int>(states.size())))].pose;
+            const double side = random.coin() ? 1.0 : -1.0, radius = 0.2;
+            const Pose centre = compose(at, {random.uniform(-car.rearOverhang, car.wheelbase + car.frontOverhang),
+                                             side * (0.5 * car.width + radius + random.uniform(0.05, 0.3)), 0.0});
+            Polygon polygon;
+            for (int k = 0; k < 5; ++k)
+                polygon.emplace_back(centre.x + radius * std::cos(0.4 * PI * k),
+                                     centre.y + radius * std::sin(0.4 * PI * k));
+            if (PolygonWorld(car, {polygon}).isPathFree(path))
+                result.push_back(polygon);
+        }
+        return result;
+    }
+
+    struct Share
+    {
+        std::size_t gears{0}, continuous{0};
+
+        void add(const SmoothPath &path)
+        {
+            gears += path.gears.size();
+            continuous += path.continuousGears();
+        }
+
+        double percent() const
+        {
+            return 100.0 * static_cast<double>(continuous) / static_cast<double>(gears);
+        }
+    };
+}  // namespace
+
+TEST(PathSmoother, PlannerPathsBecomeDrivable)
+{
+    RandomParking random(41);
+    Share share;
+    for (int i = 0; i < 3000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        SmoothingOptions options;
+        options.speed = random.uniform(0.3, 2.0);
+        options.step = random.uniform(0.05, 0.2);
+        const ArcPath path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
+        const SmoothPath result = PathSmoother(car, options).smooth(path);
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
+        EXPECT_TRUE(result.free);
+        share.add(result);
+    }
+    EXPECT_GE(share.percent(), 99.0);
+}
+
+TEST(PathSmoother, ShortPiecesAtHighSpeedStayAsLong)
+{
+    RandomParking random(49);
+    for (int i = 0; i < 2000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ArcPath path = random.plannerPath(car, 1.15);
+        for (ArcSegment &segment : path.segments)
+            segment.length *= 0.3;
+        SmoothingOptions options;
+        options.speed = 2.5;
+        options.tolerance = 0.5;
+        const SmoothPath result = PathSmoother(car, options).smooth(path);
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
+    }
+}
+
+TEST(PathSmoother, FullLockLeavesLittleRoomAndStopsAreCounted)
+{
+    RandomParking random(42);
+    Share share;
+    std::size_t stops = 0;
+    for (int i = 0; i < 1000; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const SmoothingOptions options;
+        const ArcPath path = random.plannerPath(car, 1.0);
+        const SmoothPath result = PathSmoother(car, options).smooth(path);
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
+        share.add(result);
+        stops += result.stops.size();
+    }
+    EXPECT_GE(share.percent(), 95.0);
+    EXPECT_GT(stops, 0u);
+}
+
+TEST(PathSmoother, AmongObstaclesTheResultIsFreeAndMostlyContinuous)
+{
+    RandomParking random(43);
+    Share share;
+    for (int i = 0; i < 600; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const SmoothingOptions options;
+        const ArcPath path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
+        const PolygonWorld world(car, debris(random, car, path, 10));
+        FootprintQueries queries = world.queries();
+        if (i % 5 == 0)
+            queries.clearance = nullptr;
+        const SmoothPath result = PathSmoother(car, options).smooth(path, queries);
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
+        EXPECT_TRUE(result.free);
+        // The oracle, on the exact pieces at 2 cm.
+        for (const PathState &state : result.pieces.sample(0.02))
+            ASSERT_TRUE(world.isFree(state.pose) || !queries.clearance) << i;
+        share.add(result);
+    }
+    EXPECT_GE(share.percent(), 97.0);
+}
+
+TEST(PathSmoother, ManoeuvresIntoSlotsBecomeContinuous)
+{
+    RandomParking random(44);
+    Share share;
+    for (int i = 0; i < 300; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        slot.entry = SlotEntry::Reverse;
+        slot.depth.reset();
+        slot.lateralOffset = 0.0;
+        slot.length = car.length() + random.uniform(0.2, 0.8);
+        slot.width = car.width + random.uniform(0.4, 0.8);
+        ReverseParkingOptions options;
+        if (slot.kind == SlotKind::Parallel)
+            slot.length = ReverseParking(car, options).plan(slot).neededSlotLength + 1e-6;
+        options.aisleWidth = ReverseParking(car, options).plan(slot).neededAisleWidth + 1e-6;
+        const ReverseParkingResult manoeuvre = ReverseParking(car, options).plan(slot);
+        ASSERT_TRUE(manoeuvre.fits()) << manoeuvre.message;
+        const PolygonWorld world(car, slotSurroundings(slot, slot.side, options.aisleWidth));
+        const SmoothPath result = PathSmoother(car).smooth(manoeuvre.path, world.queries());
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, manoeuvre.path, car, {})) << i;
+        EXPECT_TRUE(result.free);
+        EXPECT_LT(gap(result.path.back().pose, manoeuvre.goal), 1e-9);
+        share.add(result);
+    }
+    EXPECT_GE(share.percent(), 99.0) << "the tightest slots and aisles with 5 cm of clearance";
+}
+
+TEST(PathSmoother, AWallOnOneSideLeavesTheOther)
+{
+    // A wall 2 mm beside the body, up to where its tail is when the turn away from the wall begins. A smooth curve
+    // turns earlier, which would swing the tail into the wall: it must move away first.
+    const Vehicle car;
+    const ArcPath path{{}, {{0.0, 5.0}, {0.9 / car.minTurningRadius(), 4.0}, {0.0, 5.0}}};
+    const double end = 4.95 - car.rearOverhang, y = -0.5 * car.width - 0.002;
+    const PolygonWorld world(car, {{{end - 1.0, y - 0.5}, {end, y - 0.5}, {end, y}, {end - 1.0, y}}});
+    ASSERT_TRUE(world.isPathFree(path));
+    ASSERT_FALSE(isPathFree(world.queries(), car, PathSmoother(car).smooth(path).path));
+    const SmoothPath result = PathSmoother(car).smooth(path, world.queries());
+    ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, {}));
+    EXPECT_TRUE(result.free);
+    EXPECT_EQ(result.stops.size(), 0u);
+    EXPECT_GE(result.gears[0].speed, 0.4) << "with room on one side there is no need to creep";
+}
+
+TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
+{
+    // Many turns with long lines between them, and no room about one joint: it keeps its arcs, and nothing else
+    // changes.
+    const Vehicle car;
+    const double curvature = 0.9 / car.minTurningRadius();
+    ArcPath path{{}, {}};
+    for (int i = 0; i < 8; ++i)
+    {
+        path.append({0.0, 12.0});
+        path.append({i % 2 == 0 ? curvature : -curvature, 3.0});
+    }
+    path.append({0.0, 12.0});
+    const SmoothPath open = PathSmoother(car).smooth(path);
+    ASSERT_NO_FATAL_FAILURE(expectDrivable(open, path, car, {}));
+    EXPECT_EQ(open.stops.size(), 0u);
+    // Only poses of the arcs are free round the end of the fourth turn.
+    Pose joint = path.start;
+    for (int i = 0; i < 8; ++i)
+        joint = advance(joint, path.segments[static_cast<std::size_t>(i)].curvature,
+                        path.segments[static_cast<std::size_t>(i)].length);
+    const Path states = path.sample(0.01);
+    FootprintQueries queries;
+    queries.isFree = [&](const Pose &pose)
+    {
+        return distance(pose, joint) > 2.0 ||
+               std::any_of(states.begin(), states.end(),
+                           [&](const PathState &state)
+                           {
+                               const Pose local = relativeTo(state.pose, pose);
+                               return std::abs(local.x) < 0.01 && std::abs(local.y) < 1e-5;
+                           });
+    };
+    const SmoothPath result = PathSmoother(car).smooth(path, queries);
+    ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, {}));
+    EXPECT_TRUE(result.free);
+    ASSERT_GE(result.stops.size(), 1u);
+    EXPECT_LE(result.stops.size(), 2u) << "the other end of that turn may have to keep its arcs as well";
+    EXPECT_LT(distance(result.path[result.stops.back()].pose, joint), 1e-9);
+    // Far from it nothing has changed.
+    for (const std::size_t i : {std::size_t{100}, std::size_t{300}})
+    {
+        EXPECT_LT(gap(open.path[i].pose, result.path[i].pose), 1e-9);
+        const std::size_t fromEnd = i + 1;
+        EXPECT_LT(gap(open.path[open.path.size() - fromEnd].pose, result.path[result.path.size() - fromEnd].pose),
+                  1e-9);
+    }
+}
+
+TEST(PathSmoother, OneArcStaysAsItIs)
+{
+    const Vehicle car;
+    const ArcPath path{{1.0, 2.0, 0.3}, {{1.0 / car.minTurningRadius(), 2.0}, {-0.2, -1.5}}};
+    const SmoothPath result = PathSmoother(car).smooth(path);
+    ASSERT_EQ(result.gears.size(), 2u);
+    EXPECT_FALSE(result.gears[0].changed || result.gears[1].changed);
+    EXPECT_EQ(result.continuousGears(), 2u);
+    ASSERT_EQ(result.pieces.segments.size(), 2u);
+    EXPECT_EQ(result.pieces.segments[1].length, -1.5);
+    EXPECT_NEAR(pathLength(result.path), 3.5, 1e-12);
+    EXPECT_EQ(result.path.front().curvature, 1.0 / car.minTurningRadius());
+}
+
+TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
+{
+    // Two tangent circles of the smallest radius: there is no longer way round that ends at the same pose.
+    const Vehicle car;
+    const double full = 1.0 / car.minTurningRadius();
+    const ArcPath path{{}, {{full, 1.5}, {-full, 1.5}}};
+    const SmoothPath result = PathSmoother(car).smooth(path);
+    ASSERT_EQ(result.stops.size(), 1u);
+    EXPECT_EQ(result.continuousGears(), 0u);
+    EXPECT_FALSE(result.gears[0].changed);
+    EXPECT_EQ(result.speedLimit[result.stops[0]], 0.0);
+    EXPECT_LT(gap(result.path[result.stops[0]].pose, advance({}, full, 1.5)), 1e-12);
+    // A radius 5 % larger leaves the room.
+    const ArcPath wider{{}, {{full / 1.05, 1.5}, {-full / 1.05, 1.5}}};
+    EXPECT_EQ(PathSmoother(car).smooth(wider).stops.size(), 0u);
+    // So does a line at either end, driven in either direction.
+    for (const double direction : {1.0, -1.0})
+    {
+        const ArcPath line{{}, {{full, direction * 1.5}, {-full, direction * 1.5}, {0.0, direction * 2.0}}};
+        const SmoothPath smooth = PathSmoother(car).smooth(line);
+        EXPECT_EQ(smooth.stops.size(), 0u);
+        EXPECT_TRUE(smooth.gears[0].changed);
+    }
+}
+
+TEST(PathSmoother, WithoutRoomTheArcsStay)
+{
+    // A world in which only the given path is free.
+    const Vehicle car;
+    RandomParking random(45);
+    for (int i = 0; i < 50; ++i)
+    {
+        const ArcPath path = random.plannerPath(car, 1.03);
+        const Path states = path.sample(0.01);
+        FootprintQueries queries;
+        queries.isFree = [&](const Pose &pose)
+        {
+            // Within 2 mm and 2 mrad of the arcs.
+            return std::any_of(states.begin(), states.end(),
+                               [&](const PathState &state)
+                               {
+                                   const Pose local = relativeTo(state.pose, pose);
+                                   return std::abs(local.x) < 0.01 && std::abs(local.y) < 5e-4 &&
+                                          std::abs(local.yaw) < 5e-3;
+                               });
+        };
+        SmoothingOptions options;
+        options.minSpeed = 0.9;
+        const SmoothPath result = PathSmoother(car, options).smooth(path, queries);
+        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options));
+        EXPECT_TRUE(result.free) << i;
+        std::size_t joints = 0;
+        for (std::size_t k = 1; k < path.segments.size(); ++k)
+            joints += path.segments[k].length * path.segments[k - 1].length > 0.0;
+        EXPECT_LE(result.stops.size(), joints);
+        EXPECT_GE(2 * result.stops.size(), joints) << "hardly a joint has room here";
+    }
+}
+
+TEST(PathSmoother, ReportsThatTheGivenPathIsNotFree)
+{
+    FootprintQueries closed;
+    closed.isFree = [](const Pose &pose)
+    {
+        return pose.x < 3.0;
+    };
+    const ArcPath path{{}, {{0.0, 2.0}, {0.2, 3.0}}};
+    const SmoothPath result = PathSmoother(Vehicle()).smooth(path, closed);
+    EXPECT_FALSE(result.free);
+    EXPECT_EQ(result.stops.size(), 1u);
+    EXPECT_LT(gap(result.path.back().pose, path.end()), 1e-9);
+}
+
+TEST(PathSmoother, SlowerTransitionsDeviateLess)
+{
+    const Vehicle car;
+    const double full = 1.0 / car.minTurningRadius();
+    const ArcPath path{{}, {{0.0, 4.0}, {full, 3.0}, {0.0, 4.0}}};
+    double last = 1e9;
+    for (const double speed : {2.0, 1.0, 0.5, 0.25})
+    {
+        SmoothingOptions options;
+        options.speed = speed;
+        const SmoothPath result = PathSmoother(car, options).smooth(path);
+        ASSERT_EQ(result.stops.size(), 0u);
+        double deviation = 0.0;
+        const Path arcs = path.sample(0.01);
+        for (const PathState &state : result.path)
+        {
+            double nearest = 1e9;
+            for (const PathState &arc : arcs)
+                nearest = std::min(nearest, distance(state.pose, arc.pose));
+            deviation = std::max(deviation, nearest);
+        }
+        EXPECT_LT(deviation, last);
+        EXPECT_LT(deviation, 0.25);
+        last = deviation;
+    }
+}
+
+TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
+{
+    RandomParking random(46);
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const ArcPath path = random.plannerPath(car, 1.03);
+        ArcPath mirrored = path, moved = path;
+        mirrored.start = {path.start.x, -path.start.y, -path.start.yaw};
+        for (ArcSegment &segment : mirrored.segments)
+            segment.curvature = -segment.curvature;
+        const Pose motion = random.pose(100.0);
+        moved.start = compose(motion, path.start);
+        const PathSmoother smoother(car);
+        const SmoothPath a = smoother.smooth(path), b = smoother.smooth(mirrored), c = smoother.smooth(moved);
+        ASSERT_EQ(a.path.size(), b.path.size());
+        ASSERT_EQ(a.path.size(), c.path.size());
+        for (std::size_t k = 0; k < a.path.size(); ++k)
+        {
+            const Pose &pose = a.path[k].pose;
+            ASSERT_LT(gap({pose.x, -pose.y, -pose.yaw}, b.path[k].pose), 1e-7);
+            ASSERT_LT(gap(compose(motion, pose), c.path[k].pose), 1e-7);
+            ASSERT_NEAR(a.path[k].curvature, -b.path[k].curvature, 1e-6);
+        }
+    }
+}
+
+TEST(PathSmoother, SampledPathsAreTakenForTheirArcs)
+{
+    RandomParking random(47);
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const ArcPath path = random.plannerPath(car, 1.03);
+        const PathSmoother smoother(car);
+        const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path.sample(0.1));
+        ASSERT_EQ(a.gears.size(), b.gears.size());
+        EXPECT_EQ(a.stops.size(), b.stops.size());
+        ASSERT_EQ(a.path.size(), b.path.size());
+        for (std::size_t k = 0; k < a.path.size(); ++k)
+            ASSERT_LT(gap(a.path[k].pose, b.path[k].pose), 1e-5);
+    }
+}
+
+TEST(PathSmoother, IsDeterministic)
+{
+    RandomParking random(48);
+    const Vehicle car;
+    const PathSmoother smoother(car);
+    for (int i = 0; i < 50; ++i)
+    {
+        const ArcPath path = random.plannerPath(car, 1.0);
+        const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path);
+        ASSERT_EQ(a.path.size(), b.path.size());
+        for (std::size_t k = 0; k < a.path.size(); ++k)
+            ASSERT_EQ(gap(a.path[k].pose, b.path[k].pose), 0.0);
+    }
+}
+
+TEST(PathSmoother, PathsWithoutMotionHaveOneState)
+{
+    const SmoothPath none = PathSmoother(Vehicle()).smooth(ArcPath{{1.0, 2.0, 0.5}, {}});
+    ASSERT_EQ(none.path.size(), 1u);
+    EXPECT_EQ(none.path[0].pose.x, 1.0);
+    EXPECT_TRUE(none.gears.empty());
+    EXPECT_EQ(PathSmoother(Vehicle()).smooth(Path{PathState()}).path.size(), 1u);
+    expectError([] { PathSmoother(Vehicle()).smooth(Path()); }, {"smoothing", "empty"});
+}
+
+TEST(PathSmoother, BadOptionsAreNamed)
+{
+    const auto bad = [](double SmoothingOptions::*option, double value, const char *name)
+    {
+        SmoothingOptions options;
+        options.*option = value;
+        expectError([&] { PathSmoother smoother(Vehicle(), options); }, {"smoothing", name, "positive"});
+    };
+    for (const double value : {0.0, -1.0, std::nan("")})
+    {
+        bad(&SmoothingOptions::speed, value, "speed");
+        bad(&SmoothingOptions::minSpeed, value, "min speed");
+        bad(&SmoothingOptions::step, value, "step");
+        bad(&SmoothingOptions::tolerance, value, "tolerance");
+    }
+    Vehicle car;
+    car.maxSteeringRate = 0.0;
+    expectError([&] { PathSmoother smoother(car); }, {"max_steering_rate"});
+}

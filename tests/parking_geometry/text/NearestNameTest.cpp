@@ -1,0 +1,85 @@
+#include "parking_geometry/text/NearestName.h"
+
+#include "parking_geometry/text/Text.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+
+TEST(NearestName, FindsWhatWasMeant)
+{
+    const std::vector<std::string> planners = {"prm", "rrt", "rrtstar", "rrtconnect", "bitstar", "improved_astar"};
+    EXPECT_EQ(nearestName("rrtstr", planners), "rrtstar");
+    EXPECT_EQ(nearestName("BITSTAR", planners), "bitstar");
+    EXPECT_EQ(nearestName("improvedastar", planners), "improved_astar");
+    EXPECT_EQ(nearestName("connect", planners), "rrtconnect");
+    EXPECT_EQ(nearestName("pmr", planners), "prm");
+    EXPECT_EQ(nearestName("x", {}), "");
+    EXPECT_EQ(nearestName("ab", {"bb", "aa"}), "bb");  // the first of equally near ones
+    EXPECT_NE(nearestName(std::string(100000, 'q'), planners), "");
+    EXPECT_EQ(unknownName("planner", "rrtstr", {"prm", "rrtstar"}),
+              "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar");
+    EXPECT_EQ(unknownName("planner", "a\nb\xC3", {}), "unknown planner 'a?b?'");
+}
+
+TEST(NearestName, TellsAMisspeltNameFromAnotherOne)
+{
+    const std::vector<std::string> keys = {"image", "negate", "free_thresh"};
+    EXPECT_TRUE(isMisspelt("negat", keys));
+    EXPECT_TRUE(isMisspelt("free_tresh", keys));
+    EXPECT_TRUE(isMisspelt("Image", keys));
+    EXPECT_FALSE(isMisspelt("negate", keys));
+    EXPECT_FALSE(isMisspelt("frame_id", keys));
+}
+
+TEST(Text, NumbersAreReadStrictly)
+{
+    double value = 7.0;
+    for (const auto &[text, expected] :
+         {std::pair{"1", 1.0}, {"-1.5", -1.5}, {"+2", 2.0}, {"1e3", 1000.0}, {".5", 0.5}, {"5.", 5.0}, {"-0", 0.0}})
+    {
+        EXPECT_TRUE(parseNumber(text, value)) << text;
+        EXPECT_EQ(value, expected) << text;
+    }
+    value = 7.0;
+    for (const char *text :
+         {"", " 1", "1 ", "1,5", "nan", "inf", "-inf", "1e999", "0x10", "+-1", "++1", "1f", "--1", "e5", "+"})
+        EXPECT_FALSE(parseNumber(text, value)) << text;
+    EXPECT_EQ(value, 7.0);
+    std::size_t count = 0;
+    EXPECT_TRUE(parseCount("12", count));
+    EXPECT_EQ(count, 12u);
+    for (const char *text : {"", "-1", "+1", "1.0", "1e3", "99999999999999999999"})
+        EXPECT_FALSE(parseCount(text, count)) << text;
+}
+
+TEST(Text, NumbersAreWrittenSoThatTheyReadBack)
+{
+    EXPECT_EQ(formatNumber(0.0), "0");
+    EXPECT_EQ(formatNumber(100000.0), "100000");
+    EXPECT_EQ(formatNumber(-0.25), "-0.25");
+    EXPECT_EQ(formatNumber(0.1), "0.1");
+    EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
+    EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity()), "-inf");
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 20000; ++i)
+    {
+        const double number = std::ldexp(static_cast<double>(random()) - 9e18, static_cast<int>(random() % 1200) - 700);
+        double value = 0.0;
+        ASSERT_TRUE(parseNumber(formatNumber(number), value)) << formatNumber(number);
+        EXPECT_EQ(value, number);
+    }
+}
+
+TEST(Text, QuotesStayOnOneLine)
+{
+    EXPECT_EQ(inQuotes("plain text"), "'plain text'");
+    EXPECT_EQ(inQuotes("a\nb\tc\x7F"), "'a?b?c?'");
+    EXPECT_EQ(inQuotes(std::string(61, 'a')), "'" + std::string(60, 'a') + "...'");
+    EXPECT_EQ(trimmed(" \r\n a b\t"), "a b");
+    EXPECT_EQ(trimmed(" \n"), "");
+}

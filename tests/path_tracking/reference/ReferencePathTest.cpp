@@ -1,0 +1,185 @@
+#include "path_tracking/reference/ReferencePath.h"
+
+#include "tests/path_tracking/TestPaths.h"
+#include "parking_geometry/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking::test
+{
+    namespace
+    {
+        TEST(ReferencePath, PosesLieOnTheArcsOfThePath)
+        {
+            for (const double step : {0.02, 0.1, 0.7})
+            {
+                const double radius = Vehicle().minTurningRadius();
+                const ArcPath exact{{2.0, -1.0, 3.0}, {{1.0 / radius, 4.0}, {0.0, 2.0}, {-0.5 / radius, -3.0}}};
+                const ReferencePath reference(exact.sample(step), Vehicle());
+                EXPECT_NEAR(reference.length(), exact.length(), 1e-9);
+                double s = 0.0;
+                Pose begin = exact.start;
+                for (const ArcSegment &segment : exact.segments)
+                {
+                    for (double part = 0.05; part < 1.0; part += 0.1)
+                    {
+                        const double at = s + part * std::abs(segment.length);
+                        std::size_t leg = 0;
+                        while (reference.legs()[leg].endLength < at)
+                            ++leg;
+                        const Pose expected = advance(begin, segment.curvature, part * segment.length);
+                        const Pose offset = relativeTo(expected, reference.pose(leg, at));
+                        EXPECT_NEAR(offset.x, 0.0, 1e-9);
+                        EXPECT_NEAR(offset.y, 0.0, 1e-9);
+                        EXPECT_NEAR(offset.yaw, 0.0, 1e-9);
+                    }
+                    s += std::abs(segment.length);
+                    begin = advance(begin, segment.curvature, segment.length);
+                }
+            }
+        }
+
+        TEST(ReferencePath, StopsAtCuspsAndLargeJumpsOnly)
+        {
+            // Straight, full lock left, full lock right, then a cusp with the wheels as they are.
+            const ReferencePath reference(arcs({}, {{0.0, 2.0}, {1.0, 2.0}, {-1.0, 2.0}, {-1.0, -2.0}}), Vehicle());
+            ASSERT_EQ(reference.legs().size(), 4u);
+            EXPECT_EQ(reference.legs()[0].end, LegEnd::Steering);
+            EXPECT_EQ(reference.legs()[1].end, LegEnd::Steering);
+            EXPECT_EQ(reference.legs()[2].end, LegEnd::Cusp);
+            EXPECT_EQ(reference.legs()[3].end, LegEnd::Goal);
+            const double lock = Vehicle().maxSteeringAngle;
+            EXPECT_NEAR(reference.legs()[0].steering.back().angle, 0.0, 1e-12);
+            EXPECT_NEAR(reference.legs()[1].steering.front().angle, lock, 1e-12);
+            EXPECT_NEAR(reference.legs()[1].steering.back().angle, lock, 1e-12);
+            EXPECT_NEAR(reference.legs()[2].steering.front().angle, -lock, 1e-12);
+        }
+
+        /** The steering profile of a path of two arcs, in motion: how far does the body leave the path? */
+        double bodyDeviation(const ReferencePath &reference)
+        {
+            const Vehicle &vehicle = reference.vehicle();
+            const double reach = vehicle.wheelbase + vehicle.frontOverhang;
+            Pose car = reference.pose(0, 0.0);
+            double worst = 0.0;
+            constexpr double H = 0.0005;
+            for (double s = 0.0; s < reference.length() - H; s += H)
+            {
+                car = advance(car, vehicle.curvature(reference.steering(0, s + 0.5 * H)), H);
+                const Pose off = relativeTo(reference.pose(0, s + H), car);
+                worst = std::max(worst, std::abs(off.y + reach * off.yaw));
+            }
+            return worst;
+        }
+
+        TEST(ReferencePath, SteersThroughSmallJumpsWithinTheBodyTolerance)
+        {
+            for (const double share : {0.02, 0.1, 0.3, 0.45})
+                for (const double tolerance : {0.005, 0.01, 0.03})
+                {
+                    ReferenceParameters parameters;
+                    parameters.bodyTolerance = tolerance;
+                    parameters.minBlendSpeed = 1e-3;
+                    const ReferencePath reference(arcs({}, {{0.0, 3.0}, {share, 3.0}}), Vehicle(), parameters);
+                    ASSERT_EQ(reference.legs().size(), 1u);
+                    EXPECT_LE(bodyDeviation(reference), 1.25 * tolerance) << share << " " << tolerance;
+                    EXPECT_GE(reference.steeringSlope(0, 3.0), 0.0);
+                    EXPECT_GT(reference.steeringSlope(0, 3.0), 0.0);
+                }
+        }
+
+        TEST(ReferencePath, TheSpeedOfTheBlendDecidesWhetherToStop)
+        {
+            const Path path = arcs({}, {{0.0, 3.0}, {0.4, 3.0}});
+            ReferenceParameters parameters;
+            const ReferencePath moving(path, Vehicle(), parameters);
+            ASSERT_EQ(moving.legs().size(), 1u);
+            const double speed = Vehicle().maxSteeringRate / moving.steeringSlope(0, 3.0);
+            parameters.minBlendSpeed = 0.999 * speed;
+            EXPECT_EQ(ReferencePath(path, Vehicle(), parameters).legs().size(), 1u);
+            parameters.minBlendSpeed = 1.001 * speed;
+            EXPECT_EQ(ReferencePath(path, Vehicle(), parameters).legs().size(), 2u);
+        }
+
+        TEST(ReferencePath, GivesAClothoidItsRampBack)
+        {
+            for (const double step : {0.02, 0.05, 0.1})
+            {
+                const SmoothPiece turn = clothoidTurn(1, 0.3, 2.0, 1.0);
+                const ReferencePath reference(smooth({}, {turn}, step), Vehicle());
+                ASSERT_EQ(reference.legs().size(), 1u);
+                for (double s = 0.1; s < turn.length - 0.1; s += 0.01)
+                    EXPECT_NEAR(reference.steering(0, s), Vehicle().steeringAngle(turn.curvature(s)), 0.015) << s;
+            }
+        }
+
+        TEST(ReferencePath, IgnoresStubs)
+        {
+            EXPECT_EQ(ReferencePath(arcs({}, {{1.0, 2.0}, {-1.0, 0.001}, {1.0, 2.0}}), Vehicle()).legs().size(), 1u);
+            EXPECT_EQ(ReferencePath(arcs({}, {{1.0, 2.0}, {-1.0, 0.003}, {1.0, 2.0}}), Vehicle()).legs().size(), 3u);
+            // A finely sampled clothoid is not made of stubs.
+            const ReferencePath fine(smooth({}, {clothoidTurn(1, 0.3, 2.0, 1.0)}, 0.001), Vehicle());
+            EXPECT_NEAR(fine.steering(0, 1.0), Vehicle().steeringAngle(0.15), 0.003);
+        }
+
+        TEST(ReferencePath, ProjectsToTheNearestPlace)
+        {
+            for (std::uint64_t seed = 0; seed < 20; ++seed)
+            {
+                const ReferencePath reference(randomReedsShepp(seed, 15.0), Vehicle());
+                Random random(seed + 100);
+                for (int i = 0; i < 50; ++i)
+                {
+                    const std::size_t leg =
+                        static_cast<std::size_t>(random.below(static_cast<int>(reference.legs().size())));
+                    const ReferenceLeg &l = reference.legs()[leg];
+                    const double s = random.uniform(l.beginLength, l.endLength);
+                    const Pose car =
+                        compose(reference.pose(leg, s), {0.0, random.uniform(-0.4, 0.4), random.uniform(-0.3, 0.3)});
+                    const double from = s - 0.8, to = s + 0.8;
+                    const PathProjection place = reference.project(leg, car, from, to);
+                    double best = 1e9;
+                    for (double t = std::max(from, l.beginLength); t <= std::min(to, l.endLength); t += 0.001)
+                    {
+                        const Pose pose = reference.pose(leg, t);
+                        best = std::min(best, std::hypot(pose.x - car.x, pose.y - car.y));
+                    }
+                    EXPECT_LE(place.distance, best + 1e-3);
+                    const Pose offset = relativeTo(reference.pose(leg, place.s), car);
+                    EXPECT_NEAR(place.lateral, offset.y, 1e-12);
+                    EXPECT_NEAR(place.yaw, offset.yaw, 1e-12);
+                }
+            }
+        }
+
+        TEST(ReferencePath, KnowsWhatIsBeyondItsEnds)
+        {
+            const ReferencePath reference(arcs({}, {{0.0, 2.0}, {0.0, -1.0}}), Vehicle());
+            EXPECT_NEAR(reference.project(0, {2.3, 0.1, 0.0}, 0.0, 9.0).beyond, 0.3, 1e-9);
+            EXPECT_NEAR(reference.project(0, {-0.2, 0.0, 0.0}, 0.0, 9.0).beyond, -0.2, 1e-9);
+            EXPECT_NEAR(reference.project(1, {0.8, 0.0, 0.0}, 0.0, 9.0).beyond, 0.2, 1e-9);
+            EXPECT_NEAR(reference.project(0, {1.2, 0.3, 0.0}, 0.0, 9.0).beyond, 0.0, 1e-9);
+        }
+
+        TEST(ReferencePath, RefusesBadParameters)
+        {
+            const Path path = arcs({}, {{0.0, 2.0}});
+            for (double ReferenceParameters::*field :
+                 {&ReferenceParameters::bodyTolerance, &ReferenceParameters::minBlendSpeed,
+                  &ReferenceParameters::maxBlendLength, &ReferenceParameters::maxCornerCut,
+                  &ReferenceParameters::maxCornerDeviation, &ReferenceParameters::cornerSpeed})
+                for (const double value : {0.0, -1.0, std::nan("")})
+                {
+                    ReferenceParameters parameters;
+                    parameters.*field = value;
+                    EXPECT_THROW(ReferencePath(path, Vehicle(), parameters), Error);
+                }
+            Vehicle vehicle;
+            vehicle.wheelbase = -1.0;
+            EXPECT_THROW(ReferencePath(path, vehicle), Error);
+        }
+    }  // namespace
+}  // namespace parking::test

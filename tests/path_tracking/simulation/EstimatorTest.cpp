@@ -1,0 +1,206 @@
+#include "path_tracking/simulation/ActuatorLag.h"
+#include "path_tracking/simulation/Plant.h"
+#include "path_tracking/simulation/PoseEstimator.h"
+
+#include "tests/path_tracking/TestPaths.h"
+#include "parking_geometry/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace parking::test
+{
+    namespace
+    {
+        constexpr double PERIOD = 0.1;
+
+        TEST(LagStep, SolvesTheLagExactly)
+        {
+            for (const double lag : {0.02, 0.1, 0.5})
+            {
+                const LagStep step(lag, PERIOD);
+                double value = 0.3;
+                constexpr int N = 200000;
+                for (int i = 0; i < N; ++i)
+                    value += (0.1 + (i + 0.5) / N * 0.4 - value) / lag * PERIOD / N;
+                EXPECT_NEAR(step.ofCommand * 0.5 + step.ofBefore * 0.1 + step.ofValue * 0.3, value, 1e-6);
+                EXPECT_NEAR(step.ofCommand + step.ofBefore + step.ofValue, 1.0, 1e-12);
+            }
+            const LagStep none(0.0, PERIOD);
+            EXPECT_EQ(none.ofCommand, 1.0);
+            EXPECT_EQ(none.ofBefore, 0.0);
+            EXPECT_EQ(none.ofValue, 0.0);
+        }
+
+        /** Drives a plant with commands by time, calling \e seen once a period with the measurements round it. */
+        void drive(const Disturbances &disturbances, int periods, const std::function<Command(double)> &commands,
+                   const std::function<void(const Command &, const Command &, const Measurement &, const Measurement &,
+                                            const Plant &)> &seen)
+        {
+            Plant plant(Vehicle(), disturbances, {}, 0.0, 0.001);
+            Command before;
+            Measurement last = plant.measure();
+            for (int i = 0; i < periods; ++i)
+            {
+                const Command command = commands(i * PERIOD);
+                plant.drive(command, PERIOD, {});
+                const Measurement now = plant.measure();
+                seen(before, command, last, now, plant);
+                before = command;
+                last = now;
+            }
+        }
+
+        Command waves(double t)
+        {
+            return {0.8 * std::sin(0.9 * t + 0.3), 0.5 * std::sin(0.8 * t), false};
+        }
+
+        TEST(ActuatorLag, LearnsBothLags)
+        {
+            for (const double lag : {0.0, 0.05, 0.1, 0.3})
+            {
+                Disturbances disturbances;
+                disturbances.steeringLag = lag;
+                disturbances.accelerationLag = lag;
+                disturbances.steeringOffset = 0.02;
+                disturbances.speedBias = -0.05;
+                SteeringLagEstimator steering;
+                DriveLagEstimator acceleration;
+                double worst = 0.0;
+                drive(disturbances, 300, waves,
+                      [&](const Command &before, const Command &command, const Measurement &last,
+                          const Measurement &now, const Plant &plant)
+                      {
+                          steering.learn(PERIOD, before.steering, command.steering, last.steering, now.steering);
+                          acceleration.learn(PERIOD, command.acceleration, last.speed, now.speed);
+                          worst = std::abs(acceleration.acceleration() - plant.state().acceleration / 0.95);
+                      });
+                EXPECT_NEAR(steering.lag(), lag, 0.01) << lag;
+                EXPECT_NEAR(acceleration.lag(), lag, 0.01) << lag;
+                EXPECT_LT(worst, 0.05) << lag;
+            }
+        }
+
+        TEST(PoseEstimator, IsExactWithoutDisturbances)
+        {
+            PoseEstimator estimator(Vehicle().wheelbase, EstimatorParameters());
+            bool first = true;
+            drive({}, 200, waves,
+                  [&](const Command &, const Command &, const Measurement &last, const Measurement &now, const Plant &)
+                  {
+                      if (first)
+                          estimator.start(last);
+                      first = false;
+                      estimator.predict(PERIOD, now.speed, now.steering);
+                      estimator.correct(now.pose);
+                      const Pose off = relativeTo(now.pose, estimator.pose());
+                      EXPECT_LT(std::hypot(off.x, off.y), 1e-5);
+                      EXPECT_LT(std::abs(off.yaw), 1e-5);
+                  });
+            EXPECT_NEAR(estimator.speedScale(), 1.0, 1e-3);
+            EXPECT_NEAR(estimator.steeringOffset(), 0.0, 1e-3);
+        }
+
+        TEST(PoseEstimator, LearnsBiasesAndReducesNoise)
+        {
+            for (std::uint64_t seed = 1; seed <= 10; ++seed)
+            {
+                Disturbances disturbances;
+                disturbances.positionNoise = 0.02;
+                disturbances.yawNoise = 0.5 * PI / 180.0;
+                disturbances.speedBias = 0.05;
+                disturbances.steeringOffset = 0.01;
+                disturbances.seed = seed;
+                PoseEstimator estimator(Vehicle().wheelbase, EstimatorParameters());
+                bool first = true;
+                double measured = 0.0, estimated = 0.0, measuredYaw = 0.0, estimatedYaw = 0.0;
+                int count = 0;
+                drive(disturbances, 400, waves,
+                      [&](const Command &, const Command &, const Measurement &last, const Measurement &now,
+                          const Plant &plant)
+                      {
+                          if (first)
+                              estimator.start(last);
+                          first = false;
+                          estimator.predict(PERIOD, now.speed, now.steering);
+                          estimator.correct(now.pose);
+                          if (++count < 100)
+                              return;
+                          const Pose truth = plant.state().pose;
+                          const Pose m = relativeTo(truth, now.pose), e = relativeTo(truth, estimator.pose());
+                          measured += m.x * m.x + m.y * m.y;
+                          estimated += e.x * e.x + e.y * e.y;
+                          measuredYaw += m.yaw * m.yaw;
+                          estimatedYaw += e.yaw * e.yaw;
+                      });
+                EXPECT_LT(std::sqrt(estimated), 0.5 * std::sqrt(measured)) << seed;
+                EXPECT_LT(std::sqrt(estimatedYaw), 0.5 * std::sqrt(measuredYaw)) << seed;
+                EXPECT_NEAR(estimator.speedScale(), 1.05, 0.02) << seed;
+                EXPECT_NEAR(estimator.steeringOffset(), 0.01, 0.005) << seed;
+            }
+        }
+
+        TEST(PoseEstimator, RefusesBadParameters)
+        {
+            for (double EstimatorParameters::*field :
+                 {&EstimatorParameters::positionNoise, &EstimatorParameters::yawNoise, &EstimatorParameters::speedBias,
+                  &EstimatorParameters::steeringOffset, &EstimatorParameters::drift})
+                for (const double value : {0.0, -1.0, std::nan("")})
+                {
+                    EstimatorParameters parameters;
+                    parameters.*field = value;
+                    EXPECT_THROW(PoseEstimator(2.8, parameters), Error);
+                }
+        }
+
+        TEST(Plant, BrakesAndHolds)
+        {
+            for (const double lag : {0.0, 0.2})
+                for (const double sign : {1.0, -1.0})
+                    for (const double asked : {0.0, -1.0, 1.0})  // even a brake command with the wrong sign brakes
+                    {
+                        Disturbances disturbances;
+                        disturbances.accelerationLag = lag;
+                        Plant plant(Vehicle(), disturbances, {}, 0.0, 0.005);
+                        plant.drive({sign * 1.0, 0.0, false}, 2.0, {});
+                        ASSERT_GT(sign * plant.state().speed, 1.0);
+                        plant.drive({asked, 0.0, true}, 3.0, {});
+                        EXPECT_EQ(plant.state().speed, 0.0);
+                        const Pose stood = plant.state().pose;
+                        plant.drive({asked, 0.0, true}, 1.0, {});
+                        EXPECT_EQ(plant.state().pose.x, stood.x);
+                    }
+        }
+
+        TEST(Plant, KeepsToTheLimitsOfTheCar)
+        {
+            const Vehicle vehicle;
+            Plant plant(vehicle, {}, {}, 0.0, 0.005);
+            plant.drive({5.0, 3.0, false}, 1.0, {});
+            EXPECT_NEAR(plant.state().speed, vehicle.maxAcceleration, 1e-9);
+            EXPECT_NEAR(plant.state().steering, vehicle.maxSteeringRate, 1e-9);
+            plant.drive({0.0, 3.0, false}, 2.0, {});
+            EXPECT_NEAR(plant.state().steering, vehicle.maxSteeringAngle, 1e-9);
+        }
+
+        TEST(Plant, RefusesBadDisturbances)
+        {
+            const auto refused = [](const auto &change)
+            {
+                Disturbances disturbances;
+                change(disturbances);
+                EXPECT_THROW(Plant(Vehicle(), disturbances, {}, 0.0, 0.005), Error);
+            };
+            refused([](Disturbances &d) { d.steeringLag = -0.1; });
+            refused([](Disturbances &d) { d.accelerationLag = std::nan(""); });
+            refused([](Disturbances &d) { d.positionNoise = -0.1; });
+            refused([](Disturbances &d) { d.yawNoise = -0.1; });
+            refused([](Disturbances &d) { d.speedBias = -1.0; });
+            refused([](Disturbances &d) { d.steeringOffset = 1.0; });
+            EXPECT_THROW(Plant(Vehicle(), {}, {}, 0.0, 0.0), Error);
+        }
+    }  // namespace
+}  // namespace parking::test

@@ -1,0 +1,165 @@
+#include "state_validity/ompl/CircleValidityChecker.h"
+
+#include "state_validity/ompl/OmplPose.h"
+#include "tests/state_validity/RandomWorlds.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/util/Exception.h>
+
+#include <gtest/gtest.h>
+
+namespace ob = ompl::base;
+using namespace parking;
+using namespace parking_test;
+
+namespace
+{
+    ob::SpaceInformationPtr spaceOf(const Bounds &box)
+    {
+        const auto space = std::make_shared<ob::SE2StateSpace>();
+        ob::RealVectorBounds bounds(2);
+        for (unsigned int axis = 0; axis < 2; ++axis)
+        {
+            bounds.setLow(axis, box.min[axis]);
+            bounds.setHigh(axis, box.max[axis]);
+        }
+        space->setBounds(bounds);
+        return std::make_shared<ob::SpaceInformation>(space);
+    }
+
+    /** From a point to the nearest obstacle, edge by edge; 0 inside of one. */
+    double distanceByDefinition(const ObstacleSet &obstacles, double x, double y)
+    {
+        const Pose pose = obstacles.toLocal({x, y, 0.0});
+        const Eigen::Vector2d point(pose.x, pose.y);
+        bool inside = (point.array() <= obstacles.bounds().min.array()).any() ||
+                      (point.array() >= obstacles.bounds().max.array()).any();
+        for (const Polygon &polygon : obstacles.polygons())
+            inside = inside || contains(polygon, point);
+        for (const Rectangle &rectangle : obstacles.rectangles())
+            inside = inside ||
+                     ((point.array() >= rectangle.min.array()).all() && (point.array() <= rectangle.max.array()).all());
+        double least = std::numeric_limits<double>::infinity();
+        for (const Edge &edge : obstacles.edges())
+        {
+            const Eigen::Vector2d along = edge.to - edge.from;
+            const double t = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+            least = std::min(least, (point - edge.from - t * along).norm());
+        }
+        return inside ? 0.0 : least;
+    }
+
+    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+}  // namespace
+
+TEST(CircleValidityChecker, IsTheDistanceToTheNearestObstacle)
+{
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+        const World world = seed % 2 ? randomGridWorld(seed) : randomPolygonWorld(seed);
+        // A radius as small as a millimetre, too: less than a cell of the field.
+        for (const double radius : {0.001, 0.04, 0.8, 2.5})
+        {
+            const ob::SpaceInformationPtr si = spaceOf(world.bounds);
+            const CircleValidityChecker checker(si, world.obstacles, radius);
+            ob::ScopedState<> state(si);
+            Random random(seed);
+            for (int i = 0; i < 600; ++i)
+            {
+                Pose pose = world.anywhere(random);
+                if (i % 3 == 0)  // about a radius away from an outline
+                {
+                    const Edge &edge = world.edges[random.index(world.edges.size())];
+                    const Eigen::Vector2d at = edge.from + random.between(0.0, 1.0) * (edge.to - edge.from);
+                    const double angle = random.between(-PI, PI), off = radius * random.between(0.95, 1.05);
+                    pose.x = at.x() + off * std::cos(angle);
+                    pose.y = at.y() + off * std::sin(angle);
+                }
+                const double distance = distanceByDefinition(world.obstacles, pose.x, pose.y);
+                if (std::abs(distance - radius) < 1e-9)
+                    continue;
+                setPose(state.get(), pose);
+                const bool within = si->satisfiesBounds(state.get());
+                ASSERT_EQ(checker.isFree(pose.x, pose.y), distance > radius) << world.name << " " << radius;
+                ASSERT_EQ(checker.isValid(state.get()), within && distance > radius);
+                const double clearance = checker.clearance(state.get()), expected = std::max(0.0, distance - radius);
+                ASSERT_LE(clearance, expected + 1e-9);
+                if (within)
+                {
+                    ASSERT_GE(clearance, std::min(expected, 1.0) - 1e-9) << world.name << " " << radius;
+                }
+            }
+        }
+    }
+}
+
+TEST(CircleValidityChecker, TheHeadingDoesNotMatter)
+{
+    const World world = randomPolygonWorld(4);
+    const ob::SpaceInformationPtr si = spaceOf(world.bounds);
+    const CircleValidityChecker checker(si, world.obstacles, 1.5);
+    ob::ScopedState<> state(si), turned(si);
+    Random random(4);
+    for (int i = 0; i < 1000; ++i)
+    {
+        const Pose pose = world.anywhere(random);
+        setPose(state.get(), pose);
+        setPose(turned.get(), {pose.x, pose.y, random.between(-PI, PI)});
+        ASSERT_EQ(checker.isValid(state.get()), checker.isValid(turned.get()));
+        ASSERT_EQ(checker.clearance(state.get()), checker.clearance(turned.get()));
+    }
+}
+
+TEST(CircleValidityChecker, TheCircleRoundTheCarHoldsTheCarAndItsDoors)
+{
+    const Vehicle vehicle;
+    const double radius = CircleValidityChecker::radiusAround(vehicle);
+    EXPECT_NEAR(radius, std::hypot(0.5 * vehicle.length(), 0.5 * vehicle.width), 1e-12);
+    EXPECT_NEAR(CircleValidityChecker::radiusAround(vehicle, 0.7), radius + 0.7, 1e-12);
+    // A car whose middle is at a valid position is free at every heading.
+    const World world = randomPolygonWorld(8);
+    const CircleValidityChecker checker(spaceOf(world.bounds), world.obstacles, radius);
+    const double ahead = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    Random random(8);
+    int free = 0;
+    for (int i = 0; i < 3000; ++i)
+    {
+        const Pose middle = world.anywhere(random);
+        if (!checker.isFree(middle.x, middle.y))
+            continue;
+        ++free;
+        ASSERT_TRUE(world.oracle.isFree(compose(middle, {-ahead, 0.0, 0.0}), vehicle));
+    }
+    EXPECT_GT(free, 100);
+}
+
+TEST(CircleValidityChecker, RefusesBadInput)
+{
+    const ObstacleSet empty = ObstacleSet::fromPolygons({}, BOX);
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double radius : {0.0, -1.0, nan, infinity})
+        EXPECT_THROW(CircleValidityChecker(spaceOf(BOX), empty, radius), ompl::Exception) << radius;
+    for (const double margin : {-0.1, nan, infinity})
+        EXPECT_THROW(CircleValidityChecker::radiusAround({}, margin), ompl::Exception) << margin;
+    const auto line = std::make_shared<ob::SpaceInformation>(std::make_shared<ob::RealVectorStateSpace>(2));
+    EXPECT_THROW(CircleValidityChecker(line, empty, 1.0), ompl::Exception);
+
+    // Nothing fits: plainly invalid. Positions that are no numbers, too.
+    const CircleValidityChecker large(spaceOf(BOX), empty, 25.0);
+    EXPECT_FALSE(large.isFree(0.0, 0.0));
+    const CircleValidityChecker checker(spaceOf(BOX), empty, 1.0);
+    EXPECT_TRUE(checker.isFree(0.0, 0.0));
+    EXPECT_TRUE(checker.isFree(18.999, 0.0));
+    EXPECT_FALSE(checker.isFree(19.001, 0.0));
+    for (const double bad : {nan, infinity, -infinity, 30.0})
+    {
+        EXPECT_FALSE(checker.isFree(bad, 0.0)) << bad;
+        EXPECT_FALSE(checker.isFree(0.0, bad)) << bad;
+    }
+}
