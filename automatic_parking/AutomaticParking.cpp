@@ -111,7 +111,7 @@ namespace parking
             return close(truth);
         }
 
-        ParkingResult follow(const Path &path)
+        ParkingResult follow(const SampledPath &path)
         {
             ParkingLeg leg;
             leg.reason = "given path";
@@ -215,7 +215,7 @@ namespace parking
         }
 
         /** The world is another one from now on. */
-        void takeOver(Scenario changed, const Path &path, double s)
+        void takeOver(Scenario changed, const SampledPath &path, double s)
         {
             if (changed.worldOffset != scenario_.worldOffset)
                 throw Error("scenario " + changed.name + ": a changed map must have the worldOffset of the first one");
@@ -312,15 +312,15 @@ namespace parking
         return Session(parameters_, update_, solve_, scenario).park(start);
     }
 
-    ParkingResult AutomaticParking::drive(const Scenario &scenario, const Path &path) const
+    ParkingResult AutomaticParking::drive(const Scenario &scenario, const SampledPath &path) const
     {
         const MapUpdate none;
         return Session(parameters_, none, solve_, scenario).follow(path);
     }
 
-    Path asChords(const Path &path, const Vehicle &vehicle)
+    SampledPath asChords(const SampledPath &path, const Vehicle &vehicle)
     {
-        Path result;
+        SampledPath result;
         const double most = 1.0 / vehicle.minTurningRadius();
         for (const PathState &state : path)
         {

@@ -3,9 +3,9 @@
 #include "automatic_parking/ParkingPlanner.h"
 #include "automatic_parking/ParkingStatus.h"
 #include "parking_geometry/Scenario.h"
+#include "path_tracking/reference/Trajectory.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/simulation/Evaluation.h"
-#include "path_tracking/reference/Trajectory.h"
 
 #include <cstddef>
 #include <functional>
@@ -97,7 +97,7 @@ namespace parking
 
         /** \brief Drives a path that somebody else has planned, an OMPL planner for example, in the world of \e
            scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
-        ParkingResult drive(const Scenario &scenario, const Path &path) const;
+        ParkingResult drive(const Scenario &scenario, const SampledPath &path) const;
 
     private:
         class Session;
@@ -112,7 +112,7 @@ namespace parking
 
         Arcs that the car can drive are kept, so that a spline keeps its shape where it is wide enough. The first and
        the last heading are kept: the car turns there. */
-    Path asChords(const Path &path, const Vehicle &vehicle);
+    SampledPath asChords(const SampledPath &path, const Vehicle &vehicle);
 
     /** \brief The figures of several drives, one after the other, as if they were one. */
     Evaluation combined(const std::vector<Evaluation> &drives);

@@ -54,7 +54,7 @@ namespace parking
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        bool sweptFree(const FootprintChecker &checker, const Path &path, std::size_t first)
+        bool sweptFree(const FootprintChecker &checker, const SampledPath &path, std::size_t first)
         {
             if (path.empty() || first >= path.size() || !checker.isFree(path[first].pose))
                 return path.empty() || first >= path.size();
@@ -79,7 +79,7 @@ namespace parking
         /** A way from start to goal. */
         struct Candidate
         {
-            ArcPath approach, manoeuvre, arcs;
+            Path approach, manoeuvre, arcs;
             Pose goal;
             double cost{std::numeric_limits<double>::infinity()};
         };
@@ -140,7 +140,7 @@ namespace parking
                     return best;
                 Candidate whole;
                 whole.approach = whole.arcs = search(*checker, radius, goals, expansions);
-                if (whole.arcs.segments.empty())
+                if (whole.arcs.pieces.empty())
                     return best;
                 for (const Pose &goal : goals)
                     if (isAt(whole.arcs.end(), goal))
@@ -161,14 +161,14 @@ namespace parking
             }
 
             /** Cost as of the car itself, so that paths planned with different gaps can be compared. */
-            double cost(const ArcPath &path) const
+            double cost(const Path &path) const
             {
                 FootprintEnvironment environment(world_.footprint(), scenario_.bounds, SWEEP_TOLERANCE);
                 return search::pathCost(costModel(scenario_.vehicle.minTurningRadius()), path, environment);
             }
 
-            ArcPath search(const FootprintChecker &checker, double radius, const std::vector<Pose> &goals,
-                           std::uint64_t expansions)
+            Path search(const FootprintChecker &checker, double radius, const std::vector<Pose> &goals,
+                        std::uint64_t expansions)
             {
                 ++plan_.tries;
                 FootprintEnvironment environment(checker, scenario_.bounds, SWEEP_TOLERANCE);
@@ -195,7 +195,7 @@ namespace parking
                 plan_.search.generated += statistics.generated;
                 plan_.search.connections += statistics.connections;
                 plan_.search.heuristicCells += statistics.heuristicCells;
-                return planner.hasSolution() ? planner.bestPath() : ArcPath{};
+                return planner.hasSolution() ? planner.bestPath() : Path{};
             }
 
             Candidate byManoeuvre(const std::shared_ptr<const FootprintChecker> &checker, double radius,
@@ -208,7 +208,7 @@ namespace parking
                 std::vector<Pose> starts;
                 for (ReverseParkingResult &each :
                      ReverseParking(scenario_.vehicle, options).planAll(*scenario_.slot, queriesOf(checker)))
-                    if (each.fits() && !each.path.segments.empty())
+                    if (each.fits() && !each.path.pieces.empty())
                     {
                         starts.push_back(each.path.start);
                         fitting.push_back(std::move(each));
@@ -217,7 +217,7 @@ namespace parking
                 if (fitting.empty())
                     return found;
                 found.approach = search(*checker, radius, starts, expansions);
-                const bool none = found.approach.segments.empty();
+                const bool none = found.approach.pieces.empty();
                 found.approach.start = scenario_.start;
                 for (const ReverseParkingResult &each : fitting)
                     if (isAt(none ? scenario_.start : found.approach.end(), each.path.start))
@@ -246,7 +246,7 @@ namespace parking
             if (parameters.smooth)
             {
                 plan.smooth = PathSmoother(vehicle, parameters.smoothing).smooth(plan.arcs, queriesOf(checker));
-                const Path path = joinedByArcs(plan.smooth);
+                const SampledPath path = joinedByArcs(plan.smooth);
                 // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
                 if (plan.smooth.free && path.size() > 1 && world.isFree(path))
                     plan.path = path;
@@ -289,12 +289,12 @@ namespace parking
         }
     }
 
-    bool ParkingWorld::isFree(const Path &path, std::size_t first) const
+    bool ParkingWorld::isFree(const SampledPath &path, std::size_t first) const
     {
         return sweptFree(*footprint_, path, first);
     }
 
-    double ParkingWorld::clearance(const Path &path) const
+    double ParkingWorld::clearance(const SampledPath &path) const
     {
         double least = std::numeric_limits<double>::infinity();
         if (!path.empty())
@@ -333,7 +333,7 @@ namespace parking
         {
             return checker->clearance(pose);
         };
-        queries.isPathFree = [checker](const Path &path)
+        queries.isPathFree = [checker](const SampledPath &path)
         {
             return sweptFree(*checker, path, 0);
         };
@@ -431,14 +431,14 @@ namespace parking
                                         : "there is no path for this car");
         smoothPlan(parameters_, scenario.vehicle, world, bestChecker, plan);
         plan.clearance = world.clearance(plan.path);
-        plan.message = (plan.manoeuvre.segments.empty() ? "planned all the way" : "approach and manoeuvre") +
+        plan.message = (plan.manoeuvre.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
                        std::string(", at least ") + centimetres(plan.clearance) + " from obstacles";
         return plan;
     }
 
-    Path joinedByArcs(const SmoothPath &path)
+    SampledPath joinedByArcs(const SmoothPath &path)
     {
-        Path result = path.path;
+        SampledPath result = path.path;
         for (std::size_t i = 1; i < result.size(); ++i)
         {
             const double length = result[i].arcLength - result[i - 1].arcLength;

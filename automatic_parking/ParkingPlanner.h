@@ -2,10 +2,10 @@
 
 #include "automatic_parking/ParkingStatus.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/FootprintQueries.h"
-#include "parking_geometry/smoothing/PathSmoother.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
+#include "parking_geometry/smoothing/PathSmoother.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ObstacleSet.h"
 
@@ -58,11 +58,11 @@ namespace parking
         std::string message;                           ///< one line: what was planned, or why nothing was
 
         Pose goal;                ///< the one that was chosen
-        ArcPath approach;         ///< the planner's part
-        ArcPath manoeuvre;        ///< the constructed part, without segments where the planner did it all
-        ArcPath arcs;             ///< both
+        Path approach;            ///< the planner's part
+        Path manoeuvre;           ///< the constructed part, without segments where the planner did it all
+        Path arcs;                ///< both
         SmoothPath smooth;        ///< what the smoother made of it; empty when it was not asked or refused
-        Path path;                ///< to be driven, states joined by arcs
+        SampledPath path;         ///< to be driven, states joined by arcs
         double gap{0.0};          ///< metres kept all round the body while planning
         double turningRadius{0};  ///< metres, planned with
         double clearance{0.0};    ///< metres, least between body and obstacles along \e path, to 1 mm or 1 %
@@ -93,11 +93,11 @@ namespace parking
         std::shared_ptr<const FootprintChecker> enlarged(double gap) const;
 
         /** \brief Is the whole of \e path free, from state \e first on? Swept, not sampled. */
-        bool isFree(const Path &path, std::size_t first = 0) const;
+        bool isFree(const SampledPath &path, std::size_t first = 0) const;
 
         /** \brief Least distance in metres between the body and the obstacles along \e path, to a millimetre or one
             percent; 0 when they touch. */
-        double clearance(const Path &path) const;
+        double clearance(const SampledPath &path) const;
 
     private:
         std::shared_ptr<const FootprintChecker> footprint_;
@@ -135,5 +135,5 @@ namespace parking
     };
 
     /** \brief \e path with the curvature of each state being that of the arc that ends there, as drives need it. */
-    Path joinedByArcs(const SmoothPath &path);
+    SampledPath joinedByArcs(const SmoothPath &path);
 }  // namespace parking

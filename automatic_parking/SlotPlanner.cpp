@@ -70,7 +70,7 @@ namespace parking
                 {
                     return checker_.clearance(pose);
                 };
-                result.isPathFree = [this](const Path &path)
+                result.isPathFree = [this](const SampledPath &path)
                 {
                     return isSweptPathFree(path);
                 };
@@ -78,13 +78,13 @@ namespace parking
             }
 
         private:
-            bool isSweptPathFree(const Path &path) const
+            bool isSweptPathFree(const SampledPath &path) const
             {
                 if (!path.empty() && !checker_.isFree(path.front().pose))
                     return false;
                 for (std::size_t i = 1; i < path.size(); ++i)
                 {
-                    const ArcSegment arc = arcBetween(path[i - 1].pose, path[i].pose);
+                    const Arc arc = arcBetween(path[i - 1].pose, path[i].pose);
                     if (checker_.freeLength(path[i - 1].pose, arc.curvature, arc.length) < std::abs(arc.length))
                         return false;
                 }
@@ -106,7 +106,7 @@ namespace parking
         };
 
         /** Without segments when nothing was found. */
-        ArcPath searchPath(const FootprintChecker &checker, const SearchTask &task)
+        Path searchPath(const FootprintChecker &checker, const SearchTask &task)
         {
             const Vehicle &vehicle = checker.vehicle();
             FootprintEnvironment environment(checker, task.bounds, SWEEP_TOLERANCE);
@@ -119,7 +119,7 @@ namespace parking
             parameters.search.cost.gearChangePenalty = task.gearChange;
             parameters.search.cost.steeringChangePenalty = STEERING_CHANGE;
 
-            ArcPath path{task.from, {}};
+            Path path{task.from, {}};
             search::CarPlanner planner;
             planner.begin(environment, parameters);
             if (!environment.isFree(task.from))
@@ -333,8 +333,8 @@ namespace parking
             found.sweeps.push_back(found.manoeuvre);
         for (const ReverseParkingResult &sweep : found.sweeps)
             task.to.push_back(sweep.path.start);
-        const ArcPath approach = searchPath(planning.checker(), task);
-        if (!approach.segments.empty() || isSame(start, task.to.front()))
+        const Path approach = searchPath(planning.checker(), task);
+        if (!approach.pieces.empty() || isSame(start, task.to.front()))
         {
             for (const ReverseParkingResult &sweep : found.sweeps)
                 if (isSame(approach.end(), sweep.path.start))
@@ -350,7 +350,7 @@ namespace parking
             task.gearChange = GEAR_CHANGE;
             plan.path = searchPath(planning.checker(), task);
         }
-        plan.solved = !plan.path.segments.empty();
+        plan.solved = !plan.path.pieces.empty();
         plan.message = plan.solved ? "" : "no way was found from the start to the slot";
         if (plan.solved)
         {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/ParkingSlot.h"
-#include "parking_geometry/smoothing/PathSmoother.h"
 #include "parking_geometry/Pose.h"
-#include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/smoothing/PathSmoother.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <cstddef>
@@ -40,7 +40,7 @@ namespace parking
         bool solved{false};
         std::string message;  ///< one line: what is wrong, when not solved
 
-        ArcPath path;       ///< from the start to the parked pose, arcs and lines; no segments unless solved
+        Path path;          ///< from the start to the parked pose, arcs and lines; no segments unless solved
         SmoothPath smooth;  ///< the same, drivable; re-checked by the swept footprint
 
         /** Gap, metres, that path keeps all round the body (to a millimetre); smooth keeps at least half of it. */
@@ -49,7 +49,7 @@ namespace parking
         /** \brief Moves of the whole way: stretches in one direction. */
         std::size_t moves() const
         {
-            return path.segments.empty() ? 0 : path.cusps() + 1;
+            return path.pieces.empty() ? 0 : path.cusps() + 1;
         }
     };
 

@@ -5,8 +5,8 @@
 #include "automatic_parking/AutomaticParking.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cstdio>
 #include <exception>
@@ -60,7 +60,7 @@ try
         return 1;
 
     const std::string title = "Driving into a slot: " + scenario.name;
-    const parking::Path &planned = result.legs.back().plan.path;
+    const parking::SampledPath &planned = result.legs.back().plan.path;
     parking::driveFigure(scenario, planned, result.trajectory, title, text).write("drive_into_slot.svg");
     parking::writeDriveAnimation("drive_into_slot.html", scenario, planned, result.trajectory, title, text);
     return 0;

@@ -46,13 +46,13 @@ namespace parking
 
     double FootprintEnvironment::freeLength(const Pose &from, double curvature, double length)
     {
-        const ArcSegment arc{curvature, length};
+        const Arc arc{curvature, length};
         double free = 0.0;
         freeLengths(from, &arc, 1, &free);
         return free;
     }
 
-    void FootprintEnvironment::freeLengths(const Pose &from, const ArcSegment *arcs, std::size_t count, double *free)
+    void FootprintEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free)
     {
         const FootprintChecker::SweepStart start = checker_.sweepStart(from, tolerance_, counts_);
         for (std::size_t i = 0; i < count; ++i)
@@ -112,7 +112,7 @@ namespace parking
         return checker_.field().upperBound(local.x, local.y);
     }
 
-    bool FootprintEnvironment::acceptPath(const ArcPath &path)
+    bool FootprintEnvironment::acceptPath(const Path &path)
     {
         return judge_ == nullptr || judge_->acceptPath(path);
     }

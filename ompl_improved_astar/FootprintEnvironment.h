@@ -23,9 +23,9 @@ namespace parking
         bool isFree(const Pose &pose) override;
         double clearance(const Pose &pose) override;
         double freeLength(const Pose &from, double curvature, double length) override;
-        void freeLengths(const Pose &from, const ArcSegment *arcs, std::size_t count, double *free) override;
+        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override;
         double roomAt(double x, double y) override;
-        bool acceptPath(const ArcPath &path) override;
+        bool acceptPath(const Path &path) override;
         bool wasInterrupted() const override
         {
             return judge_ != nullptr && judge_->wasInterrupted();

@@ -288,7 +288,7 @@ namespace ompl::geometric
         return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byFcl : 0;
     }
 
-    const parking::ArcPath *ImprovedAStar::solutionArcs() const
+    const parking::Path *ImprovedAStar::solutionArcs() const
     {
         return query_->hasArcs ? &query_->bestArcs : nullptr;
     }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "ompl_improved_astar/Parameters.h"
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <ompl/base/Planner.h>
 
@@ -206,7 +206,7 @@ namespace ompl::geometric
         std::uint64_t exactChecks() const;
 
         /** \brief The best solution of the car model in exact form; nullptr without one or with a grid model. */
-        const parking::ArcPath *solutionArcs() const;
+        const parking::Path *solutionArcs() const;
 
         /** \brief Best cost over the lower bound of any cost in the discretised problem; see heuristic weights. */
         double suboptimalityBound();

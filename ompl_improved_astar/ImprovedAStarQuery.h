@@ -39,7 +39,7 @@ namespace ompl::geometric
         bool gridDone{false};
         std::vector<parking::Pose> starts, goals;
         std::optional<parking::Pose> fallbackTarget;
-        parking::ArcPath bestArcs;
+        parking::Path bestArcs;
         bool hasArcs{false};
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length

@@ -20,7 +20,7 @@ namespace ompl::geometric
 {
     namespace
     {
-        using parking::ArcPath;
+        using parking::Path;
         using parking::Pose;
         using parking::search::GridSearch;
 
@@ -50,7 +50,7 @@ namespace ompl::geometric
             return ptc();
         };
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
-        const auto improved = [&](const ArcPath &arcs, double)
+        const auto improved = [&](const Path &arcs, double)
         {
             auto path = std::make_shared<PathGeometric>(si_);
             std::vector<const ob::State *> states;
@@ -83,7 +83,7 @@ namespace ompl::geometric
         expanded_ = query_->car.statistics().expanded;
         if (query_->hasArcs)
             return report(parking::pathStates(query_->bestArcs, spacing), false);
-        ArcPath nearest;
+        Path nearest;
         const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
         if (parameters_.approximate && query_->car.approximate(target, stop, nearest))
         {

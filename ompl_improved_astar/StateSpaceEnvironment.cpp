@@ -18,10 +18,10 @@ namespace parking
 
         /** Calls visit(pose) for the states after the start, in order, until it returns false. \return false then */
         template <class Visit>
-        bool forEachState(const ArcPath &path, const StateSpacing &spacing, const Visit &visit)
+        bool forEachState(const Path &path, const StateSpacing &spacing, const Visit &visit)
         {
             Pose pose = path.start;
-            for (const ArcSegment &segment : path.segments)
+            for (const PathPiece &segment : path.pieces)
             {
                 double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
                 const bool gentle =
@@ -49,7 +49,7 @@ namespace parking
         return {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}};
     }
 
-    std::vector<Pose> pathStates(const ArcPath &path, const StateSpacing &spacing)
+    std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing)
     {
         std::vector<Pose> poses{path.start};
         forEachState(path, spacing,
@@ -126,7 +126,7 @@ namespace parking
         return si_->checkMotion(state_.get(), other_.get());
     }
 
-    bool StateSpaceEnvironment::acceptPath(const ArcPath &path)
+    bool StateSpaceEnvironment::acceptPath(const Path &path)
     {
         Pose from = path.start;
         return forEachState(path, stateSpacing_,

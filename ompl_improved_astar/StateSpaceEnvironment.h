@@ -3,8 +3,8 @@
 #include "ompl_improved_astar/search/GridEnvironment.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
@@ -25,7 +25,7 @@ namespace parking
     };
 
     /** \brief The poses of \e path between which the space's own interpolation follows the path. */
-    std::vector<Pose> pathStates(const ArcPath &path, const StateSpacing &spacing);
+    std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
 
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
@@ -51,7 +51,7 @@ namespace parking
         double clearance(const Pose &pose) override;
         double freeLength(const Pose &from, double curvature, double length) override;
         double roomAt(double x, double y) override;
-        bool acceptPath(const ArcPath &path) override;
+        bool acceptPath(const Path &path) override;
         bool wasInterrupted() const override
         {
             return interrupted_;

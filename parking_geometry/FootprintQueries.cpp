@@ -29,17 +29,17 @@ namespace parking
             }
 
             /** How far any point of the body moves along \e arc at most. */
-            double motion(const ArcSegment &arc) const
+            double motion(const Arc &arc) const
             {
                 return std::abs(arc.length) * (1.0 + std::abs(arc.curvature) * reach_);
             }
 
-            bool isFree(const Pose &from, double distanceFrom, const ArcSegment &arc, double distanceTo) const
+            bool isFree(const Pose &from, double distanceFrom, const Arc &arc, double distanceTo) const
             {
                 const double moved = motion(arc);
                 if (distanceFrom + distanceTo > moved || moved < FINEST_MOTION)
                     return true;
-                const ArcSegment half{arc.curvature, 0.5 * arc.length};
+                const Arc half{arc.curvature, 0.5 * arc.length};
                 const Pose middle = advance(from, half.curvature, half.length);
                 const double distance = distanceAt(middle);
                 return distance >= 0.0 && isFree(from, distanceFrom, half, distance) &&
@@ -58,7 +58,7 @@ namespace parking
                           0.5 * vehicle.width);
     }
 
-    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path)
+    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const SampledPath &path)
     {
         if (queries.isPathFree)
             return queries.isPathFree(path);
@@ -74,7 +74,7 @@ namespace parking
             return false;
         for (std::size_t i = 1; i < path.size(); ++i)
         {
-            const ArcSegment arc = arcBetween(path[i - 1].pose, path[i].pose);
+            const Arc arc = arcBetween(path[i - 1].pose, path[i].pose);
             const double next = moved + check.motion(arc);
             if (next < distance)
             {

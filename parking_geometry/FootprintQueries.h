@@ -1,8 +1,8 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <functional>
 
@@ -25,7 +25,7 @@ namespace parking
 
         /** \brief Is the whole motion free, between the states as well? Between two states the car drives a circular
             arc. Takes precedence over the other two where whole paths are checked. */
-        std::function<bool(const Path &)> isPathFree;
+        std::function<bool(const SampledPath &)> isPathFree;
     };
 
     /** \brief Is every motion along \e path free?
@@ -33,7 +33,7 @@ namespace parking
         Asks isPathFree when there is one. Otherwise, with clearance, the arcs between the states are covered by poses
         whose clearances overlap, down to motions of 5 mm (below that the ends decide); with isFree alone only the
         states are checked, so they should lie close together. */
-    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
+    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const SampledPath &path);
 
     /** \brief Distance from the midpoint of the rear axle to the farthest corner of the body, metres: a turn by an
         angle moves no point of the body farther than this times the angle. */

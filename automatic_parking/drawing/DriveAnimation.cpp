@@ -49,7 +49,7 @@ namespace parking
         }
 
         /** The planned path as thin lines, one per stretch between changes of direction. */
-        void drawPlan(SvgMap &map, const Path &planned)
+        void drawPlan(SvgMap &map, const SampledPath &planned)
         {
             std::vector<Eigen::Vector2d> line;
             for (std::size_t i = 1; i < planned.size(); ++i)
@@ -92,11 +92,11 @@ namespace parking
         }
     }  // namespace
 
-    std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+    std::string driveAnimation(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
                                const std::string &title, const std::string &subtitle)
     {
         checkDrive(driven);
-        Path seen = planned;
+        SampledPath seen = planned;
         for (const TrajectoryPoint &point : driven)
             seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
         SvgMap map(viewAround(scenario, seen));
@@ -146,7 +146,7 @@ namespace parking
         return page;
     }
 
-    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
+    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const SampledPath &planned,
                              const Trajectory &driven, const std::string &title, const std::string &subtitle)
     {
         writeFileAtomically(file, driveAnimation(scenario, planned, driven, title, subtitle));

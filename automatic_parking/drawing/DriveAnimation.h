@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
 #include "path_tracking/reference/Trajectory.h"
 
 #include <string>
@@ -19,10 +19,10 @@ namespace parking
         \param driven a drive in the coordinates of \e scenario, times not decreasing
         \param title,subtitle plain text
         Throws parking::Error for a drive of fewer than two points or with a number that is not finite. */
-    std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+    std::string driveAnimation(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
                                const std::string &title, const std::string &subtitle = {});
 
     /** \brief Writes driveAnimation() to \e file, whole or not at all. Throws parking::Error naming the file, too. */
-    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
+    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const SampledPath &planned,
                              const Trajectory &driven, const std::string &title, const std::string &subtitle = {});
 }  // namespace parking

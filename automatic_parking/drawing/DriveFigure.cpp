@@ -61,11 +61,11 @@ namespace parking
             plotOf(driven, "Steering angle", "degrees", &TrajectoryPoint::steering, DEGREES, vehicle.maxSteeringAngle)};
     }
 
-    SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+    SvgFigure driveFigure(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle)
     {
         SvgFigure figure(title, subtitle);
-        Path seen = planned;
+        SampledPath seen = planned;
         std::vector<Pose> track;
         for (const TrajectoryPoint &point : driven)
         {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/drawing/SvgFigure.h"
 #include "path_tracking/reference/Trajectory.h"
 
@@ -15,7 +15,7 @@ namespace parking
 
         Stretches in reverse are tinted. Coordinates are local ones of \e scenario.
         \param planned may be empty \param driven may be empty: no plots then */
-    SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
+    SvgFigure driveFigure(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle = {});
 
     /** \brief Speed, acceleration and steering angle over time, one plot each. */

@@ -56,19 +56,19 @@ namespace parking
             }
             return stored;
         }
-        ArcPath arcs;
+        Path arcs;
         for (std::size_t i = 1; i < path.states.size(); ++i)
             arcs.append({path.states[i].curvature,
                          (path.states[i].arcLength - path.states[i - 1].arcLength) * path.states[i].direction});
-        stored.arcs = std::move(arcs.segments);
+        stored.arcs = std::move(arcs.pieces);
         return stored;
     }
 
-    Path StoredPath::sample(double step) const
+    SampledPath StoredPath::sample(double step) const
     {
         if (corners.empty())
-            return ArcPath{start, arcs}.sample(step);
-        Path path;
+            return Path{start, arcs}.sample(step);
+        SampledPath path;
         PathState state;
         state.pose = start;
         path.push_back(state);
@@ -78,7 +78,7 @@ namespace parking
             const double begin = path.back().arcLength;
             const double length = std::hypot(corner.x - from.x, corner.y - from.y);
             const double turn = wrapAngle(corner.yaw - from.yaw);
-            const ArcSegment arc = arcBetween(from, corner);
+            const Arc arc = arcBetween(from, corner);
             const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
             for (std::size_t k = 1; k <= steps; ++k)
             {
@@ -130,7 +130,7 @@ namespace parking
         if (path.corners.empty())
         {
             json arcs = json::array();
-            for (const ArcSegment &arc : path.arcs)
+            for (const PathPiece &arc : path.arcs)
                 arcs.push_back(json::array({rounded(1e2 * arc.curvature) / 1e2, rounded(arc.length)}));
             stored["arcs"] = std::move(arcs);
         }
@@ -164,7 +164,7 @@ namespace parking
         record.path.start = poseFrom(path->at("start"));
         if (path->contains("arcs"))
             for (const json &arc : path->at("arcs"))
-                record.path.arcs.push_back({arc.at(0).get<double>(), arc.at(1).get<double>()});
+                record.path.arcs.emplace_back(arc.at(0).get<double>(), arc.at(1).get<double>());
         else
             for (const json &corner : path->at("corners"))
                 record.path.corners.push_back(poseFrom(corner));

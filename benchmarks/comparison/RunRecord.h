@@ -1,7 +1,7 @@
 #pragma once
 
-#include "benchmarks/problems/PlannedPath.h"
 #include "benchmarks/planners/SolveRecord.h"
+#include "benchmarks/problems/PlannedPath.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,13 +16,13 @@ namespace parking
     struct StoredPath
     {
         Pose start;
-        std::vector<ArcSegment> arcs;
+        std::vector<PathPiece> arcs;
         std::vector<Pose> corners;  ///< without the start; either this or arcs
 
         static StoredPath of(const PlannedPath &path);
 
         /** \brief States at most \e step apart. */
-        Path sample(double step) const;
+        SampledPath sample(double step) const;
     };
 
     /** \brief Everything that is kept of one run: a line in the file of results. */

@@ -240,7 +240,7 @@ namespace parking
         return true;
     }
 
-    DenseResult DenseCheck::check(const Path &path, bool straight, double maxCurvature) const
+    DenseResult DenseCheck::check(const SampledPath &path, bool straight, double maxCurvature) const
     {
         DenseResult result;
         const auto fail = [&result](const std::string &reason, const Pose &pose)

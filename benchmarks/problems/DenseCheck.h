@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +46,7 @@ namespace parking
             by arcs
             \param maxCurvature 1/m, the most that the path may have; 0: any. Arcs must also join: each state must lie
             where the arc from the one before ends. */
-        DenseResult check(const Path &path, bool straight, double maxCurvature) const;
+        DenseResult check(const SampledPath &path, bool straight, double maxCurvature) const;
 
     private:
         struct Edge

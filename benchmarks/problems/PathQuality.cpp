@@ -32,7 +32,7 @@ namespace parking
         }
 
         /** A straight piece to a place, with the heading of that piece. */
-        void goStraight(Path &path, const Eigen::Vector2d &place, int direction)
+        void goStraight(SampledPath &path, const Eigen::Vector2d &place, int direction)
         {
             PathState state = path.back();
             const Eigen::Vector2d way(place.x() - state.pose.x, place.y() - state.pose.y);
@@ -46,7 +46,7 @@ namespace parking
         }
     }  // namespace
 
-    Path pathToDrive(const PlannedPath &path, const Vehicle &vehicle)
+    SampledPath pathToDrive(const PlannedPath &path, const Vehicle &vehicle)
     {
         if (!path.straight || path.states.size() < 2)
             return path.states;
@@ -57,7 +57,7 @@ namespace parking
             const double length = path.states[i].arcLength - path.states[i - 1].arcLength;
             return length > SAME_PLACE && std::abs(wrapAngle(to.yaw - from.yaw)) <= limit * length;
         };
-        Path result{path.states.front()};
+        SampledPath result{path.states.front()};
         for (std::size_t i = 1; i < path.states.size(); ++i)
         {
             const std::size_t begin = i - 1;

@@ -11,5 +11,5 @@ namespace parking
         changes no faster than the car can turn become arcs; each stretch of faster changes becomes a corner: the place
         where the straight lines before and behind it meet, or the chord between its ends where they do not meet on the
         way. Corners are marked by their headings, as splitPath() understands them. */
-    Path pathToDrive(const PlannedPath &path, const Vehicle &vehicle);
+    SampledPath pathToDrive(const PlannedPath &path, const Vehicle &vehicle);
 }  // namespace parking

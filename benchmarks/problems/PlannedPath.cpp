@@ -28,9 +28,9 @@ namespace parking
             return states;
         }
 
-        Path curvePath(const Problem &problem, const og::PathGeometric &path)
+        SampledPath curvePath(const Problem &problem, const og::PathGeometric &path)
         {
-            ArcPath arcs;
+            Path arcs;
             const std::vector<const ompl::base::State *> states = statesOf(path);
             arcs.start = poseOf(states.front());
             ReedsSheppCurve curve;
@@ -38,17 +38,17 @@ namespace parking
             {
                 problem.curveSpace().curve(states[i - 1], states[i], curve);
                 for (std::size_t k = 0; k < curve.count; ++k)
-                    if (std::abs(curve.segments[k].length) >= SHORTEST_PIECE)
-                        arcs.append(curve.segments[k]);
+                    if (std::abs(curve.pieces[k].length) >= SHORTEST_PIECE)
+                        arcs.append(curve.pieces[k]);
             }
             return arcs.sample(PlannedPath::SAMPLING);
         }
 
         /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
-        Path chordPath(const og::PathGeometric &path)
+        SampledPath chordPath(const og::PathGeometric &path)
         {
             const std::vector<const ompl::base::State *> states = statesOf(path);
-            Path result;
+            SampledPath result;
             PathState state;
             state.pose = poseOf(states.front());
             result.push_back(state);
@@ -59,7 +59,7 @@ namespace parking
                 const double turn = wrapAngle(to.yaw - from.yaw);
                 if (length < SHORTEST_PIECE && std::abs(turn) < SHORTEST_PIECE)
                     continue;
-                const ArcSegment arc = arcBetween(from, to);
+                const Arc arc = arcBetween(from, to);
                 const double begin = result.back().arcLength;
                 const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / PlannedPath::SAMPLING)));
                 for (std::size_t k = 1; k <= steps; ++k)

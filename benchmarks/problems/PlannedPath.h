@@ -2,7 +2,7 @@
 
 #include "benchmarks/problems/DenseCheck.h"
 #include "benchmarks/problems/Problem.h"
-#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <ompl/geometric/PathGeometric.h>
 
@@ -13,7 +13,7 @@ namespace parking
     /** \brief A planner's path in the terms of a car, measured. Local coordinates of the scenario. */
     struct PlannedPath
     {
-        Path states;           ///< at most SAMPLING apart, first = start; last = goal when the solution is exact
+        SampledPath states;    ///< at most SAMPLING apart, first = start; last = goal when the solution is exact
         bool straight{false};  ///< joined by straight lines (plain SE2 space) and not by arcs
         double length{0.0};    ///< metres
         std::size_t cusps{0};  ///< changes of direction

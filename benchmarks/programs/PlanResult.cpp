@@ -123,7 +123,7 @@ namespace parking
         return result;
     }
 
-    json pathJson(const Scenario &scenario, const Path &path)
+    json pathJson(const Scenario &scenario, const SampledPath &path)
     {
         json states = json::array();
         for (const PathState &state : path)
@@ -236,7 +236,7 @@ namespace parking
     {
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
-        const Path path = run.path ? run.path->states : Path{};
+        const SampledPath path = run.path ? run.path->states : SampledPath{};
         std::string subtitle =
             result.planner + ", " + toString(run.status) + ", " + fixed(MS * run.planningTime, 1) + " ms";
         if (run.path)
@@ -265,7 +265,7 @@ namespace parking
             return;
         const Scenario &scenario = problem.scenario();
         ParkingParameters parameters;
-        Path path = run.path->states;
+        SampledPath path = run.path->states;
         if (run.path->straight)
         {
             // A car that turns at the corners of a grid may leave the path by its turning circle.

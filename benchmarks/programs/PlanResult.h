@@ -32,7 +32,7 @@ namespace parking
 
     /** \brief A path as in results: x, y, yaw, direction, curvature of each state, in the coordinates of the scenario's
         file. */
-    nlohmann::json pathJson(const Scenario &scenario, const Path &path);
+    nlohmann::json pathJson(const Scenario &scenario, const SampledPath &path);
 
     /** \brief The result in the format that docs/comparison.md describes. */
     nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);

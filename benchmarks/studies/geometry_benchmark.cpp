@@ -1,10 +1,10 @@
 // How long manoeuvres and smoothing take. Every benchmark goes round a fixed set of random problems (one per
 // iteration), so that the mean is that of the set; counters say what came out of the whole set.
 
-#include "parking_geometry/smoothing/BsplineSmoother.h"
-#include "parking_geometry/smoothing/PathSmoother.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/smoothing/BsplineSmoother.h"
+#include "parking_geometry/smoothing/PathSmoother.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <algorithm>
@@ -73,9 +73,9 @@ namespace
     class Poles
     {
     public:
-        Poles(RandomParking &random, const Vehicle &car, const ArcPath &path, int count) : car_(car)
+        Poles(RandomParking &random, const Vehicle &car, const Path &path, int count) : car_(car)
         {
-            const Path states = path.sample(0.05);
+            const SampledPath states = path.sample(0.05);
             while (static_cast<int>(poles_.size()) < count)
             {
                 const Pose at = states[static_cast<std::size_t>(random.below(static_cast<int>(states.size())))].pose;
@@ -126,10 +126,10 @@ namespace
         std::vector<Eigen::Vector2d> poles_;
     };
 
-    ArcPath cut(const ArcPath &path, double length)
+    Path cut(const Path &path, double length)
     {
-        ArcPath result{path.start, {}};
-        for (ArcSegment segment : path.segments)
+        Path result{path.start, {}};
+        for (PathPiece segment : path.pieces)
         {
             segment.length = std::copysign(std::min(std::abs(segment.length), length), segment.length);
             length -= std::abs(segment.length);
@@ -139,25 +139,25 @@ namespace
     }
 
     /** 30 m of what a lattice planner returns. */
-    ArcPath latticePath(RandomParking &random, const Vehicle &car, double radiusFactor)
+    Path latticePath(RandomParking &random, const Vehicle &car, double radiusFactor)
     {
-        ArcPath path = random.plannerPath(car, radiusFactor);
+        Path path = random.plannerPath(car, radiusFactor);
         while (path.length() < PATH_LENGTH)
-            for (const ArcSegment &segment : random.plannerPath(car, radiusFactor).segments)
+            for (const PathPiece &segment : random.plannerPath(car, radiusFactor).pieces)
                 path.append(segment);
         return cut(path, PATH_LENGTH);
     }
 
     /** 30 m of Reeds-Shepp curves between random poses. */
-    ArcPath reedsSheppPath(RandomParking &random, const Vehicle &car, double radiusFactor)
+    Path reedsSheppPath(RandomParking &random, const Vehicle &car, double radiusFactor)
     {
         const ReedsShepp solver(radiusFactor * car.minTurningRadius());
-        ArcPath path{random.pose(8.0), {}};
+        Path path{random.pose(8.0), {}};
         while (path.length() < PATH_LENGTH)
         {
             const ReedsSheppCurve curve = solver.shortest(path.end(), random.pose(8.0));
             for (std::size_t i = 0; i < curve.count; ++i)
-                path.append(curve.segments[i]);
+                path.append(curve.pieces[i]);
         }
         return cut(path, PATH_LENGTH);
     }
@@ -168,7 +168,7 @@ namespace
         RandomParking random(2);
         const Vehicle car;
         const double factor = 0.01 * static_cast<double>(state.range(0));
-        std::vector<ArcPath> paths;
+        std::vector<Path> paths;
         std::vector<Poles> worlds;
         for (int i = 0; i < 200; ++i)
         {
@@ -226,10 +226,10 @@ namespace
     {
         RandomParking random(3);
         const Vehicle car;
-        const ArcPath path = latticePath(random, car, 1.0);
+        const Path path = latticePath(random, car, 1.0);
         const Poles poles(random, car, path, 30);
         const FootprintQueries queries = poles.queries();
-        const Path states = path.sample(0.1);
+        const SampledPath states = path.sample(0.1);
         std::size_t i = 0;
         for (auto _ : state)
             benchmark::DoNotOptimize(queries.clearance(states[i++ % states.size()].pose));

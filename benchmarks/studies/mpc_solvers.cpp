@@ -2,10 +2,10 @@
 // SLSQP and IPOPT. All get the same problems, recorded on simulated drives, the same cost with the same derivatives,
 // and the same start, which is their own last answer, one step on. Processor time of the thread.
 
-#include "parking_geometry/curves/ArcPath.h"
-#include "path_tracking/simulation/ClosedLoop.h"
+#include "parking_geometry/curves/Path.h"
 #include "path_tracking/control/MpcCost.h"
 #include "path_tracking/control/MpcWorkingSet.h"
+#include "path_tracking/simulation/ClosedLoop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,10 @@ namespace
     }
 
     /** Arcs at full lock, lines and cusps, some 25 m. */
-    Path makePath(std::uint64_t seed)
+    SampledPath makePath(std::uint64_t seed)
     {
         std::mt19937_64 random(seed);
-        ArcPath path{{0.0, 0.0, 0.3}, {}};
+        Path path{{0.0, 0.0, 0.3}, {}};
         double direction = 1.0;
         while (path.length() < 25.0)
         {

@@ -20,7 +20,7 @@ namespace
     constexpr double LENGTH = 30.0;
 
     /** Curvature, as a share of the largest, of the pieces of a path: arcs or, ramped up and down, clothoids. */
-    Path makePath(std::uint64_t seed, bool smooth)
+    SampledPath makePath(std::uint64_t seed, bool smooth)
     {
         const double most = 1.0 / Vehicle().minTurningRadius();
         std::mt19937_64 random(seed);
@@ -28,7 +28,7 @@ namespace
         {
             return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
         };
-        ArcPath path{{0.0, 0.0, uniform(-PI, PI)}, {}};
+        Path path{{0.0, 0.0, uniform(-PI, PI)}, {}};
         double direction = 1.0;
         while (path.length() < LENGTH)
         {
@@ -56,7 +56,7 @@ namespace
 
     void speedProfile(benchmark::State &state)
     {
-        std::vector<Path> paths;
+        std::vector<SampledPath> paths;
         for (std::uint64_t seed = 0; seed < 20; ++seed)
             paths.push_back(makePath(seed, state.range(0) == 1));
         std::size_t i = 0;
@@ -140,7 +140,7 @@ namespace
         if (state.range(1) == 1)
             parameters.disturbances = everyday(1);
         const ClosedLoop loop(Vehicle(), parameters);
-        const Path path = makePath(1, state.range(0) == 1);
+        const SampledPath path = makePath(1, state.range(0) == 1);
         DriveResult result;
         for (auto _ : state)
             result = loop.drive(path);

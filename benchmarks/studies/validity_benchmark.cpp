@@ -210,7 +210,7 @@ namespace
                     bool isFree = true;
                     for (std::size_t i = 0; i < curve.count && isFree; ++i)
                     {
-                        const ArcSegment &arc = curve.segments[i];
+                        const Arc &arc = curve.pieces[i];
                         // A nanometre either way is rounding.
                         isFree = set.world.oracle.isArcFree(pose, arc.curvature, arc.length, set.vehicle, 1e-3, -1e-9);
                         pose = advance(pose, arc.curvature, arc.length);

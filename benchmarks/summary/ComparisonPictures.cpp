@@ -37,13 +37,13 @@ namespace parking
     std::string comparisonSvg(const Scenario &scenario, const std::string &title,
                               const std::vector<std::pair<std::string, const RunRecord *>> &best)
     {
-        Path all;
+        SampledPath all;
         std::size_t solved = 0;
         for (const auto &[planner, record] : best)
         {
             if (record == nullptr)
                 continue;
-            const Path path = record->path.sample(SAMPLING);
+            const SampledPath path = record->path.sample(SAMPLING);
             all.insert(all.end(), path.begin(), path.end());
             solved += record->solved() ? 1 : 0;
         }

@@ -53,7 +53,7 @@ namespace parking::search
         weights_ = parameters.search.weights;
     }
 
-    bool CarPlanner::take(const ArcPath &path, double cost)
+    bool CarPlanner::take(const Path &path, double cost)
     {
         if (!(cost < bestCost_ - 1e-9))
             return false;
@@ -65,11 +65,10 @@ namespace parking::search
         return true;
     }
 
-    bool CarPlanner::shorten(ArcPath &path, double &cost, double spacing, double offset, double widest,
-                             CurveChoice choice)
+    bool CarPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice)
     {
         PathShortener shortener(*environment_, search_.curves(), parameters_.search.cost);
-        ArcPath shorter = path;
+        Path shorter = path;
         const bool isShorter = shortener.pass(shorter, spacing, offset, widest, choice, stop_);
         shortenerConnections_ += shortener.connections();
         if (!isShorter)
@@ -85,13 +84,13 @@ namespace parking::search
 
     bool CarPlanner::shortenBest(double spacing, double offset)
     {
-        ArcPath path = bestPath_;
+        Path path = bestPath_;
         double cost = bestCost_;
         const double widest = WIDEST * parameters_.search.turningRadius;
         return shorten(path, cost, spacing, offset, widest, CurveChoice::All) && take(path, cost);
     }
 
-    bool CarPlanner::isShortestPossible(const ArcPath &path, double cost) const
+    bool CarPlanner::isShortestPossible(const Path &path, double cost) const
     {
         // The bare curve is as short as any drivable path, whatever the obstacles. What it costs beyond its length may
         // be worth a longer way when it is more than a few changes of gear and steering come to.
@@ -137,7 +136,7 @@ namespace parking::search
         const double expected = std::max(search_.shortestCurve(), search_.estimate());
         if (!isShort)
             thinkAgain(search_.bestPath().length() / expected - 1.0);
-        ArcPath best = search_.bestPath();
+        Path best = search_.bestPath();
         double cost = search_.bestCost();
         if (parameters_.shorten)
         {
@@ -215,7 +214,7 @@ namespace parking::search
         }
     }
 
-    bool CarPlanner::approximate(const Pose &target, const StopFunction &stop, ArcPath &path)
+    bool CarPlanner::approximate(const Pose &target, const StopFunction &stop, Path &path)
     {
         CarSearch *search = &search_;
         if (search_.hasGoal())
@@ -236,7 +235,7 @@ namespace parking::search
         }
         if (!search->nearestPath(target, path))
             return false;
-        ArcPath other;
+        Path other;
         if (search != &search_ && search_.nearestPath(target, other) &&
             positionDistance(other.end(), target) < positionDistance(path.end(), target))
             path = std::move(other);

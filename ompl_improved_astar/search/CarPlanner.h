@@ -21,7 +21,7 @@ namespace parking::search
 
     /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall end.
      */
-    using ImprovementFunction = std::function<bool(const ArcPath &, double)>;
+    using ImprovementFunction = std::function<bool(const Path &, double)>;
 
     /** \brief Plans drivable paths: the search, the shortening of what it finds, and the improvement until stopped.
 
@@ -57,13 +57,13 @@ namespace parking::search
 
             Spends what is left of the time on a search of its own, unless there is none left: then what the trees have
             seen has to do. \return false when there is no start */
-        bool approximate(const Pose &target, const StopFunction &stop, ArcPath &path);
+        bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         bool hasSolution() const
         {
             return bestCost_ < std::numeric_limits<double>::infinity();
         }
-        const ArcPath &bestPath() const
+        const Path &bestPath() const
         {
             return bestPath_;
         }
@@ -88,12 +88,12 @@ namespace parking::search
         SearchStatistics statistics() const;
 
     private:
-        bool take(const ArcPath &path, double cost);
+        bool take(const Path &path, double cost);
         void takeFirst();
         void thinkAgain(double excess);
-        bool shorten(ArcPath &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
+        bool shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
         bool shortenBest(double spacing, double offset);
-        bool isShortestPossible(const ArcPath &path, double cost) const;
+        bool isShortestPossible(const Path &path, double cost) const;
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};
@@ -101,7 +101,7 @@ namespace parking::search
         CarSearch search_;
         std::unique_ptr<CarSearch> approach_;  // made when a goal cannot be reached
         std::vector<Pose> starts_;
-        ArcPath bestPath_;
+        Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
         double shortestCurve_{0.0};
         std::uint64_t shortenerConnections_{0};

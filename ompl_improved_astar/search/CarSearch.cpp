@@ -296,7 +296,7 @@ namespace parking::search
         Tree &tree = trees_[side];
         const Node &parent = tree.nodes[parentIndex];
         ++statistics_.generated;
-        const ArcSegment arc{curvature, length};
+        const Arc arc{curvature, length};
         const Pose pose = advance(parent.pose, curvature, length);
         // On the goal's side the car will drive the arc the other way.
         double g = parent.g + (side == 0 ? parameters_.cost.drive(parent.pose, arc, *environment_)

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "ompl_improved_astar/search/containers/CellTable.h"
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/CurveCheck.h"
-#include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
-#include "ompl_improved_astar/search/containers/OpenList.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/curves/ArcPath.h"
+#include "ompl_improved_astar/search/containers/CellTable.h"
+#include "ompl_improved_astar/search/containers/OpenList.h"
+#include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <array>
@@ -96,7 +96,7 @@ namespace parking::search
             return bestCost_;
         }
         /** \brief The best solution, from a start to a goal. */
-        const ArcPath &bestPath() const
+        const Path &bestPath() const
         {
             return bestPath_;
         }
@@ -131,7 +131,7 @@ namespace parking::search
         /** \brief The path from a start to the node whose rear axle is nearest to that of \e target.
 
             \return false when there is no start */
-        bool nearestPath(const Pose &target, ArcPath &path) const;
+        bool nearestPath(const Pose &target, Path &path) const;
 
         /** \brief Calls visit(pose, parent index, index, from the start's tree) for every node. */
         template <class Visit>
@@ -208,8 +208,8 @@ namespace parking::search
         void addChild(int side, std::uint32_t parent, double curvature, double length, bool farthest);
         bool connect(std::uint32_t fromStart, std::uint32_t fromGoal, CurveEnd sweptFrom);
         void connectAround(int side, std::uint32_t index);
-        void appendBranch(int side, std::uint32_t node, ArcPath &path) const;
-        ArcPath pathFromStart(std::uint32_t node) const;
+        void appendBranch(int side, std::uint32_t node, Path &path) const;
+        Path pathFromStart(std::uint32_t node) const;
 
         MotionEnvironment *environment_{nullptr};
         CarParameters parameters_;
@@ -234,12 +234,12 @@ namespace parking::search
         std::uint64_t sideTurn_{0};
         double bestCost_{std::numeric_limits<double>::infinity()};
         double costBound_{std::numeric_limits<double>::infinity()};
-        ArcPath bestPath_;
+        Path bestPath_;
         bool improved_{false};
         StopFunction stop_;
         double loadingTime_{0.0};
         mutable SearchStatistics statistics_;
-        std::vector<ArcSegment> motions_;  // of the node that is expanded
+        std::vector<Arc> motions_;  // of the node that is expanded
         std::vector<double> free_;
         std::vector<ReedsSheppCurve> candidates_;
         std::vector<std::pair<double, std::size_t>> order_;

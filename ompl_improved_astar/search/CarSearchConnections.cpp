@@ -42,9 +42,9 @@ namespace parking::search
             const ReedsSheppCurve &curve = candidates_[i];
             double sum = before + curveCost(cost, a.pose, curve, *environment_);
             if (curve.count > 0 && a.parent != NO_NODE)
-                sum += cost.join({a.curvature, a.length}, curve.segments[0]);
+                sum += cost.join({a.curvature, a.length}, curve.pieces[0]);
             if (curve.count > 0 && b.parent != NO_NODE)
-                sum += cost.join(curve.segments[curve.count - 1], {b.curvature, -b.length});
+                sum += cost.join(curve.pieces[curve.count - 1], {b.curvature, -b.length});
             if (sum < costBound_)
                 order_.emplace_back(sum, i);
         }
@@ -53,9 +53,9 @@ namespace parking::search
         {
             if (!isCurveFree(*environment_, a.pose, candidates_[i], b.pose, sweptFrom))
                 continue;
-            ArcPath path = pathFromStart(fromStart);
+            Path path = pathFromStart(fromStart);
             for (std::size_t k = 0; k < candidates_[i].count; ++k)
-                path.append(candidates_[i].segments[k]);
+                path.append(candidates_[i].pieces[k]);
             appendBranch(1, fromGoal, path);
             if (!environment_->acceptPath(path))
                 continue;
@@ -67,7 +67,7 @@ namespace parking::search
         return false;
     }
 
-    void CarSearch::appendBranch(int side, std::uint32_t index, ArcPath &path) const
+    void CarSearch::appendBranch(int side, std::uint32_t index, Path &path) const
     {
         // From the node to its root, as the car drives on the goal's side.
         const Tree &tree = trees_[side];
@@ -75,14 +75,14 @@ namespace parking::search
             path.append({tree.nodes[index].curvature, -tree.nodes[index].length});
     }
 
-    ArcPath CarSearch::pathFromStart(std::uint32_t index) const
+    Path CarSearch::pathFromStart(std::uint32_t index) const
     {
-        ArcPath outward{trees_[0].nodes[index].pose, {}};
+        Path outward{trees_[0].nodes[index].pose, {}};
         appendBranch(0, index, outward);
         std::uint32_t root = index;
         while (trees_[0].nodes[root].parent != NO_NODE)
             root = trees_[0].nodes[root].parent;
-        ArcPath path = outward.reversed();
+        Path path = outward.reversed();
         path.start = trees_[0].nodes[root].pose;
         return path;
     }
@@ -103,7 +103,7 @@ namespace parking::search
         return least;
     }
 
-    bool CarSearch::nearestPath(const Pose &target, ArcPath &path) const
+    bool CarSearch::nearestPath(const Pose &target, Path &path) const
     {
         std::uint32_t best = NO_NODE;
         double nearest = INFINITE;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace parking::search
         /** \brief Cost of driving \e segment from \e from, in the direction in which the car will drive.
 
             The extra cost of closeness falls linearly with the clearance and is sampled every clearanceRange metres. */
-        double drive(const Pose &from, const ArcSegment &segment, MotionEnvironment &environment) const
+        double drive(const Pose &from, const PathPiece &segment, MotionEnvironment &environment) const
         {
             const double length = std::abs(segment.length);
             double cost = segment.length < 0.0 ? length * (1.0 + reversePenalty) : length;
@@ -43,7 +43,7 @@ namespace parking::search
         }
 
         /** \brief Cost of what happens at standstill or in passing between two segments. */
-        double join(const ArcSegment &before, const ArcSegment &after) const
+        double join(const PathPiece &before, const PathPiece &after) const
         {
             double cost = 0.0;
             if (before.length * after.length < 0.0)
@@ -62,23 +62,23 @@ namespace parking::search
         Pose pose = from;
         for (std::size_t i = 0; i < curve.count; ++i)
         {
-            cost += model.drive(pose, curve.segments[i], environment) +
-                    (i > 0 ? model.join(curve.segments[i - 1], curve.segments[i]) : 0.0);
+            cost += model.drive(pose, curve.pieces[i], environment) +
+                    (i > 0 ? model.join(curve.pieces[i - 1], curve.pieces[i]) : 0.0);
             if (model.clearanceWeight > 0.0)
-                pose = advance(pose, curve.segments[i].curvature, curve.segments[i].length);
+                pose = advance(pose, curve.pieces[i].curvature, curve.pieces[i].length);
         }
         return cost;
     }
 
     /** \brief Cost of a whole path. */
-    inline double pathCost(const CostModel &model, const ArcPath &path, MotionEnvironment &environment)
+    inline double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
     {
         double cost = 0.0;
         Pose pose = path.start;
-        for (std::size_t i = 0; i < path.segments.size(); ++i)
+        for (std::size_t i = 0; i < path.pieces.size(); ++i)
         {
-            const ArcSegment &segment = path.segments[i];
-            cost += model.drive(pose, segment, environment) + (i > 0 ? model.join(path.segments[i - 1], segment) : 0.0);
+            const PathPiece &segment = path.pieces[i];
+            cost += model.drive(pose, segment, environment) + (i > 0 ? model.join(path.pieces[i - 1], segment) : 0.0);
             pose = advance(pose, segment.curvature, segment.length);
         }
         return cost;

@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/search/CurveCheck.h"
 
-#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace parking::search
         Pose pose = from;
         for (std::size_t k = 0; k + 1 < curve.count; ++k)
         {
-            pose = advance(pose, curve.segments[k].curvature, curve.segments[k].length);
+            pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
             if (!environment.isPassable(pose))
                 return false;
         }
@@ -20,7 +20,7 @@ namespace parking::search
         pose = forwards ? from : to;
         for (std::size_t k = 0; k < curve.count; ++k)
         {
-            const ArcSegment &segment = curve.segments[forwards ? k : curve.count - 1 - k];
+            const Arc &segment = curve.pieces[forwards ? k : curve.count - 1 - k];
             const double length = forwards ? segment.length : -segment.length;
             if (environment.freeLength(pose, segment.curvature, length) < std::abs(length))
                 return false;

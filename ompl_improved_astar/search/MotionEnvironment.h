@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 
@@ -30,7 +30,7 @@ namespace parking::search
         /** \brief The same for several arcs from one pose, which may share some of the work.
 
             \param free takes one length for each arc */
-        virtual void freeLengths(const Pose &from, const ArcSegment *arcs, std::size_t count, double *free)
+        virtual void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free)
         {
             for (std::size_t i = 0; i < count; ++i)
                 free[i] = freeLength(from, arcs[i].curvature, arcs[i].length);
@@ -56,7 +56,7 @@ namespace parking::search
         }
 
         /** \brief A last word on a whole path whose pieces were all found free. */
-        virtual bool acceptPath(const ArcPath & /*path*/)
+        virtual bool acceptPath(const Path & /*path*/)
         {
             return true;
         }

@@ -12,18 +12,18 @@ namespace parking::search
         constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
     }
 
-    void PathShortener::cut(const ArcPath &path, double spacing, double offset)
+    void PathShortener::cut(const Path &path, double spacing, double offset)
     {
         pieces_.clear();
         Pose pose = path.start;
         std::size_t arc = 0;
         bool isPlain = false;
-        const auto add = [&](const ArcSegment &segment)
+        const auto add = [&](const Arc &segment)
         {
             pieces_.push_back({segment, pose, arc, isPlain});
             pose = advance(pose, segment.curvature, segment.length);
         };
-        for (const ArcSegment &segment : path.segments)
+        for (const PathPiece &segment : path.pieces)
         {
             const double length = std::abs(segment.length), sign = segment.length < 0.0 ? -1.0 : 1.0;
             const double lock = std::abs(segment.curvature) * curves_.turningRadius();
@@ -56,11 +56,11 @@ namespace parking::search
                first.segment.length * last.segment.length > 0.0;
     }
 
-    bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path)
+    bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path)
     {
         const std::size_t count = pieces_.size() - 1;
-        const ArcSegment *before = i > 0 ? &pieces_[i - 1].segment : nullptr;
-        const ArcSegment *after = j < count ? &pieces_[j].segment : nullptr;
+        const Arc *before = i > 0 ? &pieces_[i - 1].segment : nullptr;
+        const Arc *after = j < count ? &pieces_[j].segment : nullptr;
         // Cost of the pieces i ... j - 1 with the joins at both of their ends.
         double now = costBefore_[j] - costBefore_[i];
         if (after)
@@ -75,9 +75,9 @@ namespace parking::search
                 continue;
             double sum = curveCost(cost_, pieces_[i].from, curve, environment_);
             if (before)
-                sum += cost_.join(*before, curve.segments[0]);
+                sum += cost_.join(*before, curve.pieces[0]);
             if (after)
-                sum += cost_.join(curve.segments[curve.count - 1], *after);
+                sum += cost_.join(curve.pieces[curve.count - 1], *after);
             if (sum < now - LEAST_GAIN)
                 order_.emplace_back(sum, k);
         }
@@ -89,11 +89,11 @@ namespace parking::search
             const ReedsSheppCurve &curve = candidates_[candidate.second];
             if (!isCurveFree(environment_, pieces_[i].from, curve, pieces_[j].from, CurveEnd::Start))
                 continue;
-            ArcPath shorter{path.start, {}};
+            Path shorter{path.start, {}};
             for (std::size_t k = 0; k < i; ++k)
                 shorter.append(pieces_[k].segment);
             for (std::size_t m = 0; m < curve.count; ++m)
-                shorter.append(curve.segments[m]);
+                shorter.append(curve.pieces[m]);
             for (std::size_t k = j; k < count; ++k)
                 shorter.append(pieces_[k].segment);
             if (!environment_.acceptPath(shorter))
@@ -104,7 +104,7 @@ namespace parking::search
         return false;
     }
 
-    bool PathShortener::pass(ArcPath &path, double spacing, double offset, double widest, CurveChoice choice,
+    bool PathShortener::pass(Path &path, double spacing, double offset, double widest, CurveChoice choice,
                              const StopFunction &stop)
     {
         bool improved = false;

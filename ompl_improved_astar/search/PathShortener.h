@@ -3,7 +3,7 @@
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cstdint>
@@ -39,7 +39,7 @@ namespace parking::search
             \param offset metres to the first knot within each piece, so that passes can differ
             \param widest pairs of knots farther apart than this along the path, in metres, are left out
             \return whether the path became cheaper */
-        bool pass(ArcPath &path, double spacing, double offset, double widest, CurveChoice choice,
+        bool pass(Path &path, double spacing, double offset, double widest, CurveChoice choice,
                   const StopFunction &stop);
 
         std::uint64_t connections() const
@@ -50,15 +50,15 @@ namespace parking::search
     private:
         struct Piece
         {
-            ArcSegment segment;
+            Arc segment;
             Pose from;
             std::size_t arc;  ///< which one of the path it is a part of
             bool isPlain;     ///< that arc is straight or at full lock for a quarter of a turn at most
         };
 
-        void cut(const ArcPath &path, double spacing, double offset);
+        void cut(const Path &path, double spacing, double offset);
         bool isShortest(std::size_t i, std::size_t j) const;
-        bool replace(std::size_t i, std::size_t j, CurveChoice choice, ArcPath &path);
+        bool replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;

@@ -44,7 +44,7 @@ namespace parking
     double ClothoidPath::length() const
     {
         double sum = 0.0;
-        for (const ClothoidSegment &segment : segments)
+        for (const ClothoidSegment &segment : pieces)
             sum += std::abs(segment.length);
         return sum;
     }
@@ -52,18 +52,18 @@ namespace parking
     Pose ClothoidPath::end() const
     {
         Pose pose = start;
-        for (const ClothoidSegment &segment : segments)
+        for (const ClothoidSegment &segment : pieces)
             pose = advance(pose, segment, std::abs(segment.length));
         pose.yaw = wrapAngle(pose.yaw);
         return pose;
     }
 
-    Path ClothoidPath::sample(double step) const
+    SampledPath ClothoidPath::sample(double step) const
     {
-        Path path;
+        SampledPath path;
         PathState state;
         state.pose = start;
-        for (const ClothoidSegment &segment : segments)
+        for (const ClothoidSegment &segment : pieces)
         {
             const double length = std::abs(segment.length);
             if (length == 0.0)
@@ -74,10 +74,10 @@ namespace parking
                 path.push_back(state);
             const Pose from = path.back().pose;
             const double before = path.back().arcLength;
-            const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
-            for (std::size_t i = 1; i <= pieces; ++i)
+            const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
+            for (std::size_t i = 1; i <= count; ++i)
             {
-                const double driven = length * static_cast<double>(i) / static_cast<double>(pieces);
+                const double driven = length * static_cast<double>(i) / static_cast<double>(count);
                 state.pose = advance(from, segment, driven);
                 state.arcLength = before + driven;
                 state.curvature = segment.curvature + segment.sharpness * driven;
@@ -91,15 +91,15 @@ namespace parking
         return path;
     }
 
-    Path ClothoidPath::sampleEvenly(double step) const
+    SampledPath ClothoidPath::sampleEvenly(double step) const
     {
         const double total = length();
         const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(total / step)));
-        Path path;
+        SampledPath path;
         path.reserve(count + 1);
         Pose pose = start;
         double before = 0.0;
-        for (const ClothoidSegment &segment : segments)
+        for (const ClothoidSegment &segment : pieces)
         {
             const double length = std::abs(segment.length);
             const auto add = [&](double driven, double arcLength)
@@ -112,7 +112,7 @@ namespace parking
                 state.direction = segment.length < 0.0 ? -1 : 1;
                 path.push_back(state);
             };
-            const bool last = &segment == &segments.back();
+            const bool last = &segment == &pieces.back();
             while (path.size() < count)
             {
                 const double arcLength = total * static_cast<double>(path.size()) / static_cast<double>(count);

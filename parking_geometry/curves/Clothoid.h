@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <vector>
 
@@ -29,7 +29,7 @@ namespace parking
     struct ClothoidPath
     {
         Pose start;
-        std::vector<ClothoidSegment> segments;
+        std::vector<ClothoidSegment> pieces;
 
         /** \brief Metres driven, both directions counted positive. */
         double length() const;
@@ -41,10 +41,10 @@ namespace parking
 
             The curvature of a state is that of the path there (where two pieces meet with different curvatures, that
             of the earlier one); the first state carries the curvature with which it is left. */
-        Path sample(double step) const;
+        SampledPath sample(double step) const;
 
         /** \brief The same with states at even distances, whatever the ends of the pieces: fewer where pieces are
             short. All pieces must have one direction. */
-        Path sampleEvenly(double step) const;
+        SampledPath sampleEvenly(double step) const;
     };
 }  // namespace parking

@@ -18,7 +18,7 @@ namespace parking
     double GearSegment::length() const
     {
         double sum = 0.0;
-        for (const ArcSegment &arc : arcs)
+        for (const Arc &arc : arcs)
             sum += arc.length;
         return sum;
     }
@@ -48,7 +48,7 @@ namespace parking
         Pose pose = start;
         for (std::size_t i = 0; i < arcs.size(); ++i)
         {
-            ArcSegment arc = arcs[i];
+            Arc arc = arcs[i];
             const bool between = i > 0 && i + 1 < arcs.size();
             if (between && arc.length >= shortest && std::abs(arc.curvature) < maxCurvature)
             {
@@ -66,11 +66,11 @@ namespace parking
         return pieces;
     }
 
-    std::vector<GearSegment> gearSegments(const ArcPath &path)
+    std::vector<GearSegment> gearSegments(const Path &path)
     {
         std::vector<GearSegment> gears;
         Pose pose = path.start;
-        for (const ArcSegment &piece : path.segments)
+        for (const PathPiece &piece : path.pieces)
         {
             if (piece.length == 0.0)
                 continue;
@@ -89,7 +89,7 @@ namespace parking
         return gears;
     }
 
-    std::vector<GearSegment> gearSegments(const Path &path)
+    std::vector<GearSegment> gearSegments(const SampledPath &path)
     {
         std::vector<GearSegment> gears;
         for (std::size_t i = 1, last = 0; i < path.size(); ++i)
@@ -98,7 +98,7 @@ namespace parking
             if (std::hypot(to.x - from.x, to.y - from.y) < SAME_PLACE)
                 continue;
             last = i;
-            const ArcSegment arc = arcBetween(from, to);
+            const Arc arc = arcBetween(from, to);
             const int direction = arc.length < 0.0 ? -1 : 1;
             if (gears.empty() || gears.back().direction != direction)
                 gears.push_back({from, from, direction, {}, false, false});
@@ -107,7 +107,7 @@ namespace parking
             if (!gear.arcs.empty() && std::abs(gear.arcs.back().curvature - arc.curvature) < SAME_CURVATURE)
             {
                 // The mean, weighted by length, keeps the turn of both.
-                ArcSegment &whole = gear.arcs.back();
+                Arc &whole = gear.arcs.back();
                 whole.curvature = (whole.curvature * whole.length + arc.curvature * length) / (whole.length + length);
                 whole.length += length;
             }

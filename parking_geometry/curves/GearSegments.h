@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <vector>
@@ -12,9 +12,9 @@ namespace parking
     struct GearSegment
     {
         Pose start;
-        Pose end;                      ///< where the next one starts: exact, whatever the arcs integrate to
-        int direction{1};              ///< 1 forwards, -1 in reverse
-        std::vector<ArcSegment> arcs;  ///< lengths positive; neighbours differ in curvature
+        Pose end;               ///< where the next one starts: exact, whatever the arcs integrate to
+        int direction{1};       ///< 1 forwards, -1 in reverse
+        std::vector<Arc> arcs;  ///< lengths positive; neighbours differ in curvature
 
         bool movingStart{false};  ///< begins in motion, on its first arc, because it was cut out of a longer one
         bool movingEnd{false};    ///< ends in motion, on its last arc
@@ -30,10 +30,10 @@ namespace parking
     };
 
     /** \brief The stretches of \e path, pieces of no length dropped. */
-    std::vector<GearSegment> gearSegments(const ArcPath &path);
+    std::vector<GearSegment> gearSegments(const Path &path);
 
     /** \brief The stretches of a sampled path; between its states lie the circular arcs that their poses imply.
 
         States that coincide are skipped; arcs whose curvatures agree to 1e-6 are one. */
-    std::vector<GearSegment> gearSegments(const Path &path);
+    std::vector<GearSegment> gearSegments(const SampledPath &path);
 }  // namespace parking

@@ -64,7 +64,7 @@ namespace parking
                                 : maxSharpness(vehicle, 1.0, curvature) / std::abs(sharpness);
     }
 
-    ArcSegment arcBetween(const Pose &from, const Pose &to)
+    Arc arcBetween(const Pose &from, const Pose &to)
     {
         const double dx = to.x - from.x, dy = to.y - from.y;
         const double half = 0.5 * wrapAngle(to.yaw - from.yaw);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 namespace parking
 {
@@ -82,5 +82,5 @@ namespace parking
 
         Exact when such an arc exists (\e to then ends with its heading, at most half a circle away); otherwise the one
         whose change of heading is that of the poses and whose chord has the length of theirs. */
-    ArcSegment arcBetween(const Pose &from, const Pose &to);
+    Arc arcBetween(const Pose &from, const Pose &to);
 }  // namespace parking

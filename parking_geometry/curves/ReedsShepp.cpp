@@ -304,7 +304,7 @@ namespace parking
                 const double length = word.lengths[i] * radius;
                 if (std::abs(length) < 1e-12)
                     continue;
-                curve.segments[curve.count++] = {word.turns[i] * curvature, length};
+                curve.pieces[curve.count++] = {word.turns[i] * curvature, length};
                 curve.length += std::abs(length);
             }
             return curve;
@@ -372,7 +372,7 @@ namespace parking
     {
         std::size_t changes = 0;
         for (std::size_t i = 1; i < count; ++i)
-            if (segments[i].length * segments[i - 1].length < 0.0)
+            if (pieces[i].length * pieces[i - 1].length < 0.0)
                 ++changes;
         return changes;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace parking
     /** \brief A Reeds-Shepp curve: up to five pieces at the turning radius or straight. */
     struct ReedsSheppCurve
     {
-        std::array<ArcSegment, 5> segments{};
+        std::array<Arc, 5> pieces{};
         std::size_t count{0};
         double length{std::numeric_limits<double>::infinity()};  ///< metres, both directions counted positive
 

@@ -78,9 +78,9 @@ namespace parking
         }
 
         /** Pieces of one direction, which their last state tells; each begins with the last state of the one before. */
-        std::vector<Path> gearSegments(const Path &path)
+        std::vector<SampledPath> gearSegments(const SampledPath &path)
         {
-            std::vector<Path> pieces;
+            std::vector<SampledPath> pieces;
             for (std::size_t i = 1; i < path.size(); ++i)
             {
                 if (pieces.empty() || path[i].direction != pieces.back().back().direction)
@@ -91,7 +91,7 @@ namespace parking
         }
 
         /** The car along one piece, \e spacing metres apart and at the piece's end. */
-        void drawSweep(SvgMap &map, const Path &piece, const Vehicle &vehicle, double spacing)
+        void drawSweep(SvgMap &map, const SampledPath &piece, const Vehicle &vehicle, double spacing)
         {
             SvgStyle style = filled(colourOf(piece.back().direction), colourOf(piece.back().direction));
             style.fillOpacity = 0.035;
@@ -121,7 +121,7 @@ namespace parking
         }
     }  // namespace
 
-    Bounds viewAround(const Scenario &scenario, const Path &path, double margin)
+    Bounds viewAround(const Scenario &scenario, const SampledPath &path, double margin)
     {
         std::vector<Pose> poses = scenario.goals;
         poses.push_back(scenario.start);
@@ -167,13 +167,13 @@ namespace parking
         drawObstacles(map, scenario);
     }
 
-    void drawPath(SvgMap &map, const Path &path, const Vehicle &vehicle)
+    void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle)
     {
         if (path.size() < 2)
             return;
         const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
-        const std::vector<Path> pieces = gearSegments(path);
-        for (const Path &piece : pieces)
+        const std::vector<SampledPath> pieces = gearSegments(path);
+        for (const SampledPath &piece : pieces)
         {
             const int direction = piece.back().direction;
             drawSweep(map, piece, vehicle, spacing);
@@ -246,7 +246,7 @@ namespace parking
         map.addLegend({label, style, true});
     }
 
-    SvgPlot curvaturePlot(const Path &path, const Vehicle &vehicle)
+    SvgPlot curvaturePlot(const SampledPath &path, const Vehicle &vehicle)
     {
         SvgPlot plot;
         plot.title = "Curvature along the path";
@@ -254,7 +254,7 @@ namespace parking
         plot.yLabel = "curvature (1/m)";
         const double limit = 1.0 / vehicle.minTurningRadius();
         plot.limits = {-limit, limit};
-        for (const Path &piece : gearSegments(path))
+        for (const SampledPath &piece : gearSegments(path))
         {
             if (piece.back().direction < 0)
                 plot.bands.push_back({piece.front().arcLength, piece.back().arcLength, svg_colour::REVERSE});

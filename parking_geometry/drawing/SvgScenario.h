@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/drawing/SvgMap.h"
 #include "parking_geometry/drawing/SvgPlot.h"
 
@@ -12,7 +12,7 @@ namespace parking
 {
     /** \brief What a picture of a path should show: the car at all states, at start and goals, and the slot, with some
         metres round them; far obstacles are left out. \param margin metres */
-    Bounds viewAround(const Scenario &scenario, const Path &path = {}, double margin = 3.0);
+    Bounds viewAround(const Scenario &scenario, const SampledPath &path = {}, double margin = 3.0);
 
     /** \brief Draws obstacles, unknown cells, what lies outside of the world, the slot, and the car at its start and
         goals. */
@@ -20,7 +20,7 @@ namespace parking
 
     /** \brief Draws the track of the rear axle and the car along it, forwards and reverse in different colours, with a
         dot at every change of direction. Cars are thinned out so that they stay legible. */
-    void drawPath(SvgMap &map, const Path &path, const Vehicle &vehicle);
+    void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle);
 
     /** \brief Draws a car seen from above; its outer line is its footprint. \param label names it in the legend, empty
         for none */
@@ -31,5 +31,5 @@ namespace parking
     void drawTrack(SvgMap &map, const std::vector<Pose> &poses, const std::string &colour, const std::string &label);
 
     /** \brief Curvature over the metres driven, with reverse stretches tinted and the car's limits marked. */
-    SvgPlot curvaturePlot(const Path &path, const Vehicle &vehicle);
+    SvgPlot curvaturePlot(const SampledPath &path, const Vehicle &vehicle);
 }  // namespace parking

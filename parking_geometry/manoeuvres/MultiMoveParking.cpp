@@ -82,8 +82,8 @@ namespace parking
         for (const ReverseParkingResult &refused : parking.planAll(slot, world))
         {
             const SlotExitTask task = slotExitTask(parking, slot, refused.entry, refused.side);
-            const ArcPath out = planner(task);
-            if (out.segments.empty())
+            const Path out = planner(task);
+            if (out.pieces.empty())
                 continue;
             const Pose end = out.end();
             if (!isSame(out.start, task.parked))

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/ParkingSlot.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 
 #include <functional>
@@ -32,7 +32,7 @@ namespace parking
 
     /** \brief A planner for such tasks: a path from \e parked to one of \e exits, as many changes of direction as it
         takes; without segments when there is none. */
-    using SlotExitPlanner = std::function<ArcPath(const SlotExitTask &)>;
+    using SlotExitPlanner = std::function<Path(const SlotExitTask &)>;
 
     /** \brief In one sweep where that fits, otherwise in several moves found by \e planner.
 

@@ -56,16 +56,16 @@ namespace parking
             ReverseParkingResult result;
 
             /** A piece as it is in the frame of the leaving body of a slot on the right. */
-            ArcSegment piece(double curvature, double length) const
+            Arc piece(double curvature, double length) const
             {
                 return {turn * curvature, gear * length};
             }
 
             /** The way in: \e out, the way out without its guard line, driven backwards from the guard line's start. */
-            ArcPath wayIn(const std::vector<ArcSegment> &out, double guard) const
+            Path wayIn(const std::vector<Arc> &out, double guard) const
             {
-                ArcPath path{result.goal, {}};
-                for (const ArcSegment &segment : out)
+                Path path{result.goal, {}};
+                for (const Arc &segment : out)
                     path.append(segment);
                 path.append(piece(0.0, guard));
                 return path.reversed();
@@ -83,7 +83,7 @@ namespace parking
         struct Variant
         {
             double firstRadius, secondRadius;
-            std::vector<ArcSegment> out;
+            std::vector<Arc> out;
         };
 
         // ---- perpendicular and angled --------------------------------------------------------------------------
@@ -287,7 +287,7 @@ namespace parking
         const bool checked = !isEmpty(world);
         const std::vector<Variant> variants =
             slot.kind == SlotKind::Parallel ? planParallel(exit, checked) : planBay(exit, checked);
-        const auto accept = [&](const Variant &variant, double guard, ArcPath path)
+        const auto accept = [&](const Variant &variant, double guard, Path path)
         {
             result.status = ReverseParkingStatus::Fits;
             result.message.clear();
@@ -308,7 +308,7 @@ namespace parking
             if (!isPathFree(world, vehicle_, exit.wayIn(variant.out, 0.0).sample(options_.step)))
                 continue;
             double guard = options_.guardLength;
-            ArcPath path = exit.wayIn(variant.out, guard);
+            Path path = exit.wayIn(variant.out, guard);
             for (; guard > 0.0 && !isPathFree(world, vehicle_, path.sample(options_.step));
                  path = exit.wayIn(variant.out, guard))
                 guard = guard > 0.25 ? 0.5 * guard : 0.0;
@@ -356,7 +356,7 @@ namespace parking
         return best;
     }
 
-    ArcPath joined(const ArcPath &first, const ArcPath &second)
+    Path joined(const Path &first, const Path &second)
     {
         const Pose meeting = first.end();
         const double gap = std::hypot(second.start.x - meeting.x, second.start.y - meeting.y);
@@ -364,8 +364,8 @@ namespace parking
         if (!(gap <= 1e-6 && turn <= 1e-6))
             throw Error("paths to be joined are " + formatNumber(gap) + " m and " + formatNumber(turn) +
                         " rad apart; the second must start where the first ends");
-        ArcPath path = first;
-        for (const ArcSegment &segment : second.segments)
+        Path path = first;
+        for (const PathPiece &segment : second.pieces)
             path.append(segment);
         return path;
     }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <limits>
@@ -53,7 +53,7 @@ namespace parking
         Pose goal;                            ///< the parked car
 
         /** From P, the start of the guard line and the planner's goal, to goal; no segments unless it fits. */
-        ArcPath path;
+        Path path;
         double guardLength{0.0};  ///< metres of guard line left in path; shorter than asked where the world ends
 
         double firstRadius{0.0};   ///< metres, of the arc that meets the slot; chosen from [minRadius, maxRadius]
@@ -73,7 +73,7 @@ namespace parking
         /** \brief Moves that the manoeuvre takes: stretches in one direction. */
         std::size_t moves() const
         {
-            return path.segments.empty() ? 0 : path.cusps() + 1;
+            return path.pieces.empty() ? 0 : path.cusps() + 1;
         }
     };
 
@@ -134,5 +134,5 @@ namespace parking
 
         Throws parking::Error when \e second does not start where \e first ends, within 1e-6 m and 1e-6 rad; the end of
         the result is off by what the gap is. */
-    ArcPath joined(const ArcPath &first, const ArcPath &second);
+    Path joined(const Path &first, const Path &second);
 }  // namespace parking

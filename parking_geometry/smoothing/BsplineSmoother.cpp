@@ -104,7 +104,7 @@ namespace parking
             }
 
             /** States of a span, at most \e step apart; both of its ends are among them. */
-            Path sample(std::size_t span, double step) const
+            SampledPath sample(std::size_t span, double step) const
             {
                 double controlLength = 0.0;
                 for (std::size_t i = span; i < span + degree_; ++i)
@@ -114,7 +114,7 @@ namespace parking
                 const double guess = 1.0 + std::ceil(controlLength / static_cast<double>(degree_) / step);
                 for (auto count = static_cast<std::size_t>(guess);; count += 1 + count / 4)
                 {
-                    Path states;
+                    SampledPath states;
                     states.reserve(count + 1);
                     double longest = 0.0;
                     for (std::size_t i = 0; i <= count; ++i)
@@ -182,7 +182,7 @@ namespace parking
         };
 
         /** Appends \e states, dropping those that do not move and giving a heading to those without. */
-        void append(Path &path, const Path &states)
+        void append(SampledPath &path, const SampledPath &states)
         {
             for (const PathState &state : states)
             {
@@ -206,7 +206,7 @@ namespace parking
             }
         }
 
-        void measure(Path &path)
+        void measure(SampledPath &path)
         {
             for (std::size_t i = 1; i < path.size(); ++i)
             {
@@ -218,7 +218,7 @@ namespace parking
             }
         }
 
-        bool isAcceptable(const Path &span, const BsplineOptions &options, const Vehicle &vehicle,
+        bool isAcceptable(const SampledPath &span, const BsplineOptions &options, const Vehicle &vehicle,
                           const FootprintQueries &world)
         {
             for (const PathState &state : span)
@@ -228,7 +228,7 @@ namespace parking
         }
     }  // namespace
 
-    Path bsplineSmooth(const std::vector<Vector2d> &points, int degree, std::size_t sampling)
+    SampledPath bsplineSmooth(const std::vector<Vector2d> &points, int degree, std::size_t sampling)
     {
         BsplineOptions options;
         options.degree = degree;
@@ -249,7 +249,7 @@ namespace parking
         // Most spans stay as they are when others get more control points.
         struct Span
         {
-            Path states;
+            SampledPath states;
             bool isAcceptable{false};
         };
         std::map<std::vector<std::size_t>, Span> known;

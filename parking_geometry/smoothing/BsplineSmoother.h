@@ -1,8 +1,8 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <limits>
@@ -24,7 +24,7 @@ namespace parking
     {
         /** States with the heading and curvature of the curve, direction 1. In pieces that follow the polyline the
             curvature is 0 and the heading that of the edge on which the state is reached. */
-        Path path;
+        SampledPath path;
 
         std::size_t pieces{0};          ///< spans of the spline
         std::size_t denserPieces{0};    ///< spans that needed more control points than \e sampling gives
@@ -39,7 +39,7 @@ namespace parking
 
         \param points metres; neighbours that coincide are dropped
         Throws parking::Error for fewer than two distinct points and for options out of range. */
-    Path bsplineSmooth(const std::vector<Eigen::Vector2d> &points, int degree = 3, std::size_t sampling = 3);
+    SampledPath bsplineSmooth(const std::vector<Eigen::Vector2d> &points, int degree = 3, std::size_t sampling = 3);
 
     /** \brief The same, re-checked span by span against the world and the curvature limit.
 

@@ -96,7 +96,7 @@ namespace parking
         const std::size_t arcs = gear.arcs.size();
         for (std::size_t i = 0; i < arcs; ++i)
         {
-            const ArcSegment &arc = gear.arcs[i];
+            const Arc &arc = gear.arcs[i];
             half(0.5 * arc.length, i > 0 ? joint(i) : 0.0, false, sign * arc.curvature);
             half(0.5 * arc.length, i + 1 < arcs ? joint(i + 1) : 0.0, true, sign * arc.curvature);
         }

@@ -2,8 +2,8 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/GearSegments.h"
-#include "parking_geometry/smoothing/GearSmoother.h"
 #include "parking_geometry/curves/Kinematics.h"
+#include "parking_geometry/smoothing/GearSmoother.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -74,8 +74,8 @@ namespace parking
             SmoothPart keep(const GearSegment &gear) const
             {
                 SmoothPart result{{gear.start, {}}, gear.end, planned_, false, true, gear.movingEnd};
-                for (const ArcSegment &arc : gear.arcs)
-                    result.pieces.segments.push_back({arc.curvature, 0.0, gear.direction * arc.length});
+                for (const Arc &arc : gear.arcs)
+                    result.pieces.pieces.push_back({arc.curvature, 0.0, gear.direction * arc.length});
                 result.free = isFree(result);
                 return result;
             }
@@ -175,7 +175,7 @@ namespace parking
             double steeringSpeed(const ClothoidPath &pieces) const
             {
                 double least = vehicle_.maxSpeed;
-                for (const ClothoidSegment &piece : pieces.segments)
+                for (const ClothoidSegment &piece : pieces.pieces)
                     least = std::min(least, steeringLimit(vehicle_, piece));
                 return least;
             }
@@ -191,7 +191,7 @@ namespace parking
                 result.changed = result.free = true;
                 result.movingEnd = gear.movingEnd;
                 return smoother_.smooth(gear, limits, approach.confined ? world_.clearance : nullptr,
-                                        result.pieces.segments) &&
+                                        result.pieces.pieces) &&
                        std::abs(result.pieces.length() - gear.length()) <= LARGEST_CHANGE_OF_LENGTH * gear.length();
             }
 
@@ -224,7 +224,7 @@ namespace parking
 
             void append(const SmoothPart &part)
             {
-                const Path states = part.pieces.sampleEvenly(options_.step);
+                const SampledPath states = part.pieces.sampleEvenly(options_.step);
                 if (states.size() < 2)
                     return;
                 if (result_.path.size() == 1)
@@ -234,15 +234,15 @@ namespace parking
                 }
                 const double before = result_.path.back().arcLength;
                 std::size_t piece = 0;
-                double pieceEnd = std::abs(part.pieces.segments.front().length);
+                double pieceEnd = std::abs(part.pieces.pieces.front().length);
                 for (std::size_t i = 1; i < states.size(); ++i)
                 {
-                    double limit = limitOf(part.pieces.segments[piece]);
-                    while (piece + 1 < part.pieces.segments.size() && pieceEnd < states[i].arcLength)
+                    double limit = limitOf(part.pieces.pieces[piece]);
+                    while (piece + 1 < part.pieces.pieces.size() && pieceEnd < states[i].arcLength)
                     {
                         ++piece;
-                        pieceEnd += std::abs(part.pieces.segments[piece].length);
-                        limit = std::min(limit, limitOf(part.pieces.segments[piece]));
+                        pieceEnd += std::abs(part.pieces.pieces[piece].length);
+                        limit = std::min(limit, limitOf(part.pieces.pieces[piece]));
                     }
                     // The change of curvature between two states limits the speed at both.
                     if (i > 1 || moving_)
@@ -256,8 +256,8 @@ namespace parking
                 moving_ = part.movingEnd;
                 if (!moving_)
                     result_.speedLimit.back() = 0.0;
-                result_.pieces.segments.insert(result_.pieces.segments.end(), part.pieces.segments.begin(),
-                                               part.pieces.segments.end());
+                result_.pieces.pieces.insert(result_.pieces.pieces.end(), part.pieces.pieces.begin(),
+                                             part.pieces.pieces.end());
             }
 
         private:
@@ -290,12 +290,12 @@ namespace parking
         check("tolerance", options.tolerance, "a positive number of metres");
     }
 
-    SmoothPath PathSmoother::smooth(const ArcPath &path, const FootprintQueries &world) const
+    SmoothPath PathSmoother::smooth(const Path &path, const FootprintQueries &world) const
     {
         return smooth(gearSegments(path), path.start, world);
     }
 
-    SmoothPath PathSmoother::smooth(const Path &path, const FootprintQueries &world) const
+    SmoothPath PathSmoother::smooth(const SampledPath &path, const FootprintQueries &world) const
     {
         if (path.empty())
             throw Error("smoothing: the path is empty; it must have at least one state");

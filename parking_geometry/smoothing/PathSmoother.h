@@ -1,9 +1,9 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
-#include "parking_geometry/curves/Clothoid.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Clothoid.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <vector>
@@ -48,7 +48,7 @@ namespace parking
     {
         /** States at most SmoothingOptions::step apart, curvatures those of the curve at the state. A state where the
             car stops has the curvature and direction of arrival. */
-        Path path;
+        SampledPath path;
 
         /** Per state, the speed, m/s, up to which the steering keeps up with the change of curvature there, at most
             that of the vehicle; 0 where the car stops: first and last state, changes of direction, stops. */
@@ -85,10 +85,10 @@ namespace parking
         /** \brief Throws parking::Error for an invalid vehicle or option, naming it. */
         explicit PathSmoother(const Vehicle &vehicle, const SmoothingOptions &options = {});
 
-        SmoothPath smooth(const ArcPath &path, const FootprintQueries &world = {}) const;
+        SmoothPath smooth(const Path &path, const FootprintQueries &world = {}) const;
 
         /** \brief The same for a sampled path: between its states lie the circular arcs that their poses imply. */
-        SmoothPath smooth(const Path &path, const FootprintQueries &world = {}) const;
+        SmoothPath smooth(const SampledPath &path, const FootprintQueries &world = {}) const;
 
     private:
         SmoothPath smooth(const std::vector<GearSegment> &gears, const Pose &start,

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "parking_geometry/Pose.h"
-#include "path_tracking/simulation/ActuatorLag.h"
 #include "path_tracking/control/Mpc.h"
-#include "path_tracking/simulation/PoseEstimator.h"
+#include "path_tracking/control/TrackingTypes.h"
 #include "path_tracking/reference/ReferencePath.h"
 #include "path_tracking/reference/SpeedProfile.h"
-#include "path_tracking/control/TrackingTypes.h"
+#include "path_tracking/simulation/ActuatorLag.h"
+#include "path_tracking/simulation/PoseEstimator.h"
 
 #include <cstddef>
 #include <functional>
@@ -93,7 +93,7 @@ namespace parking
 
             \param solve replaces the optimiser (to try another one, or failures); empty: Mpc
             Throws parking::Error for a path, a vehicle or parameters that cannot be used. */
-        TrackingController(const Path &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
+        TrackingController(const SampledPath &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
                            double initialSteering = 0.0, Solve solve = {});
 
         const SpeedProfile &profile() const

@@ -152,11 +152,11 @@ namespace parking
             void shuntTo(const Pose &pose)
             {
                 const ReedsSheppCurve curve = curves_.shortest(car_, pose);
-                ArcPath arcs{car_, {}};
+                Path arcs{car_, {}};
                 for (std::size_t i = 0; i < curve.count; ++i)
-                    if (std::abs(curve.segments[i].length) > 1e-6)
-                        arcs.append(curve.segments[i]);
-                const Path path = arcs.sample(SHUNT_STEP);
+                    if (std::abs(curve.pieces[i].length) > 1e-6)
+                        arcs.append(curve.pieces[i]);
+                const SampledPath path = arcs.sample(SHUNT_STEP);
                 ++result_.turns;
                 for (std::size_t i = 1; i < path.size();)
                 {

@@ -82,7 +82,7 @@ namespace parking
         }
     }  // namespace
 
-    std::vector<PathSection> splitPath(const Path &path, const Vehicle &vehicle)
+    std::vector<PathSection> splitPath(const SampledPath &path, const Vehicle &vehicle)
     {
         if (path.size() < 2)
             throw Error("path: it has " + std::to_string(path.size()) + " states; at least 2 are needed");

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <vector>
@@ -39,5 +39,5 @@ namespace parking
 
         Throws parking::Error naming the state when the path has fewer than two different states, holds a number that is
         not finite, a direction other than 1 or -1, or a curvature beyond the car's (by more than 1 %; less is cut). */
-    std::vector<PathSection> splitPath(const Path &path, const Vehicle &vehicle);
+    std::vector<PathSection> splitPath(const SampledPath &path, const Vehicle &vehicle);
 }  // namespace parking

@@ -102,7 +102,7 @@ namespace parking
         checkPositive("cornerSpeed", cornerSpeed, "m/s");
     }
 
-    ReferencePath::ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
+    ReferencePath::ReferencePath(const SampledPath &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
       : vehicle_(vehicle)
     {
         vehicle.validate();

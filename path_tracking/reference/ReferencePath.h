@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 #include "path_tracking/reference/PathSections.h"
 
 #include <cstddef>
@@ -93,7 +93,7 @@ namespace parking
 
             Throws parking::Error as splitPath() and validate() of the arguments do, and when the corners of the path
             cannot be driven within maxCornerDeviation. */
-        ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
+        ReferencePath(const SampledPath &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
 
         const std::vector<ReferenceLeg> &legs() const
         {

@@ -77,7 +77,7 @@ namespace parking
         checkLimit("lateralAcceleration", lateralAcceleration, "m/s^2");
     }
 
-    SpeedProfile::SpeedProfile(const Path &path, const Vehicle &vehicle)
+    SpeedProfile::SpeedProfile(const SampledPath &path, const Vehicle &vehicle)
       : SpeedProfile(ReferencePath(path, vehicle), SpeedLimits::of(vehicle))
     {
     }

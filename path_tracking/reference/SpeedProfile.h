@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 #include "path_tracking/reference/ReferencePath.h"
 #include "path_tracking/reference/Trajectory.h"
 
@@ -54,7 +54,7 @@ namespace parking
                      std::optional<double> finalSteering = std::nullopt);
 
         /** \brief Prepares \e path with default parameters and times it within the limits of \e vehicle. */
-        SpeedProfile(const Path &path, const Vehicle &vehicle);
+        SpeedProfile(const SampledPath &path, const Vehicle &vehicle);
 
         const ReferencePath &reference() const
         {

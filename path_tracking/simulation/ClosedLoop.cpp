@@ -86,7 +86,7 @@ namespace parking
                     check(state.pose);
             }
 
-            Evaluation finish(const Path &path, double travelTime)
+            Evaluation finish(const SampledPath &path, double travelTime)
             {
                 const ReferencePath &reference = controller_.profile().reference();
                 if (clearance_ || validity_)
@@ -180,7 +180,8 @@ namespace parking
         solve_ = std::move(solve);
     }
 
-    DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
+    DriveResult ClosedLoop::drive(const SampledPath &path, const std::optional<Pose> &start,
+                                  double initialSteering) const
     {
         TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering, solve_);
         const ReferencePath &reference = controller.profile().reference();

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Vehicle.h"
-#include "path_tracking/simulation/Evaluation.h"
-#include "path_tracking/simulation/Plant.h"
+#include "parking_geometry/curves/Path.h"
 #include "path_tracking/control/TrackingController.h"
 #include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/simulation/Evaluation.h"
+#include "path_tracking/simulation/Plant.h"
 
 #include <cstddef>
 #include <functional>
@@ -81,7 +81,7 @@ namespace parking
             \param start where the car really stands; the begin of the path when absent
             \param initialSteering radians, of the wheels
             Throws parking::Error for a path that cannot be used; what happens on the way is in the result. */
-        DriveResult drive(const Path &path, const std::optional<Pose> &start = std::nullopt,
+        DriveResult drive(const SampledPath &path, const std::optional<Pose> &start = std::nullopt,
                           double initialSteering = 0.0) const;
 
     private:

@@ -38,7 +38,7 @@ namespace parking
         {
             if (length == 0.0)
                 return;
-            curve.segments[curve.count++] = {side / radius, length * radius};
+            curve.pieces[curve.count++] = {side / radius, length * radius};
         }
 
         /** Two states whose difference is a turn on the spot: the length of their curve for radius 1 is a constant. */

@@ -163,7 +163,7 @@ namespace parking
         double driven = 0.0;
         for (std::size_t i = 0; i < curve.count; ++i)
         {
-            const ArcSegment &arc = curve.segments[i];
+            const Arc &arc = curve.pieces[i];
             const double wanted = std::abs(arc.length);
             double free = lengthWithin(bounds, pose, arc.curvature, arc.length);
             free = std::min(

@@ -218,7 +218,7 @@ namespace
     TEST(AutomaticParkingTest, drivesGivenPathsAndReportsCollisions)
     {
         Scenario scenario = openGround();
-        const Path path = ArcPath{scenario.start, {{0.0, 15.0}}}.sample(0.1);
+        const SampledPath path = Path{scenario.start, {{0.0, 15.0}}}.sample(0.1);
         const ParkingResult good = AutomaticParking().drive(scenario, path);
         EXPECT_TRUE(good.parked()) << good.message;
         EXPECT_NEAR(good.evaluation.drivenLength, 15.0, 0.01);
@@ -233,7 +233,7 @@ namespace
     {
         const Scenario scenario = openGround();
         const double nan = std::nan("");
-        const auto refused = [&](const Path &path, const char *why)
+        const auto refused = [&](const SampledPath &path, const char *why)
         {
             const ParkingResult result = AutomaticParking().drive(scenario, path);
             EXPECT_EQ(result.status, ParkingStatus::NotDrivable);
@@ -253,7 +253,7 @@ namespace
     {
         // Chords of a grid with both ways of writing their headings, a turn on the spot, another heading at the end.
         Scenario scenario = openGround(30.0);
-        Path path;
+        SampledPath path;
         const auto add = [&path](double x, double y, double yaw, double curvature)
         {
             path.push_back({{x, y, yaw}, 0.0, curvature, 1});
@@ -268,7 +268,7 @@ namespace
         path.back().curvature = 50.0;
         const ParkingResult refused = AutomaticParking().drive(scenario, path);
         EXPECT_EQ(refused.status, ParkingStatus::NotDrivable);
-        const Path chords = asChords(path, scenario.vehicle);
+        const SampledPath chords = asChords(path, scenario.vehicle);
         ASSERT_EQ(chords.size(), 41u);
         for (const PathState &state : chords)
             EXPECT_EQ(state.curvature, 0.0);
@@ -287,12 +287,12 @@ namespace
     TEST(AutomaticParkingTest, asChordsKeepsArcsThatTheCarCanDrive)
     {
         const double most = 1.0 / Vehicle().minTurningRadius();
-        const Path wide = ArcPath{{1.0, 2.0, 0.3}, {{0.5 * most, 4.0}}}.sample(0.1);
-        const Path kept = asChords(wide, Vehicle());
+        const SampledPath wide = Path{{1.0, 2.0, 0.3}, {{0.5 * most, 4.0}}}.sample(0.1);
+        const SampledPath kept = asChords(wide, Vehicle());
         ASSERT_EQ(kept.size(), wide.size());
         for (std::size_t i = 1; i < kept.size(); ++i)
             EXPECT_NEAR(kept[i].curvature, 0.5 * most, 1e-4);
-        const Path tight = asChords(ArcPath{{1.0, 2.0, 0.3}, {{2.0 * most, 4.0}}}.sample(0.1), Vehicle());
+        const SampledPath tight = asChords(Path{{1.0, 2.0, 0.3}, {{2.0 * most, 4.0}}}.sample(0.1), Vehicle());
         EXPECT_EQ(tight[5].curvature, 0.0);
         EXPECT_TRUE(asChords({}, Vehicle()).empty());
     }

@@ -26,9 +26,9 @@ namespace
         return drive;
     }
 
-    Path somePath()
+    SampledPath somePath()
     {
-        return ArcPath{{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}}.sample(0.5);
+        return Path{{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}}.sample(0.5);
     }
 
     std::size_t count(const std::string &text, const std::string &what)

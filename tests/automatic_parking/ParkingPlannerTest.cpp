@@ -28,7 +28,7 @@ namespace
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner().plan(scenario);
         ASSERT_TRUE(plan.found) << plan.message;
-        ASSERT_FALSE(plan.manoeuvre.segments.empty());
+        ASSERT_FALSE(plan.manoeuvre.pieces.empty());
         expectAt(plan.approach.start, scenario.start);
         expectAt(plan.approach.end(), plan.manoeuvre.start);
         expectAt(plan.manoeuvre.end(), plan.goal);
@@ -47,7 +47,7 @@ namespace
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
         ASSERT_TRUE(plan.found) << plan.message;
-        EXPECT_TRUE(plan.manoeuvre.segments.empty());
+        EXPECT_TRUE(plan.manoeuvre.pieces.empty());
         expectAt(plan.arcs.end(), scenario.goals.front());
     }
 

@@ -47,10 +47,10 @@ namespace
         return {slotSurroundings(slot, slot.side, aisle), {{-60.0, -60.0}, {60.0, 60.0}}};
     }
 
-    void expectFree(const ArcPath &path, const Vehicle &car, const PolygonOracle &oracle, double margin)
+    void expectFree(const Path &path, const Vehicle &car, const PolygonOracle &oracle, double margin)
     {
         Pose pose = path.start;
-        for (const ArcSegment &segment : path.segments)
+        for (const PathPiece &segment : path.pieces)
         {
             ASSERT_LE(std::abs(segment.curvature), (1.0 + 1e-9) / car.minTurningRadius());
             ASSERT_TRUE(oracle.isArcFree(pose, segment.curvature, segment.length, car, 0.002, margin));
@@ -220,11 +220,11 @@ TEST(SlotPlanner, EqualInputsGiveEqualOutputs)
     const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
     const SlotPlanner planner(car, inAisle(AISLE));
     const SlotPlan one = planner.plan(slot, inTheAisle(slot, -7.0)), two = planner.plan(slot, inTheAisle(slot, -7.0));
-    ASSERT_EQ(one.path.segments.size(), two.path.segments.size());
-    for (std::size_t i = 0; i < one.path.segments.size(); ++i)
+    ASSERT_EQ(one.path.pieces.size(), two.path.pieces.size());
+    for (std::size_t i = 0; i < one.path.pieces.size(); ++i)
     {
-        EXPECT_EQ(one.path.segments[i].length, two.path.segments[i].length);
-        EXPECT_EQ(one.path.segments[i].curvature, two.path.segments[i].curvature);
+        EXPECT_EQ(one.path.pieces[i].length, two.path.pieces[i].length);
+        EXPECT_EQ(one.path.pieces[i].curvature, two.path.pieces[i].curvature);
     }
 }
 

@@ -14,19 +14,19 @@
 namespace
 {
     using namespace parking_test;
-    using parking::ArcPath;
-    using parking::ArcSegment;
+    using parking::Arc;
+    using parking::Path;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
     constexpr double STEP = 0.005;  // metres between the poses that are judged
 
     /** Is the path's every pose free, and its curvature within the limit? Along OMPL's own interpolation. */
-    void expectDrivable(const PlanningProblem &problem, const World &world, const ArcPath &arcs)
+    void expectDrivable(const PlanningProblem &problem, const World &world, const Path &arcs)
     {
         const double sharpest = 1.0 / problem.vehicle.minTurningRadius();
         Pose pose = arcs.start;
-        for (const ArcSegment &segment : arcs.segments)
+        for (const PathPiece &segment : arcs.pieces)
         {
             EXPECT_LE(std::abs(segment.curvature), sharpest * (1.0 + 1e-9));
             EXPECT_TRUE(world.oracle.isArcFree(pose, segment.curvature, segment.length, problem.vehicle, STEP));
@@ -115,7 +115,7 @@ namespace
             ASSERT_EQ(status, Status::EXACT_SOLUTION);
             EXPECT_TRUE(isAt(poses.back(), *goal, 1e-15));
             ASSERT_NE(problem.planner->solutionArcs(), nullptr);
-            const ArcPath &arcs = *problem.planner->solutionArcs();
+            const Path &arcs = *problem.planner->solutionArcs();
             EXPECT_TRUE(isAt(arcs.start, *start));
             EXPECT_TRUE(isAt(arcs.end(), *goal, 1e-9));
             expectDrivable(problem, world, arcs);

@@ -15,7 +15,7 @@
 namespace
 {
     using namespace parking_test;
-    using parking::ArcSegment;
+    using parking::Arc;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
@@ -72,11 +72,11 @@ namespace
             PlanningProblem problem(kind, openSite(20.0));
             problem.from({-8.0, -3.0, 0.0}).to({{5.0, 6.0, -2.0}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            const parking::ArcPath &arcs = *problem.planner->solutionArcs();
+            const parking::Path &arcs = *problem.planner->solutionArcs();
             og::PathGeometric path = problem.path();
             EXPECT_NEAR(kind == Space::SE2 ? arcs.length() : path.length(), arcs.length(), 1e-6);
             path.interpolate(2000);
-            const parking::Path exact = arcs.sample(0.001);
+            const parking::SampledPath exact = arcs.sample(0.001);
             std::size_t nearest = 0;
             for (const Pose &pose : PlanningProblem::posesOf(path))
             {
@@ -115,7 +115,7 @@ namespace
                 const Pose goal{12.0, -8.0 + 2.0 * i, 0.8 * i - parking::PI};
                 problem.from({-10.0, 0.0, 0.4 * i}).to({goal});
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << i;
-                for (const ArcSegment &segment : problem.planner->solutionArcs()->segments)
+                for (const Arc &segment : problem.planner->solutionArcs()->pieces)
                     EXPECT_GT(segment.length, 0.0);
                 EXPECT_TRUE(isAt(problem.poses().back(), goal));
                 EXPECT_TRUE(problem.path().check());

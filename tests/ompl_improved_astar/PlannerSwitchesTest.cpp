@@ -14,8 +14,8 @@
 namespace
 {
     using namespace parking_test;
-    using parking::ArcPath;
-    using parking::ArcSegment;
+    using parking::Arc;
+    using parking::Path;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
@@ -43,19 +43,19 @@ namespace
             return planned(Space::ReedsShepp, slotSite(), AISLE, SLOT, parameters);
         }
 
-        static double reverse(const ArcPath &path)
+        static double reverse(const Path &path)
         {
             double sum = 0.0;
-            for (const ArcSegment &segment : path.segments)
+            for (const PathPiece &segment : path.pieces)
                 sum += std::max(0.0, -segment.length);
             return sum;
         }
 
-        static double steering(const ArcPath &path)
+        static double steering(const Path &path)
         {
             double sum = 0.0;
-            for (std::size_t i = 1; i < path.segments.size(); ++i)
-                sum += std::abs(path.segments[i].curvature - path.segments[i - 1].curvature);
+            for (std::size_t i = 1; i < path.pieces.size(); ++i)
+                sum += std::abs(path.pieces[i].curvature - path.pieces[i - 1].curvature);
             return sum;
         }
 
@@ -346,7 +346,7 @@ namespace
             problem.from({0.0, 0.0, 0.0}).to({{0.0, 3.0, parking::PI}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             double sharpest = 0.0;
-            for (const ArcSegment &segment : problem.planner->solutionArcs()->segments)
+            for (const Arc &segment : problem.planner->solutionArcs()->pieces)
                 sharpest = std::max(sharpest, std::abs(segment.curvature));
             EXPECT_NEAR(sharpest, 1.0 / radius, 1e-9);
         }

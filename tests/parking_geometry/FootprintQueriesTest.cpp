@@ -24,7 +24,7 @@ namespace
 
 TEST(FootprintQueries, AWorldWithoutCallablesIsFree)
 {
-    EXPECT_TRUE(isPathFree({}, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
+    EXPECT_TRUE(isPathFree({}, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
     EXPECT_TRUE(isPathFree({}, Vehicle(), {}));
 }
 
@@ -39,12 +39,12 @@ TEST(FootprintQueries, ThePathCallableDecidesAlone)
     {
         return 0.0;
     };
-    queries.isPathFree = [](const Path &)
+    queries.isPathFree = [](const SampledPath &)
     {
         return true;
     };
-    EXPECT_TRUE(isPathFree(queries, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
-    queries.isPathFree = [](const Path &)
+    EXPECT_TRUE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
+    queries.isPathFree = [](const SampledPath &)
     {
         return false;
     };
@@ -52,17 +52,17 @@ TEST(FootprintQueries, ThePathCallableDecidesAlone)
     {
         return true;
     };
-    EXPECT_FALSE(isPathFree(queries, Vehicle(), ArcPath{{}, {{0.1, 5.0}}}.sample(0.1)));
+    EXPECT_FALSE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
 }
 
 TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenTheStates)
 {
     // A pin that the outer front corner hits between two states only.
     Vehicle car;
-    const ArcPath path{{}, {{1.0 / car.minTurningRadius(), 2.0}}};
-    const Path states = path.sample(2.0);
+    const Path path{{}, {{1.0 / car.minTurningRadius(), 2.0}}};
+    const SampledPath states = path.sample(2.0);
     ASSERT_EQ(states.size(), 2u);
-    const Pose middle = advance(path.start, path.segments[0].curvature, 1.0);
+    const Pose middle = advance(path.start, path.pieces[0].curvature, 1.0);
     const Eigen::Vector2d corner = car.footprint(middle)[1];
     const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.01)});
     ASSERT_TRUE(world.isFree(states[0].pose) && world.isFree(states[1].pose) && !world.isFree(middle));
@@ -81,7 +81,7 @@ TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
     int beyondHalf = 0;
     for (double length = 0.2; length < 3.0; length += 0.1)
     {
-        const ArcPath path{{}, {{curvature, length}}};
+        const Path path{{}, {{curvature, length}}};
         const Eigen::Vector2d corner = car.footprint(advance(path.start, curvature, 0.5 * length))[1];
         const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.004)});
         const double covered = world.clearance(path.start) + world.clearance(path.end());
@@ -101,7 +101,7 @@ TEST(FootprintQueries, ZeroClearanceLeavesTheDecisionToIsFree)
     // Along a wall that the body touches.
     const double y = 0.5 * car.width;
     const PolygonWorld world(car, {{{-5.0, y}, {15.0, y}, {15.0, y + 1.0}, {-5.0, y + 1.0}}});
-    const Path path = ArcPath{{}, {{0.0, 5.0}}}.sample(0.1);
+    const SampledPath path = Path{{}, {{0.0, 5.0}}}.sample(0.1);
     FootprintQueries queries = world.queries();
     ASSERT_EQ(queries.clearance(path[3].pose), 0.0);
     EXPECT_TRUE(isPathFree(queries, car, path));
@@ -116,8 +116,8 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
     for (int i = 0; i < 400; ++i)
     {
         const Vehicle car = random.vehicle();
-        const ArcPath path = random.plannerPath(car, 1.0);
-        const Path coarse = path.sample(0.2), dense = path.sample(0.002);
+        const Path path = random.plannerPath(car, 1.0);
+        const SampledPath coarse = path.sample(0.2), dense = path.sample(0.002);
         std::vector<Polygon> obstacles;
         for (int k = 0; k < 2; ++k)
         {
@@ -161,6 +161,6 @@ TEST(FootprintQueries, AsksSeldomWhereThereIsRoom)
         ++asked;
         return 5.0;
     };
-    EXPECT_TRUE(isPathFree(queries, car, ArcPath{{}, {{0.0, 30.0}}}.sample(0.1)));
+    EXPECT_TRUE(isPathFree(queries, car, Path{{}, {{0.0, 30.0}}}.sample(0.1)));
     EXPECT_LE(asked, 8);
 }

@@ -92,10 +92,10 @@ namespace parking_test
 
         /** Is the whole motion free? Poses are tested ever closer to each other until their distances to the obstacles
             cover all that the body may do between them, down to motions of \e finest metres. */
-        bool isPathFree(const ArcPath &path, double finest = 1e-4) const
+        bool isPathFree(const Path &path, double finest = 1e-4) const
         {
             Pose pose = path.start;
-            for (const ArcSegment &segment : path.segments)
+            for (const PathPiece &segment : path.pieces)
             {
                 if (!isArcFree(pose, segment, finest))
                     return false;
@@ -128,7 +128,7 @@ namespace parking_test
             return {pose.x + ahead * std::cos(pose.yaw), pose.y + ahead * std::sin(pose.yaw)};
         }
 
-        bool isArcFree(const Pose &from, const ArcSegment &arc, double finest) const
+        bool isArcFree(const Pose &from, const Arc &arc, double finest) const
         {
             const Pose pose = advance(from, arc.curvature, 0.5 * arc.length);
             const double moved =
@@ -138,7 +138,7 @@ namespace parking_test
                 return true;
             if (distance == 0.0 && !isFree(pose))
                 return false;
-            const ArcSegment half{arc.curvature, 0.5 * arc.length};
+            const Arc half{arc.curvature, 0.5 * arc.length};
             return moved < finest || (isArcFree(from, half, finest) && isArcFree(pose, half, finest));
         }
 

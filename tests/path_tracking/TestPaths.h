@@ -1,7 +1,7 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <cmath>
 #include <cstdint>
@@ -12,11 +12,11 @@
 namespace parking::test
 {
     /** A path of arcs, sampled. Curvatures as shares of the car's largest. */
-    inline Path arcs(const Pose &start, const std::vector<ArcSegment> &pieces, double step = 0.1,
-                     const Vehicle &vehicle = {})
+    inline SampledPath arcs(const Pose &start, const std::vector<Arc> &pieces, double step = 0.1,
+                            const Vehicle &vehicle = {})
     {
-        ArcPath path{start, {}};
-        for (const ArcSegment &piece : pieces)
+        Path path{start, {}};
+        for (const Arc &piece : pieces)
             path.append({piece.curvature / vehicle.minTurningRadius(), piece.length});
         return path.sample(step);
     }
@@ -31,9 +31,9 @@ namespace parking::test
 
     /** Samples pieces of continuous curvature: exact poses (integrated in steps of 1 mm), curvature of each sample that
         of the arc between its poses. */
-    inline Path smooth(const Pose &start, const std::vector<SmoothPiece> &pieces, double step = 0.1)
+    inline SampledPath smooth(const Pose &start, const std::vector<SmoothPiece> &pieces, double step = 0.1)
     {
-        Path path;
+        SampledPath path;
         PathState state;
         state.pose = start;
         for (const SmoothPiece &piece : pieces)
@@ -104,10 +104,10 @@ namespace parking::test
     };
 
     /** What a Reeds-Shepp planner delivers: full-lock arcs and lines, with cusps. */
-    inline Path randomReedsShepp(std::uint64_t seed, double length, double step = 0.1)
+    inline SampledPath randomReedsShepp(std::uint64_t seed, double length, double step = 0.1)
     {
         Random random(seed);
-        std::vector<ArcSegment> pieces;
+        std::vector<Arc> pieces;
         int direction = random.below(2) == 0 ? 1 : -1;
         double left = length;
         while (left > 0.0)
@@ -123,11 +123,11 @@ namespace parking::test
     }
 
     /** What a lattice planner with five steering angles delivers: arcs of half a metre. */
-    inline Path randomLattice(std::uint64_t seed, double length)
+    inline SampledPath randomLattice(std::uint64_t seed, double length)
     {
         Random random(seed);
         const Vehicle vehicle;
-        ArcPath path{{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, {}};
+        Path path{{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, {}};
         int direction = 1, angle = random.below(5) - 2;
         for (double left = length; left > 0.0; left -= 0.5)
         {
@@ -141,7 +141,7 @@ namespace parking::test
     }
 
     /** What a smoothing planner delivers: clothoids, arcs and lines of continuous curvature, with cusps. */
-    inline Path randomSmooth(std::uint64_t seed, double length, double step = 0.1)
+    inline SampledPath randomSmooth(std::uint64_t seed, double length, double step = 0.1)
     {
         Random random(seed);
         const double most = 1.0 / Vehicle().minTurningRadius();
@@ -171,10 +171,10 @@ namespace parking::test
 
         \param turns radians of the corner after each chord
         \param headingBefore is the heading at a corner that of the chord before it, or after? */
-    inline Path chords(const Pose &start, const std::vector<double> &lengths, const std::vector<double> &turns,
-                       bool headingBefore, double step = 0.0)
+    inline SampledPath chords(const Pose &start, const std::vector<double> &lengths, const std::vector<double> &turns,
+                              bool headingBefore, double step = 0.0)
     {
-        Path path;
+        SampledPath path;
         PathState state;
         state.pose = start;
         path.push_back(state);

@@ -1,8 +1,8 @@
 // A run's record keeps its path in few numbers, from which the path comes back.
 
-#include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/comparison/RunRecord.h"
-#include "parking_geometry/curves/ArcPath.h"
+#include "benchmarks/summary/ComparisonPictures.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace
         return RunRecord::fromJson(nlohmann::json::parse(record.toJson().dump()));
     }
 
-    void expectSame(const Path &a, const Path &b)
+    void expectSame(const SampledPath &a, const SampledPath &b)
     {
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i)
@@ -37,7 +37,7 @@ namespace
 
     TEST(RunRecord, ArcsComeBack)
     {
-        const ArcPath arcs{{1.0, 2.0, 0.5}, {{0.2, 3.0}, {0.0, -2.5}, {-0.25, 1.25}}};
+        const Path arcs{{1.0, 2.0, 0.5}, {{0.2, 3.0}, {0.0, -2.5}, {-0.25, 1.25}}};
         PlannedPath path;
         path.states = arcs.sample(0.1);
         const RunRecord record = throughText(path);
@@ -65,7 +65,7 @@ namespace
         }
         const RunRecord record = throughText(path);
         EXPECT_EQ(record.path.corners.size(), 2U);
-        const Path back = record.path.sample(0.1);
+        const SampledPath back = record.path.sample(0.1);
         ASSERT_EQ(back.size(), path.states.size());
         for (std::size_t i = 0; i < back.size(); ++i)
         {

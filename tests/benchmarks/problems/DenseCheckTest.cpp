@@ -1,7 +1,7 @@
 // The second check of finished paths: against an exact polygon test, at hand-made touches, and on torn paths.
 
 #include "benchmarks/problems/DenseCheck.h"
-#include "parking_geometry/curves/ArcPath.h"
+#include "parking_geometry/curves/Path.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 #include "tests/support/PolygonOracle.h"
@@ -87,12 +87,12 @@ namespace
         // A thin post in the middle of a straight drive of 20 m whose states are 10 m apart.
         const Scenario scenario = scenarioOf("[[[7, 0.9], [7.02, 0.9], [7.02, 1.5], [7, 1.5]]]");
         const DenseCheck check(scenario);
-        const Path path = ArcPath{{0.0, 0.0, 0.0}, {{0.0, 20.0}}}.sample(10.0);
+        const SampledPath path = Path{{0.0, 0.0, 0.0}, {{0.0, 20.0}}}.sample(10.0);
         const DenseResult hit = check.check(path, false, 0.2);
         EXPECT_FALSE(hit.valid);
         EXPECT_GT(hit.collisions, 900U);  // 4.69 m of car pass the post, tested every 5 mm
         EXPECT_NE(hit.reason.find("collision"), std::string::npos);
-        const Path aside = ArcPath{{0.0, -0.2, 0.0}, {{0.0, 20.0}}}.sample(10.0);
+        const SampledPath aside = Path{{0.0, -0.2, 0.0}, {{0.0, 20.0}}}.sample(10.0);
         const DenseResult free = check.check(aside, false, 0.2);
         EXPECT_TRUE(free.valid) << free.reason;
         EXPECT_GE(free.states, 4000U);
@@ -101,13 +101,13 @@ namespace
     TEST(DenseCheck, TornAndSharpPathsAreNotValid)
     {
         const DenseCheck check(scenarioOf("[]"));
-        Path path = ArcPath{{0.0, 0.0, 0.0}, {{0.1, 5.0}, {-0.1, 5.0}}}.sample(0.1);
+        SampledPath path = Path{{0.0, 0.0, 0.0}, {{0.1, 5.0}, {-0.1, 5.0}}}.sample(0.1);
         EXPECT_TRUE(check.check(path, false, 0.2).valid);
         EXPECT_FALSE(check.check(path, false, 0.09).valid);
-        Path torn = path;
+        SampledPath torn = path;
         torn[30].pose.y += 0.01;
         EXPECT_NE(check.check(torn, false, 0.2).reason.find("torn"), std::string::npos);
-        Path turned = path;
+        SampledPath turned = path;
         turned.back().pose.yaw += 0.01;
         EXPECT_FALSE(check.check(turned, false, 0.2).valid);
         EXPECT_FALSE(check.check({}, false, 0.2).valid);

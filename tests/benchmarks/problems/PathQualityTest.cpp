@@ -1,8 +1,8 @@
 // What the controller is given to drive: pathToDrive().
 
 #include "benchmarks/problems/PathQuality.h"
-#include "parking_geometry/curves/Kinematics.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Kinematics.h"
 #include "path_tracking/reference/PathSections.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ namespace parking
             for (std::size_t i = 1; i < poses.size(); ++i)
             {
                 const Pose &from = poses[i - 1], &to = poses[i];
-                const ArcSegment arc = arcBetween(from, to);
+                const Arc arc = arcBetween(from, to);
                 const double length = std::hypot(to.x - from.x, to.y - from.y);
                 state.pose = to;
                 state.arcLength += length;
@@ -38,7 +38,7 @@ namespace parking
             return path;
         }
 
-        double sharpest(const Path &path)
+        double sharpest(const SampledPath &path)
         {
             double most = 0.0;
             for (const PathState &state : path)
@@ -50,8 +50,8 @@ namespace parking
     TEST(PathToDrive, KeepsArcs)
     {
         PlannedPath path;
-        path.states = ArcPath{{1.0, 2.0, 0.3}, {{0.2, 3.0}, {-0.2, -2.0}}}.sample(0.1);
-        const Path drive = pathToDrive(path, CAR);
+        path.states = Path{{1.0, 2.0, 0.3}, {{0.2, 3.0}, {-0.2, -2.0}}}.sample(0.1);
+        const SampledPath drive = pathToDrive(path, CAR);
         ASSERT_EQ(drive.size(), path.states.size());
         for (std::size_t i = 0; i < drive.size(); ++i)
             EXPECT_EQ(drive[i].pose.x, path.states[i].pose.x);
@@ -63,7 +63,7 @@ namespace parking
         const PlannedPath path =
             straightLines({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2.0, 0.003, PI / 2}, {2, 1, PI / 2}, {2, 2, PI / 2}});
         ASSERT_THROW(splitPath(path.states, CAR), std::exception);
-        const Path drive = pathToDrive(path, CAR);
+        const SampledPath drive = pathToDrive(path, CAR);
         EXPECT_LE(sharpest(drive), 1.0 / CAR.minTurningRadius());
         const std::vector<PathSection> sections = splitPath(drive, CAR);
         ASSERT_EQ(sections.size(), 1U);
@@ -84,7 +84,7 @@ namespace parking
             poses.push_back({1.5 + 0.5 * std::sin(angle), 0.5 - 0.5 * std::cos(angle), angle});
         }
         poses.push_back({2, 3, PI / 2});
-        const Path drive = pathToDrive(straightLines(poses), CAR);
+        const SampledPath drive = pathToDrive(straightLines(poses), CAR);
         EXPECT_LE(sharpest(drive), 1.0 / CAR.minTurningRadius());
         bool found = false;
         for (const PathState &state : drive)
@@ -98,7 +98,7 @@ namespace parking
         std::vector<Pose> poses;
         for (int k = 0; k <= 40; ++k)
             poses.push_back({6.0 * std::sin(0.02 * k), 6.0 - 6.0 * std::cos(0.02 * k), 0.02 * k});
-        const Path drive = pathToDrive(straightLines(poses), CAR);
+        const SampledPath drive = pathToDrive(straightLines(poses), CAR);
         ASSERT_EQ(drive.size(), poses.size());
         EXPECT_NEAR(drive[5].curvature, 1.0 / 6.0, 1e-3);
         EXPECT_EQ(splitPath(drive, CAR)[0].cornerCount, 0U);
@@ -108,7 +108,7 @@ namespace parking
     {
         const PlannedPath path =
             straightLines({{0, 0, 0}, {-1, 0, 0}, {-2, 0, 0}, {-2.0, -0.003, PI / 2}, {-2, -1, PI / 2}});
-        const Path drive = pathToDrive(path, CAR);
+        const SampledPath drive = pathToDrive(path, CAR);
         for (const PathState &state : drive)
             EXPECT_EQ(state.direction, -1);
         for (std::size_t i = 1; i < drive.size(); ++i)
@@ -128,7 +128,7 @@ namespace parking
         // In the middle of a turn, and with a turn on the spot.
         for (const Pose &end : {Pose{1.1, 0.2, 1.2}, Pose{1.0, 0.0, 0.7}})
         {
-            const Path drive = pathToDrive(straightLines({{0, 0, 0}, {1, 0, 0}, end}), CAR);
+            const SampledPath drive = pathToDrive(straightLines({{0, 0, 0}, {1, 0, 0}, end}), CAR);
             EXPECT_NEAR(drive.back().pose.x, end.x, 1e-9);
             EXPECT_NEAR(drive.back().pose.y, end.y, 1e-9);
             EXPECT_NEAR(drive.back().pose.yaw, end.yaw, 1e-9);

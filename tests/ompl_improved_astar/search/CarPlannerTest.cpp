@@ -64,7 +64,7 @@ TEST(CarPlanner, solvesAndReportsWhatItReturns)
         std::vector<double> costs;
         const Outcome outcome =
             planner.solve(afterAsking(3000),
-                          [&](const ArcPath &path, double cost)
+                          [&](const Path &path, double cost)
                           {
                               costs.push_back(cost);
                               EXPECT_NEAR(cost, pathCost(costModel(parameters), path, problem.world), 1e-6);
@@ -127,7 +127,7 @@ TEST(CarPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
         CarPlanner planner;
         begin(planner, problem, parameters);
         std::vector<double> costs;
-        const auto record = [&](const ArcPath &path, double cost)
+        const auto record = [&](const Path &path, double cost)
         {
             EXPECT_EQ(faultOf(path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
             EXPECT_NEAR(cost, pathCost(costModel(parameters), path, problem.world), 1e-6);
@@ -160,7 +160,7 @@ TEST(CarPlanner, endsWhenTheSolutionIsGoodEnough)
     CarPlanner planner;
     begin(planner, problem, parameters);
     int reports = 0;
-    EXPECT_EQ(planner.solve(nullptr, [&](const ArcPath &, double) { return ++reports == 2; }), Outcome::Solved);
+    EXPECT_EQ(planner.solve(nullptr, [&](const Path &, double) { return ++reports == 2; }), Outcome::Solved);
     EXPECT_EQ(reports, 2);
 }
 
@@ -289,7 +289,7 @@ TEST(CarPlanner, approximatePathsEndAsNearAsTheCarComes)
                         }
                         ASSERT_NE(outcome, Outcome::Solved);
                     }
-                    ArcPath path;
+                    Path path;
                     ASSERT_TRUE(planner.approximate(target, nullptr, path));
                     EXPECT_EQ(faultOf(path, problem.world, problem.starts, {path.end()}, TURNING_RADIUS), "");
                     const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);

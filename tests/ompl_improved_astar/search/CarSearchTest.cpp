@@ -22,7 +22,7 @@ namespace
     struct Result
     {
         SearchOutcome outcome;
-        ArcPath path;
+        Path path;
         double cost;
         SearchStatistics statistics;
     };
@@ -42,10 +42,10 @@ namespace
         ASSERT_EQ(a.statistics.expanded, b.statistics.expanded);
         ASSERT_EQ(a.statistics.generated, b.statistics.generated);
         ASSERT_EQ(a.statistics.connections, b.statistics.connections);
-        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
-        for (std::size_t i = 0; i < a.path.segments.size(); ++i)
-            ASSERT_TRUE(a.path.segments[i].length == b.path.segments[i].length &&
-                        a.path.segments[i].curvature == b.path.segments[i].curvature);
+        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
+        for (std::size_t i = 0; i < a.path.pieces.size(); ++i)
+            ASSERT_TRUE(a.path.pieces[i].length == b.path.pieces[i].length &&
+                        a.path.pieces[i].curvature == b.path.pieces[i].curvature);
     }
 }  // namespace
 
@@ -404,13 +404,13 @@ TEST(CarSearch, comesAsNearToATargetAsTheCarCan)
         search.addStart(problem.starts.front());
         search.setTarget(target);
         EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
-        ArcPath path;
+        Path path;
         ASSERT_TRUE(search.nearestPath(target, path));
         EXPECT_EQ(faultOf(path, world, problem.starts, {path.end()}, TURNING_RADIUS), "");
         const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);
         EXPECT_LE(reached, nearestByFlooding(world, problem.starts.front(), target) + 0.1);
     }
-    ArcPath path;
+    Path path;
     DiscCarWorld world = twoRooms(3.0);
     CarSearch search;
     search.begin(world, carParameters());

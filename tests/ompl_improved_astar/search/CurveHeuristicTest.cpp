@@ -18,9 +18,9 @@ using namespace parking_test;
 
 namespace
 {
-    ArcPath randomDrive(TestRandom &random, double radius, bool forwardOnly)
+    Path randomDrive(TestRandom &random, double radius, bool forwardOnly)
     {
-        ArcPath path{random.poseIn(-5.0, 5.0), {}};
+        Path path{random.poseIn(-5.0, 5.0), {}};
         const std::uint32_t count = 1 + random.index(6);
         for (std::uint32_t i = 0; i < count; ++i)
         {
@@ -67,7 +67,7 @@ TEST(CurveHeuristic, exactIsNeverAboveTheLengthOfADrivablePath)
             TestRandom random(6);
             for (int i = 0; i < 5000; ++i)
             {
-                const ArcPath path = randomDrive(random, radius, family == CurveFamily::Dubins);
+                const Path path = randomDrive(random, radius, family == CurveFamily::Dubins);
                 CurveHeuristic forwards(curves);
                 if (i % 100 == 0)
                 {
@@ -242,7 +242,7 @@ TEST(CostModel, pricesLengthGearSteeringAndCloseness)
     model.steeringChangePenalty = 0.1;
     EXPECT_DOUBLE_EQ(model.join({0.25, -1.0}, {-0.25, -1.0}), 0.2);
     EXPECT_DOUBLE_EQ(model.join({0.0, 1.0}, {0.25, -1.0}), 2.1);
-    const ArcPath path{{}, {{0.25, 1.0}, {0.0, -2.0}, {0.0, 1.0}}};
+    const Path path{{}, {{0.25, 1.0}, {0.0, -2.0}, {0.0, 1.0}}};
     EXPECT_DOUBLE_EQ(pathCost(model, path, world), 1.0 + 2.1 + 3.0 + 2.0 + 1.0);
 
     model = {};
@@ -272,8 +272,8 @@ TEST(CostModel, curvesAndPathsCostTheSameAndNeverLessThanTheirLength)
         curves.candidates(from, to, candidates);
         for (const ReedsSheppCurve &curve : candidates)
         {
-            ArcPath path{from, {}};
-            path.segments.assign(curve.segments.begin(), curve.segments.begin() + static_cast<long>(curve.count));
+            Path path{from, {}};
+            path.pieces.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<long>(curve.count));
             ASSERT_NEAR(curveCost(model, from, curve, world), pathCost(model, path, world), 1e-9);
             ASSERT_GE(curveCost(model, from, curve, world), curve.length - 1e-9);
         }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
 #include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ namespace parking_test
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
         }
 
-        bool acceptPath(const parking::ArcPath & /*path*/) override
+        bool acceptPath(const parking::Path & /*path*/) override
         {
             ++pathsAsked;
             return true;
@@ -148,7 +148,7 @@ namespace parking_test
     }
 
     /** \brief What is wrong with a path, or nothing: curvature, direction, ends, collisions (every 2 mm). */
-    inline std::string faultOf(const parking::ArcPath &path, const DiscCarWorld &world,
+    inline std::string faultOf(const parking::Path &path, const DiscCarWorld &world,
                                const std::vector<parking::Pose> &starts, const std::vector<parking::Pose> &goals,
                                double turningRadius, bool forwardOnly = false)
     {
@@ -166,7 +166,7 @@ namespace parking_test
         if (!isOneOf(path.end(), goals, 1e-6))
             return "does not end at a goal";
         parking::Pose pose = path.start;
-        for (const parking::ArcSegment &segment : path.segments)
+        for (const parking::Arc &segment : path.pieces)
         {
             if (std::abs(segment.curvature) > (1.0 + 1e-9) / turningRadius)
                 return "turns too sharply";

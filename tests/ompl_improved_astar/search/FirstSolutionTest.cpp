@@ -53,7 +53,7 @@ namespace
             planner.addGoal(goal);
         Lengths lengths{0.0, 0.0};
         planner.solve([&planner] { return planner.statistics().expanded > EFFORT; },
-                      [&lengths](const ArcPath &path, double)
+                      [&lengths](const Path &path, double)
                       {
                           const double length = path.length();
                           if (lengths.first == 0.0)

@@ -88,7 +88,7 @@ TEST(FootprintEnvironment, severalMotionsFromOnePoseAreWhatEachIsAlone)
         const FootprintChecker checker(world.obstacles, vehicle);
         FootprintEnvironment environment(checker, {{-9.0, -4.0}, {7.0, 11.0}}, TOLERANCE);
         Random random(seed + 50);
-        std::vector<ArcSegment> arcs;
+        std::vector<Arc> arcs;
         std::vector<double> free;
         for (int i = 0; i < 500; ++i)
         {
@@ -125,7 +125,7 @@ TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
                 Pose pose = from;
                 for (std::size_t k = 0; k < curve.count && swept; ++k)
                 {
-                    const ArcSegment &piece = curve.segments[k];
+                    const Arc &piece = curve.pieces[k];
                     swept = world.freeLength(pose, piece.curvature, piece.length) >= std::abs(piece.length);
                     pose = advance(pose, piece.curvature, piece.length);
                 }
@@ -139,11 +139,10 @@ TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
                     for (std::size_t k = 0; k < curve.count; ++k)
                         for (int m = 0; m <= 200; ++m)
                         {
-                            const double part = curve.segments[k].length * m / 200.0;
-                            least =
-                                std::min(least, std::abs(world.gap(advance(at, curve.segments[k].curvature, part))));
+                            const double part = curve.pieces[k].length * m / 200.0;
+                            least = std::min(least, std::abs(world.gap(advance(at, curve.pieces[k].curvature, part))));
                             if (m == 200)
-                                at = advance(at, curve.segments[k].curvature, part);
+                                at = advance(at, curve.pieces[k].curvature, part);
                         }
                     ASSERT_LT(least, 0.02);
                 }

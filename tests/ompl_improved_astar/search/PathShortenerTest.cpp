@@ -18,9 +18,9 @@ namespace
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
     /** Drives about at random, free of obstacles. */
-    ArcPath wander(DiscCarWorld &world, TestRandom &random, bool forwardOnly = false)
+    Path wander(DiscCarWorld &world, TestRandom &random, bool forwardOnly = false)
     {
-        ArcPath path{world.freePose(random), {}};
+        Path path{world.freePose(random), {}};
         Pose pose = path.start;
         for (int i = 0; i < 12; ++i)
         {
@@ -53,9 +53,9 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         const CurveChoice choice = seed % 2 == 0 ? CurveChoice::All : CurveChoice::Cheapest;
         const ReedsShepp curves(RADIUS, forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
         const CostModel cost = model(1.0, 0.0);
-        const ArcPath before = wander(world, random, forwardOnly);
+        const Path before = wander(world, random, forwardOnly);
         ASSERT_EQ(faultOf(before, world, {before.start}, {before.end()}, RADIUS, forwardOnly), "");
-        ArcPath path = before;
+        Path path = before;
         PathShortener shortener(world, curves, cost);
         const double spacing = random.between(0.5, 3.0);
         const bool changed = shortener.pass(path, spacing, random.between(0.0, spacing), INFINITE, choice, nullptr);
@@ -67,16 +67,16 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
             ASSERT_EQ(now, old);
         ++(changed ? shortened : kept);
 
-        ArcPath again = before;
+        Path again = before;
         TestRandom same(seed);
         wander(world, same, forwardOnly);
         const double sameSpacing = same.between(0.5, 3.0);
         PathShortener(world, curves, cost)
             .pass(again, sameSpacing, same.between(0.0, sameSpacing), INFINITE, choice, nullptr);
-        ASSERT_EQ(again.segments.size(), path.segments.size());
-        for (std::size_t i = 0; i < path.segments.size(); ++i)
-            ASSERT_TRUE(again.segments[i].length == path.segments[i].length &&
-                        again.segments[i].curvature == path.segments[i].curvature);
+        ASSERT_EQ(again.pieces.size(), path.pieces.size());
+        for (std::size_t i = 0; i < path.pieces.size(); ++i)
+            ASSERT_TRUE(again.pieces[i].length == path.pieces[i].length &&
+                        again.pieces[i].curvature == path.pieces[i].curvature);
     }
     EXPECT_GT(shortened, 30);
     EXPECT_GT(kept, 0);
@@ -91,7 +91,7 @@ TEST(PathShortener, pricesClearanceAsTheWholePathDoes)
         TestRandom random(seed);
         const ReedsShepp curves(RADIUS);
         const CostModel cost = model(0.5, 2.0);
-        ArcPath path = wander(world, random);
+        Path path = wander(world, random);
         const double old = pathCost(cost, path, world);
         PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr);
         ASSERT_LE(pathCost(cost, path, world), old + 1e-9);
@@ -104,7 +104,7 @@ TEST(PathShortener, straightensADetourInTheOpen)
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
     // An S that comes back to its line.
-    ArcPath path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
+    Path path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     const Pose end = path.end();
     EXPECT_TRUE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
     EXPECT_NEAR(path.length(), std::hypot(end.x, end.y), 1e-6);
@@ -119,8 +119,8 @@ TEST(PathShortener, triesOtherCurvesThanTheCheapestWhenAllowed)
         TestRandom random(seed);
         const ReedsShepp curves(RADIUS);
         const CostModel cost = model(1.0, 0.0);
-        const ArcPath path = wander(world, random);
-        ArcPath one = path, other = path;
+        const Path path = wander(world, random);
+        Path one = path, other = path;
         PathShortener(world, curves, cost).pass(one, 1.0, 0.0, INFINITE, CurveChoice::Cheapest, nullptr);
         PathShortener(world, curves, cost).pass(other, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr);
         before += pathCost(cost, path, world);
@@ -139,17 +139,17 @@ TEST(PathShortener, twoQuarterTurnsTheSameWayAreTheShortestCurve)
     for (int i = 0; i < 20000; ++i)
     {
         const double gear = random.chance(0.5) ? 1.0 : -1.0;
-        ArcPath path{random.poseIn(-10.0, 10.0), {}};
+        Path path{random.poseIn(-10.0, 10.0), {}};
         for (int arc = 0; arc < 2; ++arc)
         {
             const double lock = static_cast<double>(random.index(3)) - 1.0;
             const double longest = lock == 0.0 ? 4.0 * RADIUS : 0.5 * PI * RADIUS;
-            path.segments.push_back({lock / RADIUS, gear * random.between(0.0, longest)});
+            path.pieces.push_back({lock / RADIUS, gear * random.between(0.0, longest)});
         }
         ASSERT_GE(curves.distance(path.start, path.end()), path.length() - 1e-6);
     }
     // A hair more than that, and there may be a shorter one.
-    const ArcPath wide{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 1.8 * RADIUS}, {1.0 / RADIUS, 1.8 * RADIUS}}};
+    const Path wide{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 1.8 * RADIUS}, {1.0 / RADIUS, 1.8 * RADIUS}}};
     EXPECT_LT(curves.distance(wide.start, wide.end()), wide.length() - 0.1);
 }
 
@@ -160,7 +160,7 @@ TEST(PathShortener, shortensOneWideTurn)
     const CostModel cost = model(0.0, 0.0);
     for (const double curvature : {1.0 / RADIUS, 0.4 / RADIUS})
     {
-        ArcPath path{{0.0, 0.0, 0.0}, {{curvature, 4.0 / std::abs(curvature)}}};
+        Path path{{0.0, 0.0, 0.0}, {{curvature, 4.0 / std::abs(curvature)}}};
         const double before = path.length();
         EXPECT_TRUE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, INFINITE, CurveChoice::Cheapest, nullptr));
         EXPECT_LT(path.length(), 0.95 * before);
@@ -172,8 +172,8 @@ TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
     DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
-    const ArcPath before{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
-    ArcPath path = before;
+    const Path before{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
+    Path path = before;
     EXPECT_FALSE(PathShortener(world, curves, cost).pass(path, 1.0, 0.0, 0.5, CurveChoice::All, nullptr));
     EXPECT_EQ(path.length(), before.length());
 }
@@ -184,29 +184,28 @@ TEST(PathShortener, takesNoCurveThatTheWorldRefuses)
     {
     public:
         using DiscCarWorld::DiscCarWorld;
-        bool acceptPath(const ArcPath & /*path*/) override
+        bool acceptPath(const Path & /*path*/) override
         {
             return false;
         }
     } world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
-    ArcPath path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
+    Path path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     EXPECT_FALSE(
         PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
-    EXPECT_EQ(path.segments.size(), 3u);
+    EXPECT_EQ(path.pieces.size(), 3u);
 }
 
 TEST(PathShortener, leavesTrivialPathsAlone)
 {
     DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
-    for (const std::vector<ArcSegment> &segments :
-         std::vector<std::vector<ArcSegment>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
+    for (const std::vector<Arc> &segments : std::vector<std::vector<Arc>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
     {
-        ArcPath path{{1.0, 2.0, 3.0}, segments};
+        Path path{{1.0, 2.0, 3.0}, segments};
         EXPECT_FALSE(
             PathShortener(world, curves, model(1.0, 0.0)).pass(path, 1.0, 0.0, INFINITE, CurveChoice::All, nullptr));
-        EXPECT_EQ(path.segments.size(), segments.size());
+        EXPECT_EQ(path.pieces.size(), segments.size());
     }
 }
 
@@ -216,8 +215,8 @@ TEST(PathShortener, stopsWhenTold)
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
     TestRandom random(3);
-    const ArcPath before = wander(world, random);
-    ArcPath path = before;
+    const Path before = wander(world, random);
+    Path path = before;
     PathShortener shortener(world, curves, cost);
     shortener.pass(path, 0.2, 0.0, INFINITE, CurveChoice::All, [] { return true; });
     EXPECT_LE(shortener.connections(), 16u);

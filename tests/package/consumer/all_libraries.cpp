@@ -3,8 +3,8 @@
 #include <string>
 
 #include <ompl_improved_astar/Parameters.h>
-#include <parking_geometry/curves/ArcPath.h>
 #include <parking_geometry/Error.h>
+#include <parking_geometry/curves/Path.h>
 #include <parking_geometry/io/ScenarioReader.h>
 #include <state_validity/FootprintChecker.h>
 #ifdef HAS_automatic_parking
@@ -23,7 +23,7 @@ int main(int argc, char **argv)
         return 1;
     }
 
-    parking::ArcPath path;
+    parking::Path path;
     path.append({0.1, 3.0});
     path.append({-0.1, 3.0});
 

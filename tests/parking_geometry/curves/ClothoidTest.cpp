@@ -79,11 +79,11 @@ TEST(Clothoid, SamplesLieOnThePathAtMostAStepApart)
         double curvature = random.uniform(-0.3, 0.3);
         for (int k = 0; k < 5; ++k)
         {
-            path.segments.push_back({curvature, random.uniform(-0.4, 0.4), direction * random.uniform(0.01, 1.5)});
-            curvature = path.segments.back().endCurvature();
+            path.pieces.push_back({curvature, random.uniform(-0.4, 0.4), direction * random.uniform(0.01, 1.5)});
+            curvature = path.pieces.back().endCurvature();
         }
         const double step = random.uniform(0.03, 0.5);
-        for (const Path &states : {path.sample(step), path.sampleEvenly(step)})
+        for (const SampledPath &states : {path.sample(step), path.sampleEvenly(step)})
         {
             EXPECT_EQ(gap(states.front().pose, path.start), 0.0);
             EXPECT_LT(gap(states.back().pose, path.end()), 1e-11);
@@ -97,19 +97,19 @@ TEST(Clothoid, SamplesLieOnThePathAtMostAStepApart)
             }
         }
         // Within a piece the heading changes by the mean curvature exactly.
-        const Path states = path.sample(step);
+        const SampledPath states = path.sample(step);
         for (std::size_t k = 1; k < states.size(); ++k)
             ASSERT_NEAR(wrapAngle(states[k].pose.yaw - states[k - 1].pose.yaw),
                         direction * 0.5 * (states[k].curvature + states[k - 1].curvature) *
                             (states[k].arcLength - states[k - 1].arcLength),
                         1e-11);
-        const Path even = path.sampleEvenly(step);
+        const SampledPath even = path.sampleEvenly(step);
         EXPECT_EQ(even.size(), static_cast<std::size_t>(std::ceil(path.length() / step)) + 1);
         for (const PathState &state : even)
         {
             Pose pose = path.start;
             double left = state.arcLength;
-            for (const ClothoidSegment &segment : path.segments)
+            for (const ClothoidSegment &segment : path.pieces)
             {
                 const double driven = std::min(left, std::abs(segment.length));
                 pose = advance(pose, segment, driven);

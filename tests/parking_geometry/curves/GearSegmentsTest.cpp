@@ -19,7 +19,7 @@ namespace
     Pose drive(const GearSegment &gear)
     {
         Pose pose = gear.start;
-        for (const ArcSegment &arc : gear.arcs)
+        for (const Arc &arc : gear.arcs)
             pose = advance(pose, arc.curvature, gear.direction * arc.length);
         return pose;
     }
@@ -30,7 +30,7 @@ TEST(GearSegments, StretchesFollowEachOther)
     RandomParking random(71);
     for (int i = 0; i < 1000; ++i)
     {
-        const ArcPath path = random.plannerPath(random.vehicle(), 1.0);
+        const Path path = random.plannerPath(random.vehicle(), 1.0);
         const std::vector<GearSegment> gears = gearSegments(path), sampled = gearSegments(path.sample(0.1));
         ASSERT_EQ(gears.size(), path.cusps() + 1);
         ASSERT_EQ(sampled.size(), gears.size());
@@ -65,9 +65,9 @@ TEST(GearSegments, StretchesFollowEachOther)
         }
         EXPECT_NEAR(length, path.length(), 1e-9);
     }
-    EXPECT_TRUE(gearSegments(ArcPath()).empty());
     EXPECT_TRUE(gearSegments(Path()).empty());
-    EXPECT_TRUE(gearSegments(Path(3)).empty()) << "states that do not move";
+    EXPECT_TRUE(gearSegments(SampledPath()).empty());
+    EXPECT_TRUE(gearSegments(SampledPath(3)).empty()) << "states that do not move";
 }
 
 TEST(GearSegments, PartsAndCutsKeepPosesAndLengths)

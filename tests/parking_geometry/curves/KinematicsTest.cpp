@@ -165,7 +165,7 @@ TEST(Kinematics, ArcBetweenFindsTheArc)
         const double length = random.uniform(-6.0, 6.0);
         if (std::abs(curvature * length) > 0.99 * PI || std::abs(length) < 1e-3)
             continue;
-        const ArcSegment arc = arcBetween(from, advance(from, curvature, length));
+        const Arc arc = arcBetween(from, advance(from, curvature, length));
         ASSERT_NEAR(arc.length, length, 1e-9);
         ASSERT_NEAR(arc.curvature, curvature, 1e-9 / std::abs(length));
     }

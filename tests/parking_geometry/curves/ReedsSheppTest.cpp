@@ -20,7 +20,7 @@ namespace
 
     Pose drive(const Pose &from, const ReedsSheppCurve &curve)
     {
-        ArcPath path{from, {curve.segments.begin(), curve.segments.begin() + static_cast<long>(curve.count)}};
+        Path path{from, {curve.pieces.begin(), curve.pieces.begin() + static_cast<long>(curve.count)}};
         return path.end();
     }
 
@@ -65,7 +65,7 @@ TEST(ReedsShepp, EveryWordEndsAtTheGoalAndTheShortestIsFirst)
                 ASSERT_LT(gap(drive(from, curve), to), 1e-6) << extent << " " << i;
                 ASSERT_GE(curve.length, curves.front().length);
                 for (std::size_t k = 0; k < curve.count; ++k)
-                    ASSERT_LE(std::abs(curve.segments[k].curvature) * solver.turningRadius(), 1.0 + 1e-12);
+                    ASSERT_LE(std::abs(curve.pieces[k].curvature) * solver.turningRadius(), 1.0 + 1e-12);
             }
             ASSERT_NEAR(solver.distance(from, to), curves.front().length, 1e-9);
             ASSERT_NEAR(solver.shortest(from, to).length, curves.front().length, 1e-9);
@@ -109,7 +109,7 @@ TEST(ReedsShepp, DubinsDrivesForwardsOnly)
             ASSERT_LT(gap(drive(from, curve), to), 1e-6);
             ASSERT_EQ(curve.cusps(), 0u);
             for (std::size_t k = 0; k < curve.count; ++k)
-                ASSERT_GT(curve.segments[k].length, 0.0);
+                ASSERT_GT(curve.pieces[k].length, 0.0);
         }
     }
 }

@@ -1,10 +1,10 @@
 #include "parking_geometry/drawing/Svg.h"
 
+#include "parking_geometry/drawing/CellOutlines.h"
+#include "parking_geometry/drawing/SvgText.h"
+#include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
-#include "parking_geometry/drawing/CellOutlines.h"
-#include "parking_geometry/io/ScenarioReader.h"
-#include "parking_geometry/drawing/SvgText.h"
 
 #include <algorithm>
 #include <cctype>
@@ -109,9 +109,9 @@ namespace
         return scenario;
     }
 
-    Path zigzag()
+    SampledPath zigzag()
     {
-        ArcPath arcs;
+        Path arcs;
         arcs.start = {0.0, 0.0, 0.0};
         arcs.append({0.0, 6.0});
         arcs.append({0.2, 4.0});
@@ -235,7 +235,7 @@ TEST(SvgMap, ShowsAtLeastWhatWasAskedAtEqualScaleWithYUp)
 TEST(SvgScenario, FitsTheViewToThePathNotToTheMap)
 {
     const Scenario scenario = slotScenario();
-    const Path path = zigzag();
+    const SampledPath path = zigzag();
     const Bounds view = viewAround(scenario, path);
     EXPECT_LT((view.max - view.min).maxCoeff(), 40.0);
     for (const PathState &state : path)
@@ -249,7 +249,7 @@ TEST(SvgScenario, FitsTheViewToThePathNotToTheMap)
 TEST(SvgFigure, DrawsAScenarioWithItsPath)
 {
     const Scenario scenario = slotScenario();
-    const Path path = zigzag();
+    const SampledPath path = zigzag();
     SvgMap map(viewAround(scenario, path));
     drawScenario(map, scenario);
     drawPath(map, path, scenario.vehicle);
@@ -329,7 +329,7 @@ TEST(SvgFigure, DrawsPathsOfAnyLength)
     const Vehicle car;
     for (const std::size_t count : {0u, 1u, 2u, 3u})
     {
-        Path path = zigzag();
+        SampledPath path = zigzag();
         path.resize(count);
         SvgMap map({{-5, -5}, {10, 5}});
         drawPath(map, path, car);

@@ -1,9 +1,9 @@
 #include "parking_geometry/manoeuvres/MultiMoveParking.h"
 
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 
@@ -56,7 +56,7 @@ TEST(MultiMoveParking, OneSweepNeedsNoPlanner)
 {
     const ReverseParking parking{Vehicle()};
     const ReverseParkingResult result = planInMoves(parking, ParkingSlot(), {},
-                                                    [](const SlotExitTask &) -> ArcPath
+                                                    [](const SlotExitTask &) -> Path
                                                     {
                                                         ADD_FAILURE() << "asked without need";
                                                         return {};
@@ -78,9 +78,9 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
     {
         // Straight to and fro, then to the exit by way of its pose: the exit is made to fit the path.
         ++asked;
-        ArcPath path{task.parked, {{0.0, 1.0}, {0.0, -0.5}}};
+        Path path{task.parked, {{0.0, 1.0}, {0.0, -0.5}}};
         if (task.side == SlotSide::Left)
-            return ArcPath{task.parked, {}};
+            return Path{task.parked, {}};
         const Pose exit = relativeTo(path.end(), task.exits.front());
         // Turn by pi/2 to the right and straight lines: ahead - r, then the arc, then right - r.
         const double radius = 3.1;
@@ -103,9 +103,9 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
         const SlotExitPlanner both = [&](const SlotExitTask &task)
         {
             const double mirror = task.side == SlotSide::Left ? -1.0 : 1.0, radius = 3.1;
-            ArcPath path{task.parked, {}};
+            Path path{task.parked, {}};
             if (task.side != better)
-                path.segments = {{0.0, 1.0}, {0.0, -0.5}, {0.0, 0.5}, {0.0, -0.5}};
+                path.pieces = {{0.0, 1.0}, {0.0, -0.5}, {0.0, 0.5}, {0.0, -0.5}};
             const Pose exit = relativeTo(path.end(), task.exits.front());
             path.append({0.0, exit.x - radius});
             path.append({-mirror / radius, radius * 0.5 * PI});
@@ -117,24 +117,24 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
 
     const ReverseParkingResult none = planInMoves(parking, slot, {},
                                                   [](const SlotExitTask &task) {
-                                                      return ArcPath{task.parked, {}};
+                                                      return Path{task.parked, {}};
                                                   });
     EXPECT_EQ(none.status, ReverseParkingStatus::AisleTooNarrow);
 
     const auto shifted = [&](const SlotExitTask &task)
     {
-        ArcPath path = shunts(task);
+        Path path = shunts(task);
         path.start.x += 0.01;
         return path;
     };
     expectError([&] { planInMoves(parking, slot, {}, shifted); }, {"multi-move", "begin"});
     const auto elsewhere = [&](const SlotExitTask &task)
     {
-        return ArcPath{task.parked, {{0.0, 1.0}}};
+        return Path{task.parked, {{0.0, 1.0}}};
     };
     expectError([&] { planInMoves(parking, slot, {}, elsewhere); }, {"multi-move", "exits"});
     FootprintQueries closed;
-    closed.isPathFree = [](const Path &)
+    closed.isPathFree = [](const SampledPath &)
     {
         return false;
     };

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "parking_geometry/curves/ArcPath.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 
 #include <random>
 
@@ -73,11 +73,11 @@ namespace parking_test
 
         /** What a lattice planner returns: stretches of pieces at full, half or no lock, 0.2 to 2.5 m each, at a
             turning radius that many times the smallest. */
-        ArcPath plannerPath(const Vehicle &car, double radiusFactor)
+        Path plannerPath(const Vehicle &car, double radiusFactor)
         {
             const double full = 1.0 / (radiusFactor * car.minTurningRadius());
             const double choices[] = {full, -full, full, -full, 0.5 * full, -0.5 * full, 0.0, 0.0};
-            ArcPath path{pose(20.0), {}};
+            Path path{pose(20.0), {}};
             double direction = coin() ? 1.0 : -1.0;
             for (int stretch = below(5); stretch >= 0; --stretch, direction = -direction)
                 for (int piece = below(6); piece >= 0; --piece)

@@ -1,8 +1,8 @@
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 #include <limits>
@@ -49,7 +49,7 @@ namespace
     }
 
     /** Height of the body above the line through the slots' mouths, at most, along \e path. */
-    double highest(const ParkingSlot &slot, const Vehicle &car, const ArcPath &path)
+    double highest(const ParkingSlot &slot, const Vehicle &car, const Path &path)
     {
         const double mirror = slot.side == SlotSide::Left ? -1.0 : 1.0;
         const double s = std::sin(slot.aisleAngle()), c = std::cos(slot.aisleAngle());
@@ -75,7 +75,7 @@ namespace
         const PolygonWorld world(car, slotSurroundings(slot, slot.side, INFINITE, 20.0));
         const auto out = [&](double radius, double straight)
         {
-            return ArcPath{
+            return Path{
                 goal, {{0.0, gear * straight}, {turn / radius, gear * radius * slot.aisleAngle()}, {0.0, gear * 3.0}}};
         };
         const auto needed = [&](double radius)
@@ -116,10 +116,10 @@ namespace
                 const double second = factor * car.minTurningRadius();
                 if ((first + second) * (1.0 - std::cos(turn)) < out)
                     continue;
-                const ArcPath path{slot.goals(car).front(),
-                                   {{side / first, gear * first * turn},
-                                    {-side / second, gear * second * turn},
-                                    {0.0, gear * 1.5 * car.length()}}};
+                const Path path{slot.goals(car).front(),
+                                {{side / first, gear * first * turn},
+                                 {-side / second, gear * second * turn},
+                                 {0.0, gear * 1.5 * car.length()}}};
                 if (world.isPathFree(path))
                     return true;
             }
@@ -137,7 +137,7 @@ namespace
         const auto offTheKerb = [&](double radius)
         {
             return street.isPathFree(
-                ArcPath{endless.goals(car).front(), {{side / radius, gear * std::min(radius * 1.2, 40.0)}}});
+                Path{endless.goals(car).front(), {{side / radius, gear * std::min(radius * 1.2, 40.0)}}});
         };
         const double smallest = car.minTurningRadius();
         const double radius = offTheKerb(smallest) ? smallest : bisect(smallest, 80.0, offTheKerb);
@@ -205,10 +205,10 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotAgreesWithBruteForceOnFootpr
             const double turn = random.uniform(0.05, 1.8);
             if ((first + second) * (1.0 - std::cos(turn)) < out)
                 continue;
-            ASSERT_FALSE(world.isPathFree(ArcPath{shorter.goals(car).front(),
-                                                  {{side / first, gear * first * turn},
-                                                   {-side / second, gear * second * turn},
-                                                   {0.0, gear * 1.5 * car.length()}}}));
+            ASSERT_FALSE(world.isPathFree(Path{shorter.goals(car).front(),
+                                               {{side / first, gear * first * turn},
+                                                {-side / second, gear * second * turn},
+                                                {0.0, gear * 1.5 * car.length()}}}));
         }
     }
 }

@@ -1,9 +1,9 @@
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 #include <limits>
@@ -62,7 +62,7 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
         ASSERT_EQ(gap(result.goal, slot.goals(car).front()), 0.0);
         if (!result.fits())
         {
-            ASSERT_TRUE(result.path.segments.empty());
+            ASSERT_TRUE(result.path.pieces.empty());
             ASSERT_GT(result.missing, 0.0);
             ASSERT_NE(result.message.find(" cm"), std::string::npos);
             ASSERT_EQ(result.moves(), 0u);
@@ -74,7 +74,7 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
         ASSERT_EQ(result.moves(), 1u);
         ASSERT_TRUE(result.message.empty());
         const double direction = slot.entry == SlotEntry::Forward ? 1.0 : -1.0;
-        for (const ArcSegment &segment : result.path.segments)
+        for (const PathPiece &segment : result.path.pieces)
         {
             ASSERT_GT(direction * segment.length, 0.0);
             ASSERT_LE(std::abs(segment.curvature), (1.0 + 1e-12) / car.minTurningRadius());
@@ -85,8 +85,8 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
         ASSERT_EQ(result.guardLength, options.guardLength);
         if (options.guardLength > 0.0)
         {
-            ASSERT_NEAR(std::abs(result.path.segments.front().length), options.guardLength, 1e-12);
-            ASSERT_EQ(result.path.segments.front().curvature, 0.0);
+            ASSERT_NEAR(std::abs(result.path.pieces.front().length), options.guardLength, 1e-12);
+            ASSERT_EQ(result.path.pieces.front().curvature, 0.0);
         }
         if (slot.kind == SlotKind::Parallel)
         {
@@ -159,14 +159,14 @@ TEST(ReverseParking, MirroredSlotsGiveMirroredManoeuvres)
         const ReverseParkingResult a = parking.plan(slot), b = parking.plan(mirrored);
         ASSERT_EQ(a.status, b.status);
         ASSERT_NEAR(a.missing, b.missing, 1e-9);
-        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
+        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
         if (!a.fits())
             continue;
         ASSERT_LT(gap({a.path.start.x, -a.path.start.y, -a.path.start.yaw}, b.path.start), 1e-9);
-        for (std::size_t k = 0; k < a.path.segments.size(); ++k)
+        for (std::size_t k = 0; k < a.path.pieces.size(); ++k)
         {
-            ASSERT_NEAR(a.path.segments[k].curvature, -b.path.segments[k].curvature, 1e-9);
-            ASSERT_NEAR(a.path.segments[k].length, b.path.segments[k].length, 1e-9);
+            ASSERT_NEAR(a.path.pieces[k].curvature, -b.path.pieces[k].curvature, 1e-9);
+            ASSERT_NEAR(a.path.pieces[k].length, b.path.pieces[k].length, 1e-9);
         }
     }
 }
@@ -187,13 +187,13 @@ TEST(ReverseParking, MovedSlotsGiveMovedManoeuvres)
         const ReverseParkingResult a = parking.plan(slot), b = parking.plan(moved);
         ASSERT_EQ(a.status, b.status);
         ASSERT_NEAR(a.missing, b.missing, 1e-9);
-        ASSERT_EQ(a.path.segments.size(), b.path.segments.size());
+        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
         if (a.fits())
         {
             ASSERT_LT(gap(compose(motion, a.path.start), b.path.start), 1e-9);
         }
-        for (std::size_t k = 0; k < a.path.segments.size(); ++k)
-            ASSERT_NEAR(a.path.segments[k].length, b.path.segments[k].length, 1e-9);
+        for (std::size_t k = 0; k < a.path.pieces.size(); ++k)
+            ASSERT_NEAR(a.path.pieces[k].length, b.path.pieces[k].length, 1e-9);
     }
 }
 
@@ -319,7 +319,7 @@ TEST(ReverseParking, TheWorldMayBeHarsherThanTheModel)
     const PolygonWorld walled(car, obstacles);
     const ReverseParkingResult blocked = parking.plan(slot, walled.queries());
     EXPECT_EQ(blocked.status, ReverseParkingStatus::Blocked);
-    EXPECT_TRUE(blocked.path.segments.empty());
+    EXPECT_TRUE(blocked.path.pieces.empty());
     EXPECT_NE(blocked.message.find("block"), std::string::npos);
 }
 
@@ -347,10 +347,10 @@ TEST(ReverseParking, EitherTriesEverySideAndEntry)
 
 TEST(ReverseParking, JoinedPathsMeet)
 {
-    const ArcPath first{{1.0, 2.0, 0.3}, {{0.2, 3.0}}};
-    ArcPath second{first.end(), {{0.2, 1.0}, {0.0, -2.0}}};
-    const ArcPath path = joined(first, second);
-    EXPECT_EQ(path.segments.size(), 2u) << "equal neighbours are one piece";
+    const Path first{{1.0, 2.0, 0.3}, {{0.2, 3.0}}};
+    Path second{first.end(), {{0.2, 1.0}, {0.0, -2.0}}};
+    const Path path = joined(first, second);
+    EXPECT_EQ(path.pieces.size(), 2u) << "equal neighbours are one piece";
     EXPECT_LT(gap(path.end(), second.end()), 1e-9);
     second.start.x += 1e-3;
     expectError([&] { joined(first, second); }, {"apart", "must start where the first ends"});

@@ -1,8 +1,8 @@
 #include "parking_geometry/manoeuvres/SlotExit.h"
 
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ using parking_test::RandomParking;
 namespace
 {
     /** Height of the body's corners over the line through \e corner along \e direction (its left is up), at most. */
-    double highest(const Vehicle &car, const ArcPath &path, const Eigen::Vector2d &corner, double direction)
+    double highest(const Vehicle &car, const Path &path, const Eigen::Vector2d &corner, double direction)
     {
         double most = -1e9;
         for (const PathState &state : path.sample(0.001))
@@ -49,7 +49,7 @@ TEST(SlotExit, StraightPieceAndAisleOfBaysAreExactForEveryRadius)
         const double radius = car.minTurningRadius() * std::exp(random.uniform(0.0, 1.5));
         const auto out = [&](double straight)
         {
-            return ArcPath{goal, {{0.0, straight}, {-1.0 / radius, radius * slot.angle}, {0.0, 4.0}}};
+            return Path{goal, {{0.0, straight}, {-1.0 / radius, radius * slot.angle}, {0.0, 4.0}}};
         };
         const double straight = straightBeforeTurn(bay, body, radius);
         const PolygonWorld world(car, slotSurroundings(slot, SlotSide::Right));
@@ -98,10 +98,10 @@ TEST(SlotExit, LaneOfParallelExitsIsExactForAllRadii)
         const PolygonWorld world(car, slotSurroundings(slot, SlotSide::Right, 1e3, 90.0));
         const auto path = [&](const LaneExit &lane)
         {
-            return ArcPath{goal,
-                           {{1.0 / lane.first, lane.first * lane.turn},
-                            {-1.0 / lane.second, lane.second * lane.turn},
-                            {0.0, 2.0 * car.length()}}};
+            return Path{goal,
+                        {{1.0 / lane.first, lane.first * lane.turn},
+                         {-1.0 / lane.second, lane.second * lane.turn},
+                         {0.0, 2.0 * car.length()}}};
         };
         const LaneExit exit = shallowestExit(kerb, body, first, second);
         ASSERT_TRUE(world.isPathFree(path(exit))) << i;

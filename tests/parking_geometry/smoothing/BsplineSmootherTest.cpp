@@ -1,9 +1,9 @@
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 
+#include "parking_geometry/curves/Kinematics.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/curves/Kinematics.h"
 
 #include <cmath>
 
@@ -61,7 +61,7 @@ TEST(BsplineSmoother, IsTheCurveOfDeBoorWithClampedEnds)
 {
     // Degree 3 through four control points is the Bezier curve of the paper's equation for n = 3.
     const Points points{{0.0, 0.0}, {1.0, 2.0}, {3.0, 2.0}, {4.0, 0.0}};
-    const Path path = bsplineSmooth(points, 3, 1);
+    const SampledPath path = bsplineSmooth(points, 3, 1);
     for (const PathState &state : path)
     {
         double nearest = 1e9;
@@ -90,7 +90,7 @@ TEST(BsplineSmoother, HeadingAndCurvatureAreThoseOfTheCurve)
                 options.degree = degree;
                 options.sampling = sampling;
                 options.step = 0.02;
-                const Path path = bsplineSmooth(points, options, Vehicle(), {}).path;
+                const SampledPath path = bsplineSmooth(points, options, Vehicle(), {}).path;
                 ASSERT_LT(
                     std::hypot(path.front().pose.x - points.front().x(), path.front().pose.y - points.front().y()),
                     1e-12);
@@ -98,7 +98,7 @@ TEST(BsplineSmoother, HeadingAndCurvatureAreThoseOfTheCurve)
                           1e-12);
                 for (std::size_t k = 1; k < path.size(); ++k)
                 {
-                    const ArcSegment arc = arcBetween(path[k - 1].pose, path[k].pose);
+                    const Arc arc = arcBetween(path[k - 1].pose, path[k].pose);
                     ASSERT_LE(std::abs(arc.length), options.step * (1.0 + 1e-3));
                     ASSERT_NEAR(path[k].arcLength - path[k - 1].arcLength, arc.length, 1e-12);
                     ASSERT_EQ(path[k].direction, 1);
@@ -116,7 +116,7 @@ TEST(BsplineSmoother, SmoothsCornersAndStaysNearThePolyline)
     for (int i = 0; i < 200; ++i)
     {
         const Points points = gridWalk(random, 60);
-        const Path path = bsplineSmooth(points, 3, 3);
+        const SampledPath path = bsplineSmooth(points, 3, 3);
         // The curve lies in the hulls of four control points, which are at most 9 steps apart.
         for (const PathState &state : path)
             ASSERT_LT(distanceToPolyline(points, state.pose), 1.6);
@@ -222,7 +222,7 @@ TEST(BsplineSmoother, KeepsTheCurvatureLimitWhereItCan)
 
 TEST(BsplineSmoother, ShortAndDegeneratePolylines)
 {
-    const Path line = bsplineSmooth({{0.0, 0.0}, {1.0, 1.0}}, 3, 4);
+    const SampledPath line = bsplineSmooth({{0.0, 0.0}, {1.0, 1.0}}, 3, 4);
     EXPECT_NEAR(pathLength(line), std::sqrt(2.0), 1e-9);
     for (const PathState &state : line)
         EXPECT_NEAR(state.pose.yaw, 0.25 * PI, 1e-9);

@@ -1,12 +1,12 @@
 #include "parking_geometry/smoothing/PathSmoother.h"
 
+#include "parking_geometry/curves/ReedsShepp.h"
+#include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
 #include "tests/parking_geometry/smoothing/SmoothPathChecks.h"
-#include "parking_geometry/curves/ReedsShepp.h"
-#include "parking_geometry/manoeuvres/ReverseParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 
@@ -22,21 +22,21 @@ using parking_test::RandomParking;
 
 namespace
 {
-    ArcPath reedsShepp(RandomParking &random, const Vehicle &car, double radiusFactor)
+    Path reedsShepp(RandomParking &random, const Vehicle &car, double radiusFactor)
     {
-        ArcPath path{random.pose(8.0), {}};
+        Path path{random.pose(8.0), {}};
         const ReedsSheppCurve curve =
             ReedsShepp(radiusFactor * car.minTurningRadius()).shortest(path.start, random.pose(8.0));
         for (std::size_t i = 0; i < curve.count; ++i)
-            path.append(curve.segments[i]);
+            path.append(curve.pieces[i]);
         return path;
     }
 
     /** Small obstacles 5 to 30 cm beside the body somewhere along the path, which stays free. */
-    std::vector<Polygon> debris(RandomParking &random, const Vehicle &car, const ArcPath &path, int count)
+    std::vector<Polygon> debris(RandomParking &random, const Vehicle &car, const Path &path, int count)
     {
         std::vector<Polygon> result;
-        const Path states = path.sample(0.1);
+        const SampledPath states = path.sample(0.1);
         for (int i = 0; i < count; ++i)
         {
             const Pose at = states[static_cast<std::size_t>(random.below(static_cast<int>(states.size())))].pose;
@@ -80,7 +80,7 @@ TEST(PathSmoother, PlannerPathsBecomeDrivable)
         SmoothingOptions options;
         options.speed = random.uniform(0.3, 2.0);
         options.step = random.uniform(0.05, 0.2);
-        const ArcPath path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
+        const Path path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
         EXPECT_TRUE(result.free);
@@ -95,8 +95,8 @@ TEST(PathSmoother, ShortPiecesAtHighSpeedStayAsLong)
     for (int i = 0; i < 2000; ++i)
     {
         const Vehicle car = random.vehicle();
-        ArcPath path = random.plannerPath(car, 1.15);
-        for (ArcSegment &segment : path.segments)
+        Path path = random.plannerPath(car, 1.15);
+        for (Arc &segment : path.pieces)
             segment.length *= 0.3;
         SmoothingOptions options;
         options.speed = 2.5;
@@ -115,7 +115,7 @@ TEST(PathSmoother, FullLockLeavesLittleRoomAndStopsAreCounted)
     {
         const Vehicle car = random.vehicle();
         const SmoothingOptions options;
-        const ArcPath path = random.plannerPath(car, 1.0);
+        const Path path = random.plannerPath(car, 1.0);
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
         share.add(result);
@@ -133,7 +133,7 @@ TEST(PathSmoother, AmongObstaclesTheResultIsFreeAndMostlyContinuous)
     {
         const Vehicle car = random.vehicle();
         const SmoothingOptions options;
-        const ArcPath path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
+        const Path path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
         const PolygonWorld world(car, debris(random, car, path, 10));
         FootprintQueries queries = world.queries();
         if (i % 5 == 0)
@@ -183,7 +183,7 @@ TEST(PathSmoother, AWallOnOneSideLeavesTheOther)
     // A wall 2 mm beside the body, up to where its tail is when the turn away from the wall begins. A smooth curve
     // turns earlier, which would swing the tail into the wall: it must move away first.
     const Vehicle car;
-    const ArcPath path{{}, {{0.0, 5.0}, {0.9 / car.minTurningRadius(), 4.0}, {0.0, 5.0}}};
+    const Path path{{}, {{0.0, 5.0}, {0.9 / car.minTurningRadius(), 4.0}, {0.0, 5.0}}};
     const double end = 4.95 - car.rearOverhang, y = -0.5 * car.width - 0.002;
     const PolygonWorld world(car, {{{end - 1.0, y - 0.5}, {end, y - 0.5}, {end, y}, {end - 1.0, y}}});
     ASSERT_TRUE(world.isPathFree(path));
@@ -201,7 +201,7 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
     // changes.
     const Vehicle car;
     const double curvature = 0.9 / car.minTurningRadius();
-    ArcPath path{{}, {}};
+    Path path{{}, {}};
     for (int i = 0; i < 8; ++i)
     {
         path.append({0.0, 12.0});
@@ -214,9 +214,9 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
     // Only poses of the arcs are free round the end of the fourth turn.
     Pose joint = path.start;
     for (int i = 0; i < 8; ++i)
-        joint = advance(joint, path.segments[static_cast<std::size_t>(i)].curvature,
-                        path.segments[static_cast<std::size_t>(i)].length);
-    const Path states = path.sample(0.01);
+        joint = advance(joint, path.pieces[static_cast<std::size_t>(i)].curvature,
+                        path.pieces[static_cast<std::size_t>(i)].length);
+    const SampledPath states = path.sample(0.01);
     FootprintQueries queries;
     queries.isFree = [&](const Pose &pose)
     {
@@ -247,13 +247,13 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
 TEST(PathSmoother, OneArcStaysAsItIs)
 {
     const Vehicle car;
-    const ArcPath path{{1.0, 2.0, 0.3}, {{1.0 / car.minTurningRadius(), 2.0}, {-0.2, -1.5}}};
+    const Path path{{1.0, 2.0, 0.3}, {{1.0 / car.minTurningRadius(), 2.0}, {-0.2, -1.5}}};
     const SmoothPath result = PathSmoother(car).smooth(path);
     ASSERT_EQ(result.gears.size(), 2u);
     EXPECT_FALSE(result.gears[0].changed || result.gears[1].changed);
     EXPECT_EQ(result.continuousGears(), 2u);
-    ASSERT_EQ(result.pieces.segments.size(), 2u);
-    EXPECT_EQ(result.pieces.segments[1].length, -1.5);
+    ASSERT_EQ(result.pieces.pieces.size(), 2u);
+    EXPECT_EQ(result.pieces.pieces[1].length, -1.5);
     EXPECT_NEAR(pathLength(result.path), 3.5, 1e-12);
     EXPECT_EQ(result.path.front().curvature, 1.0 / car.minTurningRadius());
 }
@@ -263,7 +263,7 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
     // Two tangent circles of the smallest radius: there is no longer way round that ends at the same pose.
     const Vehicle car;
     const double full = 1.0 / car.minTurningRadius();
-    const ArcPath path{{}, {{full, 1.5}, {-full, 1.5}}};
+    const Path path{{}, {{full, 1.5}, {-full, 1.5}}};
     const SmoothPath result = PathSmoother(car).smooth(path);
     ASSERT_EQ(result.stops.size(), 1u);
     EXPECT_EQ(result.continuousGears(), 0u);
@@ -271,12 +271,12 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
     EXPECT_EQ(result.speedLimit[result.stops[0]], 0.0);
     EXPECT_LT(gap(result.path[result.stops[0]].pose, advance({}, full, 1.5)), 1e-12);
     // A radius 5 % larger leaves the room.
-    const ArcPath wider{{}, {{full / 1.05, 1.5}, {-full / 1.05, 1.5}}};
+    const Path wider{{}, {{full / 1.05, 1.5}, {-full / 1.05, 1.5}}};
     EXPECT_EQ(PathSmoother(car).smooth(wider).stops.size(), 0u);
     // So does a line at either end, driven in either direction.
     for (const double direction : {1.0, -1.0})
     {
-        const ArcPath line{{}, {{full, direction * 1.5}, {-full, direction * 1.5}, {0.0, direction * 2.0}}};
+        const Path line{{}, {{full, direction * 1.5}, {-full, direction * 1.5}, {0.0, direction * 2.0}}};
         const SmoothPath smooth = PathSmoother(car).smooth(line);
         EXPECT_EQ(smooth.stops.size(), 0u);
         EXPECT_TRUE(smooth.gears[0].changed);
@@ -290,8 +290,8 @@ TEST(PathSmoother, WithoutRoomTheArcsStay)
     RandomParking random(45);
     for (int i = 0; i < 50; ++i)
     {
-        const ArcPath path = random.plannerPath(car, 1.03);
-        const Path states = path.sample(0.01);
+        const Path path = random.plannerPath(car, 1.03);
+        const SampledPath states = path.sample(0.01);
         FootprintQueries queries;
         queries.isFree = [&](const Pose &pose)
         {
@@ -310,8 +310,8 @@ TEST(PathSmoother, WithoutRoomTheArcsStay)
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options));
         EXPECT_TRUE(result.free) << i;
         std::size_t joints = 0;
-        for (std::size_t k = 1; k < path.segments.size(); ++k)
-            joints += path.segments[k].length * path.segments[k - 1].length > 0.0;
+        for (std::size_t k = 1; k < path.pieces.size(); ++k)
+            joints += path.pieces[k].length * path.pieces[k - 1].length > 0.0;
         EXPECT_LE(result.stops.size(), joints);
         EXPECT_GE(2 * result.stops.size(), joints) << "hardly a joint has room here";
     }
@@ -324,7 +324,7 @@ TEST(PathSmoother, ReportsThatTheGivenPathIsNotFree)
     {
         return pose.x < 3.0;
     };
-    const ArcPath path{{}, {{0.0, 2.0}, {0.2, 3.0}}};
+    const Path path{{}, {{0.0, 2.0}, {0.2, 3.0}}};
     const SmoothPath result = PathSmoother(Vehicle()).smooth(path, closed);
     EXPECT_FALSE(result.free);
     EXPECT_EQ(result.stops.size(), 1u);
@@ -335,7 +335,7 @@ TEST(PathSmoother, SlowerTransitionsDeviateLess)
 {
     const Vehicle car;
     const double full = 1.0 / car.minTurningRadius();
-    const ArcPath path{{}, {{0.0, 4.0}, {full, 3.0}, {0.0, 4.0}}};
+    const Path path{{}, {{0.0, 4.0}, {full, 3.0}, {0.0, 4.0}}};
     double last = 1e9;
     for (const double speed : {2.0, 1.0, 0.5, 0.25})
     {
@@ -344,7 +344,7 @@ TEST(PathSmoother, SlowerTransitionsDeviateLess)
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_EQ(result.stops.size(), 0u);
         double deviation = 0.0;
-        const Path arcs = path.sample(0.01);
+        const SampledPath arcs = path.sample(0.01);
         for (const PathState &state : result.path)
         {
             double nearest = 1e9;
@@ -364,10 +364,10 @@ TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
     for (int i = 0; i < 200; ++i)
     {
         const Vehicle car = random.vehicle();
-        const ArcPath path = random.plannerPath(car, 1.03);
-        ArcPath mirrored = path, moved = path;
+        const Path path = random.plannerPath(car, 1.03);
+        Path mirrored = path, moved = path;
         mirrored.start = {path.start.x, -path.start.y, -path.start.yaw};
-        for (ArcSegment &segment : mirrored.segments)
+        for (Arc &segment : mirrored.pieces)
             segment.curvature = -segment.curvature;
         const Pose motion = random.pose(100.0);
         moved.start = compose(motion, path.start);
@@ -391,7 +391,7 @@ TEST(PathSmoother, SampledPathsAreTakenForTheirArcs)
     for (int i = 0; i < 200; ++i)
     {
         const Vehicle car = random.vehicle();
-        const ArcPath path = random.plannerPath(car, 1.03);
+        const Path path = random.plannerPath(car, 1.03);
         const PathSmoother smoother(car);
         const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path.sample(0.1));
         ASSERT_EQ(a.gears.size(), b.gears.size());
@@ -409,7 +409,7 @@ TEST(PathSmoother, IsDeterministic)
     const PathSmoother smoother(car);
     for (int i = 0; i < 50; ++i)
     {
-        const ArcPath path = random.plannerPath(car, 1.0);
+        const Path path = random.plannerPath(car, 1.0);
         const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path);
         ASSERT_EQ(a.path.size(), b.path.size());
         for (std::size_t k = 0; k < a.path.size(); ++k)
@@ -419,12 +419,12 @@ TEST(PathSmoother, IsDeterministic)
 
 TEST(PathSmoother, PathsWithoutMotionHaveOneState)
 {
-    const SmoothPath none = PathSmoother(Vehicle()).smooth(ArcPath{{1.0, 2.0, 0.5}, {}});
+    const SmoothPath none = PathSmoother(Vehicle()).smooth(Path{{1.0, 2.0, 0.5}, {}});
     ASSERT_EQ(none.path.size(), 1u);
     EXPECT_EQ(none.path[0].pose.x, 1.0);
     EXPECT_TRUE(none.gears.empty());
-    EXPECT_EQ(PathSmoother(Vehicle()).smooth(Path{PathState()}).path.size(), 1u);
-    expectError([] { PathSmoother(Vehicle()).smooth(Path()); }, {"smoothing", "empty"});
+    EXPECT_EQ(PathSmoother(Vehicle()).smooth(SampledPath{PathState()}).path.size(), 1u);
+    expectError([] { PathSmoother(Vehicle()).smooth(SampledPath()); }, {"smoothing", "empty"});
 }
 
 TEST(PathSmoother, BadOptionsAreNamed)

@@ -24,12 +24,12 @@ namespace parking_test
     }
 
     /** Poses where \e path begins, changes its direction and ends. */
-    inline std::vector<Pose> cuspPoses(const ArcPath &path)
+    inline std::vector<Pose> cuspPoses(const Path &path)
     {
         std::vector<Pose> poses{path.start};
         Pose pose = path.start;
         double last = 0.0;
-        for (const ArcSegment &segment : path.segments)
+        for (const PathPiece &segment : path.pieces)
         {
             if (last * segment.length < 0.0)
                 poses.push_back(pose);
@@ -46,21 +46,21 @@ namespace parking_test
     }
 
     /** All that a result promises whatever the path. */
-    inline void expectDrivable(const SmoothPath &result, const ArcPath &given, const Vehicle &car,
+    inline void expectDrivable(const SmoothPath &result, const Path &given, const Vehicle &car,
                                const SmoothingOptions &options)
     {
-        const Path &path = result.path;
+        const SampledPath &path = result.path;
         ASSERT_EQ(path.size(), result.speedLimit.size());
         const double maxCurvature = 1.0 / car.minTurningRadius();
         // Start, goal and changes of direction are exact.
         const std::vector<Pose> poses = cuspPoses(given);
         ASSERT_EQ(result.gears.size() + 1, poses.size());
         std::vector<double> lengths;
-        for (std::size_t k = 0; k < given.segments.size(); ++k)
+        for (std::size_t k = 0; k < given.pieces.size(); ++k)
         {
-            if (k == 0 || given.segments[k].length * given.segments[k - 1].length < 0.0)
+            if (k == 0 || given.pieces[k].length * given.pieces[k - 1].length < 0.0)
                 lengths.push_back(0.0);
-            lengths.back() += std::abs(given.segments[k].length);
+            lengths.back() += std::abs(given.pieces[k].length);
         }
         for (std::size_t k = 0; k < result.gears.size(); ++k)
         {
@@ -93,7 +93,7 @@ namespace parking_test
             ASSERT_GT(driven, 0.0);
             ASSERT_LE(driven, options.step * (1.0 + 1e-9));
             // Position and heading: the arc between the states is the driven one.
-            const ArcSegment arc = arcBetween(path[i - 1].pose, path[i].pose);
+            const Arc arc = arcBetween(path[i - 1].pose, path[i].pose);
             ASSERT_EQ(arc.length < 0.0 ? -1 : 1, path[i].direction);
             ASSERT_NEAR(std::abs(arc.length), driven, 1e-5);
             ASSERT_LE(std::abs(arc.curvature), maxCurvature * (1.0 + 1e-5));
@@ -122,9 +122,9 @@ namespace parking_test
                 ASSERT_TRUE(standsAt(result, i) || result.speedLimit[i] >= gear.speed * (1.0 - 1e-9));
         // The pieces are one curve of bounded curvature, continuous but where the car stands.
         std::size_t jumps = 0;
-        for (std::size_t i = 1; i < result.pieces.segments.size(); ++i)
+        for (std::size_t i = 1; i < result.pieces.pieces.size(); ++i)
         {
-            const ClothoidSegment &before = result.pieces.segments[i - 1], &after = result.pieces.segments[i];
+            const ClothoidSegment &before = result.pieces.pieces[i - 1], &after = result.pieces.pieces[i];
             jumps += before.length * after.length > 0.0 && std::abs(before.endCurvature() - after.curvature) > 1e-9;
         }
         ASSERT_LE(jumps, result.stops.size());

@@ -1,8 +1,8 @@
 #include "path_tracking/control/TrackingController.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
 #include "path_tracking/simulation/Plant.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ namespace parking::test
 
         /** Lets a controller drive a car, \e spoil changing what the controller measures at a time. Every command is
             checked against the limits of the car. */
-        Drive driveWith(TrackingController &controller, const Path &path,
+        Drive driveWith(TrackingController &controller, const SampledPath &path,
                         const std::function<void(double, Measurement &)> &spoil = {})
         {
             const Vehicle vehicle;
@@ -71,14 +71,14 @@ namespace parking::test
             return drive;
         }
 
-        Path examplePath()
+        SampledPath examplePath()
         {
             return arcs({1.0, 2.0, 0.5}, {{0.0, 3.0}, {1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}});
         }
 
         TEST(TrackingController, ArrivesAndKeepsStanding)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path);
             EXPECT_EQ(drive.mode, TrackingMode::Arrived);
@@ -117,7 +117,7 @@ namespace parking::test
 
         TEST(TrackingController, SurvivesAShortFailureOfTheSolver)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             const TrackingParameters parameters;
             TrackingController controller(path, Vehicle(), parameters, 0.0,
                                           spoiled(12, parameters.maxFailures, failure));
@@ -130,7 +130,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsOnThePathWhenTheSolverKeepsFailing)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             const TrackingParameters parameters;
             for (const int from : {0, 5, 20, 35, 60})
                 for (const bool wild : {false, true})
@@ -156,7 +156,7 @@ namespace parking::test
 
         TEST(TrackingController, AWildOptimiserCannotRunAway)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             for (const double sign : {1.0, -1.0})
             {
                 const auto wild = [sign](const MpcProblem &)
@@ -176,7 +176,7 @@ namespace parking::test
 
         TEST(TrackingController, BridgesLostMeasurementsAndStopsWhenTheyStayAway)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             const TrackingParameters parameters;
             for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
             {
@@ -207,7 +207,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsOnRequest)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             TrackingController controller(path, Vehicle());
             bool asked = false;
             double place = 0.0;
@@ -232,7 +232,7 @@ namespace parking::test
             for (const double direction : {1.0, -1.0})
                 for (const Pose &error : {Pose{0.0, 0.3, 0.0}, Pose{0.0, 0.0, 0.15}, Pose{0.0, -0.2, -0.1}})
                 {
-                    const Path path = arcs({}, {{0.0, direction * 30.0}});
+                    const SampledPath path = arcs({}, {{0.0, direction * 30.0}});
                     TrackingController controller(path, vehicle);
                     Plant plant(vehicle, {}, compose(path.front().pose, error), 0.0, 0.005);
                     plant.drive({direction * 1.0, 0.0, false}, 2.0, {});
@@ -266,7 +266,7 @@ namespace parking::test
 
         TEST(TrackingController, StandingShortOfTheEndIsAcceptedOrNotAfterAWhile)
         {
-            const Path path = arcs({}, {{0.0, 3.0}});
+            const SampledPath path = arcs({}, {{0.0, 3.0}});
             const TrackingParameters parameters;
             TrackingController near(path, Vehicle(), parameters, 0.0, shyOf(0.05));
             const Drive accepted = driveWith(near, path);
@@ -281,7 +281,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsWhenTheCarStandsElsewhere)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             for (const Pose &error : {Pose{0.0, 0.51, 0.0}, Pose{0.0, 0.0, 0.72}})
             {
                 TrackingController controller(path, Vehicle());
@@ -298,7 +298,7 @@ namespace parking::test
         TEST(TrackingController, BrakesAsSoonAsTheEndIsPassed)
         {
             // A car that is ahead of its time by a metre and still fast.
-            const Path path = arcs({}, {{0.0, 3.0}});
+            const SampledPath path = arcs({}, {{0.0, 3.0}});
             for (const double beyond : {-0.01, 0.01})
             {
                 TrackingController controller(path, Vehicle());
@@ -317,7 +317,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsWhenTheWheelsDoNotTurn)
         {
-            const Path path = arcs({}, {{1.0, 3.0}});
+            const SampledPath path = arcs({}, {{1.0, 3.0}});
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path, [](double, Measurement &m) { m.steering = 0.1; });
             EXPECT_EQ(drive.mode, TrackingMode::Stopped);
@@ -327,7 +327,7 @@ namespace parking::test
 
         TEST(TrackingController, GivesUpOnACarThatDoesNotMove)
         {
-            const Path path = arcs({}, {{0.0, 3.0}});
+            const SampledPath path = arcs({}, {{0.0, 3.0}});
             TrackingController controller(path, Vehicle());
             TrackingMode mode = TrackingMode::Driving;
             std::string event;
@@ -344,7 +344,7 @@ namespace parking::test
 
         TEST(TrackingController, RefusesBadParameters)
         {
-            const Path path = examplePath();
+            const SampledPath path = examplePath();
             const auto refused = [&path](const auto &change)
             {
                 TrackingParameters parameters;
@@ -363,7 +363,7 @@ namespace parking::test
             refused([](TrackingParameters &p) { p.reference.cornerSpeed = 0.0; });
             refused([](TrackingParameters &p) { p.estimator.drift = 0.0; });
             EXPECT_THROW(TrackingController({}, Vehicle()), Error);
-            EXPECT_THROW(TrackingController(Path(1), Vehicle()), Error);
+            EXPECT_THROW(TrackingController(SampledPath(1), Vehicle()), Error);
             Vehicle slow;
             slow.maxSpeed = 1e-6;  // a valid car that no timed path suits
             EXPECT_THROW(TrackingController(path, slow), Error);

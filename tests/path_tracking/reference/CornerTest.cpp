@@ -1,8 +1,8 @@
 #include "path_tracking/reference/DrivablePath.h"
 #include "path_tracking/reference/ReferencePath.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace parking::test
     namespace
     {
         /** Distance of a point from a polyline of states, by brute force. */
-        double distanceTo(const Path &path, const Pose &point)
+        double distanceTo(const SampledPath &path, const Pose &point)
         {
             double best = 1e9;
             for (std::size_t i = 1; i < path.size(); ++i)
@@ -81,7 +81,8 @@ namespace parking::test
                     turns.push_back(random.below(5) == 0 ? (random.below(2) == 0 ? 1 : -1) * PI / 4 : 0.0);
                 }
                 turns.pop_back();
-                const Path path = chords({0.0, 0.0, 0.1 * static_cast<double>(seed)}, lengths, turns, seed % 2 == 0);
+                const SampledPath path =
+                    chords({0.0, 0.0, 0.1 * static_cast<double>(seed)}, lengths, turns, seed % 2 == 0);
                 const ReferencePath reference(path, Vehicle());
                 expectDrivable(reference);
                 double farthest = 0.0;
@@ -98,7 +99,7 @@ namespace parking::test
 
         TEST(Corners, SharpOnesAreTurnedAtAndTheLimitIsKept)
         {
-            const Path path = chords({}, {8.0, 8.0}, {PI / 2}, true);
+            const SampledPath path = chords({}, {8.0, 8.0}, {PI / 2}, true);
             ReferenceParameters parameters;
             const ReferencePath cut(path, Vehicle(), parameters);
             EXPECT_EQ(cut.corners(), 2u);  // the corner, and the end that the car misses by cutting it so late
@@ -124,7 +125,7 @@ namespace parking::test
         {
             for (const double degrees : {10.0, 30.0, 45.0, 90.0, 135.0, 180.0})
             {
-                Path path = chords({}, {10.0, 5.0}, {PI / 4}, true);
+                SampledPath path = chords({}, {10.0, 5.0}, {PI / 4}, true);
                 path.front().pose.yaw = degrees * PI / 180.0;
                 const ReferencePath reference(path, Vehicle());
                 expectDrivable(reference);
@@ -136,10 +137,10 @@ namespace parking::test
         {
             for (const double misfit : {0.0, 0.3, PI / 4})
             {
-                Path path = chords({}, {6.0, 6.0}, {PI / 4}, true, 0.5);
+                SampledPath path = chords({}, {6.0, 6.0}, {PI / 4}, true, 0.5);
                 Pose begin = path.back().pose;
                 begin.yaw += misfit;
-                const Path manoeuvre = arcs(begin, {{0.0, -2.0}, {1.0, -4.0}, {0.0, -3.0}});
+                const SampledPath manoeuvre = arcs(begin, {{0.0, -2.0}, {1.0, -4.0}, {0.0, -3.0}});
                 for (std::size_t i = 1; i < manoeuvre.size(); ++i)
                 {
                     path.push_back(manoeuvre[i]);
@@ -159,7 +160,7 @@ namespace parking::test
         TEST(Corners, ArePlacedAlikeInReverse)
         {
             // The same polyline driven in reverse: the mirror image of the drive.
-            Path path = chords({}, {8.0, 8.0}, {PI / 4}, true);
+            SampledPath path = chords({}, {8.0, 8.0}, {PI / 4}, true);
             const ReferencePath forwards(path, Vehicle());
             for (PathState &state : path)
             {

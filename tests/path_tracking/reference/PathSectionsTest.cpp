@@ -1,7 +1,7 @@
 #include "path_tracking/reference/PathSections.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace parking::test
 {
     namespace
     {
-        std::string errorOf(const Path &path)
+        std::string errorOf(const SampledPath &path)
         {
             try
             {
@@ -26,7 +26,7 @@ namespace parking::test
 
         TEST(PathSections, SplitsWhereTheDirectionChanges)
         {
-            const Path path = arcs({1.0, 2.0, 0.5}, {{1.0, 2.0}, {0.0, 1.0}, {-1.0, -3.0}, {0.0, 0.5}});
+            const SampledPath path = arcs({1.0, 2.0, 0.5}, {{1.0, 2.0}, {0.0, 1.0}, {-1.0, -3.0}, {0.0, 0.5}});
             const std::vector<PathSection> sections = splitPath(path, Vehicle());
             ASSERT_EQ(sections.size(), 3u);
             EXPECT_EQ(sections[0].direction, 1);
@@ -55,7 +55,8 @@ namespace parking::test
             const double radius = Vehicle().minTurningRadius();
             const double length = 1.5 * PI * radius;
             const Pose end = advance({}, 1.0 / radius, length);
-            const Path path{{{}, 0.0, 1.0 / radius, 1}, {{end.x, end.y, wrapAngle(end.yaw)}, length, 1.0 / radius, 1}};
+            const SampledPath path{{{}, 0.0, 1.0 / radius, 1},
+                                   {{end.x, end.y, wrapAngle(end.yaw)}, length, 1.0 / radius, 1}};
             const std::vector<PathSection> sections = splitPath(path, Vehicle());
             ASSERT_EQ(sections.size(), 1u);
             EXPECT_EQ(sections[0].cornerCount, 0u);
@@ -66,7 +67,7 @@ namespace parking::test
         {
             for (const bool before : {true, false})
             {
-                const Path path = chords({1.0, -2.0, 0.3}, {2.0, 1.0, 3.0}, {PI / 4, -PI / 2}, before, 0.5);
+                const SampledPath path = chords({1.0, -2.0, 0.3}, {2.0, 1.0, 3.0}, {PI / 4, -PI / 2}, before, 0.5);
                 const std::vector<PathSection> sections = splitPath(path, Vehicle());
                 ASSERT_EQ(sections.size(), 1u);
                 EXPECT_EQ(sections[0].cornerCount, 2u);
@@ -85,8 +86,8 @@ namespace parking::test
 
         TEST(PathSections, DropsRepeatedStates)
         {
-            const Path path = arcs({}, {{1.0, 2.0}, {0.0, -1.0}});
-            Path repeated;
+            const SampledPath path = arcs({}, {{1.0, 2.0}, {0.0, -1.0}});
+            SampledPath repeated;
             for (const PathState &state : path)
                 repeated.insert(repeated.end(), 3, state);
             const auto expected = splitPath(path, Vehicle()), actual = splitPath(repeated, Vehicle());
@@ -97,7 +98,7 @@ namespace parking::test
 
         TEST(PathSections, TurningOnTheSpotIsACorner)
         {
-            Path path = arcs({}, {{0.0, 2.0}});
+            SampledPath path = arcs({}, {{0.0, 2.0}});
             PathState turned = path.back();
             turned.pose.yaw = 1.0;
             path.push_back(turned);
@@ -115,17 +116,17 @@ namespace parking::test
         {
             EXPECT_EQ(errorOf({}), "path: it has 0 states; at least 2 are needed");
             EXPECT_EQ(errorOf({PathState()}), "path: it has 1 states; at least 2 are needed");
-            EXPECT_NE(errorOf(Path(5)).find("at one place"), std::string::npos);
+            EXPECT_NE(errorOf(SampledPath(5)).find("at one place"), std::string::npos);
 
-            const Path good = arcs({}, {{1.0, 2.0}});
+            const SampledPath good = arcs({}, {{1.0, 2.0}});
             EXPECT_EQ(errorOf(good), "");
             for (double PathState::*field : {&PathState::curvature, &PathState::arcLength})
             {
-                Path path = good;
+                SampledPath path = good;
                 path[7].*field = std::numeric_limits<double>::quiet_NaN();
                 EXPECT_NE(errorOf(path).find("path state 7"), std::string::npos);
             }
-            Path path = good;
+            SampledPath path = good;
             path[3].pose.x = std::numeric_limits<double>::infinity();
             EXPECT_NE(errorOf(path).find("path state 3"), std::string::npos);
             path = good;

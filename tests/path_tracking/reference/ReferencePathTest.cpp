@@ -1,7 +1,7 @@
 #include "path_tracking/reference/ReferencePath.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +17,12 @@ namespace parking::test
             for (const double step : {0.02, 0.1, 0.7})
             {
                 const double radius = Vehicle().minTurningRadius();
-                const ArcPath exact{{2.0, -1.0, 3.0}, {{1.0 / radius, 4.0}, {0.0, 2.0}, {-0.5 / radius, -3.0}}};
+                const Path exact{{2.0, -1.0, 3.0}, {{1.0 / radius, 4.0}, {0.0, 2.0}, {-0.5 / radius, -3.0}}};
                 const ReferencePath reference(exact.sample(step), Vehicle());
                 EXPECT_NEAR(reference.length(), exact.length(), 1e-9);
                 double s = 0.0;
                 Pose begin = exact.start;
-                for (const ArcSegment &segment : exact.segments)
+                for (const PathPiece &segment : exact.pieces)
                 {
                     for (double part = 0.05; part < 1.0; part += 0.1)
                     {
@@ -93,7 +93,7 @@ namespace parking::test
 
         TEST(ReferencePath, TheSpeedOfTheBlendDecidesWhetherToStop)
         {
-            const Path path = arcs({}, {{0.0, 3.0}, {0.4, 3.0}});
+            const SampledPath path = arcs({}, {{0.0, 3.0}, {0.4, 3.0}});
             ReferenceParameters parameters;
             const ReferencePath moving(path, Vehicle(), parameters);
             ASSERT_EQ(moving.legs().size(), 1u);
@@ -166,7 +166,7 @@ namespace parking::test
 
         TEST(ReferencePath, RefusesBadParameters)
         {
-            const Path path = arcs({}, {{0.0, 2.0}});
+            const SampledPath path = arcs({}, {{0.0, 2.0}});
             for (double ReferenceParameters::*field :
                  {&ReferenceParameters::bodyTolerance, &ReferenceParameters::minBlendSpeed,
                   &ReferenceParameters::maxBlendLength, &ReferenceParameters::maxCornerCut,

@@ -1,8 +1,8 @@
 #include "path_tracking/reference/SpeedProfile.h"
 
-#include "tests/path_tracking/reference/SpeedOptimum.h"
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
+#include "tests/path_tracking/reference/SpeedOptimum.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace parking::test
 {
     namespace
     {
-        SpeedProfile profileOf(const Path &path)
+        SpeedProfile profileOf(const SampledPath &path)
         {
             return SpeedProfile(path, Vehicle());
         }
@@ -69,7 +69,7 @@ namespace parking::test
         TEST(SpeedProfile, ObeysTheLimitsEverywhere)
         {
             for (std::uint64_t seed = 0; seed < 25; ++seed)
-                for (const Path &path :
+                for (const SampledPath &path :
                      {randomReedsShepp(seed, 30.0), randomLattice(seed, 30.0), randomSmooth(seed, 30.0)})
                 {
                     const SpeedProfile profile = profileOf(path);
@@ -89,7 +89,7 @@ namespace parking::test
         {
             // Integrating speed and steering of the trajectory, without looking at its poses, ends at the goal.
             for (std::uint64_t seed = 0; seed < 10; ++seed)
-                for (const Path &path : {randomReedsShepp(seed, 30.0), randomSmooth(seed, 30.0, 0.05)})
+                for (const SampledPath &path : {randomReedsShepp(seed, 30.0), randomSmooth(seed, 30.0, 0.05)})
                 {
                     const Vehicle vehicle;
                     const Trajectory trajectory = profileOf(path).sample(0.002);

@@ -1,7 +1,7 @@
 #include "path_tracking/simulation/ClosedLoop.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace parking::test
             return disturbances;
         }
 
-        DriveResult drive(const Path &path, const Disturbances &disturbances = {})
+        DriveResult drive(const SampledPath &path, const Disturbances &disturbances = {})
         {
             ClosedLoopParameters parameters;
             parameters.disturbances = disturbances;
@@ -90,8 +90,9 @@ namespace parking::test
 
         TEST(ClosedLoop, StaysOnThePathWithEverydayDisturbances)
         {
-            const std::vector<Path> paths{randomReedsShepp(1, 20.0), randomLattice(2, 20.0), randomSmooth(3, 20.0)};
-            for (const Path &path : paths)
+            const std::vector<SampledPath> paths{randomReedsShepp(1, 20.0), randomLattice(2, 20.0),
+                                                 randomSmooth(3, 20.0)};
+            for (const SampledPath &path : paths)
                 for (std::uint64_t seed = 1; seed <= 20; ++seed)
                     expectWithin(drive(path, everyday(seed)), 0.10, 0.05, 1.0);
         }
@@ -119,7 +120,7 @@ namespace parking::test
 
         TEST(ClosedLoop, ReturnsToThePathFromBesideIt)
         {
-            const Path path = arcs({}, {{0.0, 12.0}});
+            const SampledPath path = arcs({}, {{0.0, 12.0}});
             const ClosedLoop loop{Vehicle()};
             for (const Pose &start : {Pose{0.0, 0.2, 0.0}, Pose{0.0, -0.2, 0.1}, Pose{-0.3, 0.0, -0.1}})
             {
@@ -133,7 +134,7 @@ namespace parking::test
         TEST(ClosedLoop, ObeysTheLimitsOfTheCar)
         {
             const Vehicle vehicle;
-            for (const Path &path : {randomReedsShepp(5, 30.0), randomLattice(5, 30.0), randomSmooth(5, 30.0)})
+            for (const SampledPath &path : {randomReedsShepp(5, 30.0), randomLattice(5, 30.0), randomSmooth(5, 30.0)})
             {
                 const DriveResult result = drive(path);
                 const Trajectory &trajectory = result.trajectory;
@@ -176,11 +177,11 @@ namespace parking::test
 
         TEST(ClosedLoop, DoesNotDependOnWhereTheMapLies)
         {
-            const Path path = randomReedsShepp(8, 15.0);
+            const SampledPath path = randomReedsShepp(8, 15.0);
             const DriveResult expected = drive(path);
             for (const Pose &frame : {Pose{4.48e9, 0.0, 0.0}, Pose{-5.5e9, 8.7e9, 2.0}, Pose{0.0, 0.0, -3.0}})
             {
-                Path moved = path;
+                SampledPath moved = path;
                 for (PathState &state : moved)
                     state.pose = compose(frame, state.pose);
                 const DriveResult result = drive(moved);
@@ -191,7 +192,7 @@ namespace parking::test
 
         TEST(ClosedLoop, IsDeterministic)
         {
-            const Path path = randomReedsShepp(6, 10.0);
+            const SampledPath path = randomReedsShepp(6, 10.0);
             const DriveResult a = drive(path, everyday(7)), b = drive(path, everyday(7)), c = drive(path, everyday(8));
             ASSERT_EQ(a.trajectory.size(), b.trajectory.size());
             for (std::size_t i = 0; i < a.trajectory.size(); ++i)
@@ -204,7 +205,7 @@ namespace parking::test
 
         TEST(ClosedLoop, EvaluatesAsDocumented)
         {
-            const Path path = arcs({}, {{0.0, 6.0}, {1.0, -4.0}});
+            const SampledPath path = arcs({}, {{0.0, 6.0}, {1.0, -4.0}});
             const DriveResult result = drive(path, everyday(3));
             const Evaluation &e = result.evaluation;
             const Trajectory &trajectory = result.trajectory;
@@ -242,7 +243,7 @@ namespace parking::test
         {
             // A wall beside a straight drive: the clearance is that of the car's left side.
             const Vehicle vehicle;
-            const Path path = arcs({}, {{0.0, 8.0}});
+            const SampledPath path = arcs({}, {{0.0, 8.0}});
             for (const double gap : {0.1, -0.1})
             {
                 const double wall = 0.5 * vehicle.width + gap;
@@ -267,7 +268,7 @@ namespace parking::test
 
         TEST(ClosedLoop, TheMonitorStopsTheCar)
         {
-            const Path path = arcs({}, {{0.0, 20.0}});
+            const SampledPath path = arcs({}, {{0.0, 20.0}});
             ClosedLoop loop{Vehicle()};
             double at = 0.0;
             loop.setMonitor(
@@ -344,7 +345,7 @@ namespace parking::test
             refused([](ClosedLoopParameters &p) { p.tracking.mpc.step = 0.0; });
             const ClosedLoop loop{Vehicle()};
             EXPECT_THROW(loop.drive({}), Error);
-            EXPECT_THROW(loop.drive(Path(3)), Error);
+            EXPECT_THROW(loop.drive(SampledPath(3)), Error);
         }
 
         TEST(TimeStatistics, AreNearestRanks)

@@ -32,7 +32,7 @@ namespace
         Pose pose = from;
         for (std::size_t i = 0; i < curve.count && driven > 0.0; ++i)
         {
-            const ArcSegment &arc = curve.segments[i];
+            const Arc &arc = curve.pieces[i];
             const double part = std::min(driven, std::abs(arc.length));
             pose = advance(pose, arc.curvature, std::copysign(part, arc.length));
             driven -= part;
@@ -70,9 +70,9 @@ namespace
             double length = 0.0;
             for (std::size_t k = 0; k < curve.count; ++k)
             {
-                length += std::abs(curve.segments[k].length);
-                reversed += curve.segments[k].length < 0.0;
-                ASSERT_NE(curve.segments[k].length, 0.0);
+                length += std::abs(curve.pieces[k].length);
+                reversed += curve.pieces[k].length < 0.0;
+                ASSERT_NE(curve.pieces[k].length, 0.0);
             }
             ASSERT_NEAR(length, curve.length, 1e-9 * radius);
             for (double t = 0.0; t < 1.0; t += 0.0625)

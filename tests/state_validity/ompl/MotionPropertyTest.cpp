@@ -78,7 +78,7 @@ namespace
             bool close = false;
             for (std::size_t i = 0; i < curve.count; ++i)
             {
-                const auto &[curvature, length] = curve.segments[i];
+                const auto &[curvature, length] = curve.pieces[i];
                 ASSERT_TRUE(world.oracle.isArcFree(pose, curvature, length, vehicle, 1e-3, -rounding))
                     << world.name << std::setprecision(17) << " piece " << i << " from " << pose.x << " " << pose.y
                     << " " << pose.yaw << " curvature " << curvature << " length " << length;

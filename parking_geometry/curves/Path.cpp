@@ -1,0 +1,225 @@
+#include "parking_geometry/curves/Path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        // Gauss-Legendre, five points on [-1, 1].
+        constexpr double NODES[] = {-0.906179845938663993, -0.538469310105683091, 0.0, 0.538469310105683091,
+                                    0.906179845938663993};
+        constexpr double WEIGHTS[] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889,
+                                      0.478628670499366468, 0.236926885056189088};
+
+        /** Turning by up to this angle, the quadrature above is exact to about 1e-13 of the length. */
+        constexpr double ANGLE_PER_PANEL = 0.5;
+
+        bool isArc(const PathPiece &piece)
+        {
+            return piece.sharpness == 0.0 && piece.turn == 0.0;
+        }
+    }  // namespace
+
+    PathPiece PathPiece::turnOnTheSpot(double angle)
+    {
+        PathPiece piece;
+        piece.turn = angle;
+        return piece;
+    }
+
+    PathPiece PathPiece::reversed() const
+    {
+        PathPiece piece(endCurvature(), -length, -sharpness);
+        piece.turn = -turn;
+        return piece;
+    }
+
+    Pose advance(const Pose &pose, const PathPiece &piece, double driven)
+    {
+        if (piece.turn != 0.0)
+            return {pose.x, pose.y, pose.yaw + piece.turn};
+        const double sign = piece.length < 0.0 ? -1.0 : 1.0;
+        if (piece.sharpness == 0.0)
+            return advance(pose, piece.curvature, sign * driven);
+        const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.curvatureAt(driven)));
+        const int panels = 1 + static_cast<int>(steepest * driven / ANGLE_PER_PANEL);
+        const double half = 0.5 * driven / panels;
+        const auto yawAt = [&](double s)
+        {
+            return pose.yaw + sign * s * (piece.curvature + 0.5 * piece.sharpness * s);
+        };
+        double x = 0.0, y = 0.0;
+        for (int panel = 0; panel < panels; ++panel)
+            for (int i = 0; i < 5; ++i)
+            {
+                const double yaw = yawAt(half * (2 * panel + 1 + NODES[i]));
+                x += WEIGHTS[i] * std::cos(yaw);
+                y += WEIGHTS[i] * std::sin(yaw);
+            }
+        return {pose.x + sign * half * x, pose.y + sign * half * y, yawAt(driven)};
+    }
+
+    double Path::length() const
+    {
+        double sum = 0.0;
+        for (const PathPiece &piece : pieces)
+            sum += piece.driven();
+        return sum;
+    }
+
+    std::size_t Path::cusps() const
+    {
+        const std::size_t count = stretches().size();
+        return count > 0 ? count - 1 : 0;
+    }
+
+    Pose Path::end() const
+    {
+        Pose pose = start;
+        for (const PathPiece &piece : pieces)
+            pose = advance(pose, piece);
+        pose.yaw = wrapAngle(pose.yaw);
+        return pose;
+    }
+
+    Path Path::reversed() const
+    {
+        Path result{end(), {}};
+        result.pieces.reserve(pieces.size());
+        for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
+            result.pieces.push_back(piece->reversed());
+        return result;
+    }
+
+    void Path::append(const PathPiece &piece)
+    {
+        if (piece.length == 0.0 && piece.turn == 0.0)
+            return;
+        if (!pieces.empty())
+        {
+            PathPiece &last = pieces.back();
+            if (isArc(last) && isArc(piece) && last.curvature == piece.curvature && last.length * piece.length > 0.0)
+            {
+                last.length += piece.length;
+                return;
+            }
+        }
+        pieces.push_back(piece);
+    }
+
+    void Path::extend(const Path &path)
+    {
+        for (const PathPiece &piece : path.pieces)
+            append(piece);
+    }
+
+    std::vector<Stretch> Path::stretches() const
+    {
+        std::vector<Stretch> result;
+        std::size_t begin = 0;  // of what goes with the next piece that drives
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+        {
+            const int direction = pieces[i].direction();
+            if (direction == 0)
+                continue;
+            if (result.empty() || result.back().direction != direction)
+                result.push_back({begin, i + 1, direction});
+            result.back().last = begin = i + 1;
+        }
+        if (!result.empty())
+            result.back().last = pieces.size();
+        return result;
+    }
+
+    SampledPath Path::sample(double step) const
+    {
+        SampledPath path;
+        PathState state;
+        state.pose = start;
+        for (const PathPiece &piece : pieces)
+        {
+            const double length = piece.driven();
+            if (length == 0.0 && piece.turn == 0.0)
+                continue;
+            if (piece.turn == 0.0)
+            {
+                state.direction = piece.direction();
+                state.curvature = piece.curvature;
+            }
+            if (path.empty())
+                path.push_back(state);
+            const Pose from = path.back().pose;
+            const double before = path.back().arcLength;
+            const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
+            for (std::size_t i = 1; i <= count; ++i)
+            {
+                const double driven = length * static_cast<double>(i) / static_cast<double>(count);
+                state.pose = advance(from, piece, driven);
+                state.arcLength = before + driven;
+                if (piece.turn == 0.0)
+                    state.curvature = piece.curvatureAt(driven);
+                path.push_back(state);
+            }
+        }
+        if (path.empty())
+            path.push_back(state);
+        for (PathState &each : path)
+            each.pose.yaw = wrapAngle(each.pose.yaw);
+        return path;
+    }
+
+    SampledPath Path::sampleEvenly(double step) const
+    {
+        const double total = length();
+        const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(total / step)));
+        SampledPath path;
+        path.reserve(count + 1);
+        Pose pose = start;
+        double before = 0.0;
+        for (const PathPiece &piece : pieces)
+        {
+            const double length = piece.driven();
+            const auto add = [&](double driven, double arcLength)
+            {
+                PathState state;
+                state.pose = advance(pose, piece, driven);
+                state.pose.yaw = wrapAngle(state.pose.yaw);
+                state.arcLength = arcLength;
+                state.curvature = piece.curvatureAt(driven);
+                state.direction = piece.length < 0.0 ? -1 : 1;
+                path.push_back(state);
+            };
+            const bool last = &piece == &pieces.back();
+            while (path.size() < count)
+            {
+                const double arcLength = total * static_cast<double>(path.size()) / static_cast<double>(count);
+                if (arcLength > before + length)
+                    break;
+                add(arcLength - before, arcLength);
+            }
+            if (last)
+                add(length, total);
+            pose = advance(pose, piece);
+            before += length;
+        }
+        if (path.empty())
+            path.push_back({start, 0.0, 0.0, 1});
+        return path;
+    }
+
+    double pathLength(const SampledPath &path)
+    {
+        return path.empty() ? 0.0 : path.back().arcLength - path.front().arcLength;
+    }
+
+    std::size_t countCusps(const SampledPath &path)
+    {
+        std::size_t changes = 0;
+        for (std::size_t i = 2; i < path.size(); ++i)
+            if (path[i].direction != path[i - 1].direction)
+                ++changes;
+        return changes;
+    }
+}  // namespace parking
