@@ -1,7 +1,7 @@
 #include "automatic_parking/SlotPlanner.h"
 
-#include "ompl_improved_astar/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
+#include "ompl_improved_astar/search/FootprintEnvironment.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/Kinematics.h"
 #include "parking_geometry/manoeuvres/MultiMoveParking.h"

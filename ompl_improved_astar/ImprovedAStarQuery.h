@@ -2,10 +2,10 @@
 
 // Private to ImprovedAStar's own source files; not installed.
 
-#include "ompl_improved_astar/FootprintEnvironment.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
+#include "ompl_improved_astar/search/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/GridSearch.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"

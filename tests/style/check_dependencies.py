@@ -18,7 +18,7 @@ MAY_INCLUDE = {
     GEOMETRY: [],
     VALIDITY: [GEOMETRY],
     PLANNER: [VALIDITY, GEOMETRY],
-    f'{PLANNER}/search': [GEOMETRY],
+    f'{PLANNER}/search': [VALIDITY, GEOMETRY],
     TRACKING: [GEOMETRY],
     PIPELINE: LIBRARIES,
     'benchmarks': LIBRARIES + ['tests'],  # micro-benchmarks measure on the random worlds of the tests
@@ -31,7 +31,7 @@ NEVER = {
     GEOMETRY: ['ompl/', 'fcl/', 'ceres/'],
     VALIDITY: ['ompl/geometric/', 'ompl/control/', 'ompl/tools/', 'ceres/'],
     PLANNER: ['fcl/', 'ceres/', 'ompl/tools/'],
-    f'{PLANNER}/search': ['ompl/', 'fcl/', 'ceres/', f'{GEOMETRY}/io/'],
+    f'{PLANNER}/search': ['ompl/', 'fcl/', 'ceres/', f'{GEOMETRY}/io/', f'{VALIDITY}/ompl/', f'{VALIDITY}/fcl/'],
     TRACKING: ['ompl/', 'fcl/'],
 }
 

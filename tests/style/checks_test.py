@@ -78,7 +78,7 @@ class ChecksTest(unittest.TestCase):
                 ('state_validity/Bad.cpp', '"tests/Oracle.h"'),
                 ('path_tracking/Bad.cpp', '"state_validity/Checker.h"'),
                 ('ompl_improved_astar/Bad.cpp', '"path_tracking/control/Mpc.h"'),
-                ('ompl_improved_astar/search/Bad.h', '"state_validity/Checker.h"'),
+                ('ompl_improved_astar/search/Bad.h', '"state_validity/ompl/Checker.h"'),
                 ('ompl_improved_astar/search/Bad.h', '"parking_geometry/io/ScenarioReader.h"'),
                 ('ompl_improved_astar/search/Bad.h', '"ompl_improved_astar/ImprovedAStar.h"'),
                 ('ompl_improved_astar/search/Bad.h', '<ompl/base/Planner.h>'),

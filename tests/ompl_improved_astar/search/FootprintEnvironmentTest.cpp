@@ -1,9 +1,9 @@
 // What the search asks of the world, answered by the footprint checker within the bounds of the state space, and by any
 // other checker.
 
-#include "ompl_improved_astar/FootprintEnvironment.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/CurveCheck.h"
+#include "ompl_improved_astar/search/FootprintEnvironment.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 #include "tests/state_validity/RandomWorlds.h"
 
