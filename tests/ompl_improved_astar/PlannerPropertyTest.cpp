@@ -14,8 +14,8 @@
 namespace
 {
     using namespace parking_test;
-    using parking::Arc;
     using parking::Path;
+    using parking::PathPiece;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 

@@ -15,7 +15,7 @@
 namespace
 {
     using namespace parking_test;
-    using parking::Arc;
+    using parking::PathPiece;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
@@ -115,7 +115,7 @@ namespace
                 const Pose goal{12.0, -8.0 + 2.0 * i, 0.8 * i - parking::PI};
                 problem.from({-10.0, 0.0, 0.4 * i}).to({goal});
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << i;
-                for (const Arc &segment : problem.planner->solutionArcs()->pieces)
+                for (const PathPiece &segment : problem.planner->solutionArcs()->pieces)
                     EXPECT_GT(segment.length, 0.0);
                 EXPECT_TRUE(isAt(problem.poses().back(), goal));
                 EXPECT_TRUE(problem.path().check());

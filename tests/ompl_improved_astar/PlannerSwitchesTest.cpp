@@ -14,8 +14,8 @@
 namespace
 {
     using namespace parking_test;
-    using parking::Arc;
     using parking::Path;
+    using parking::PathPiece;
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
@@ -346,7 +346,7 @@ namespace
             problem.from({0.0, 0.0, 0.0}).to({{0.0, 3.0, parking::PI}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             double sharpest = 0.0;
-            for (const Arc &segment : problem.planner->solutionArcs()->pieces)
+            for (const PathPiece &segment : problem.planner->solutionArcs()->pieces)
                 sharpest = std::max(sharpest, std::abs(segment.curvature));
             EXPECT_NEAR(sharpest, 1.0 / radius, 1e-9);
         }

@@ -128,7 +128,7 @@ namespace parking_test
             return {pose.x + ahead * std::cos(pose.yaw), pose.y + ahead * std::sin(pose.yaw)};
         }
 
-        bool isArcFree(const Pose &from, const Arc &arc, double finest) const
+        bool isArcFree(const Pose &from, const PathPiece &arc, double finest) const
         {
             const Pose pose = advance(from, arc.curvature, 0.5 * arc.length);
             const double moved =

@@ -166,7 +166,7 @@ namespace parking_test
         if (!isOneOf(path.end(), goals, 1e-6))
             return "does not end at a goal";
         parking::Pose pose = path.start;
-        for (const parking::Arc &segment : path.pieces)
+        for (const parking::PathPiece &segment : path.pieces)
         {
             if (std::abs(segment.curvature) > (1.0 + 1e-9) / turningRadius)
                 return "turns too sharply";

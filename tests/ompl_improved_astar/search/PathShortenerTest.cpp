@@ -200,7 +200,8 @@ TEST(PathShortener, leavesTrivialPathsAlone)
 {
     DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
-    for (const std::vector<Arc> &segments : std::vector<std::vector<Arc>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
+    for (const std::vector<parking::PathPiece> &segments :
+         std::vector<std::vector<parking::PathPiece>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
     {
         Path path{{1.0, 2.0, 3.0}, segments};
         EXPECT_FALSE(

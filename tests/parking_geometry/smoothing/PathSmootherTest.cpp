@@ -96,7 +96,7 @@ TEST(PathSmoother, ShortPiecesAtHighSpeedStayAsLong)
     {
         const Vehicle car = random.vehicle();
         Path path = random.plannerPath(car, 1.15);
-        for (Arc &segment : path.pieces)
+        for (PathPiece &segment : path.pieces)
             segment.length *= 0.3;
         SmoothingOptions options;
         options.speed = 2.5;
@@ -367,7 +367,7 @@ TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
         const Path path = random.plannerPath(car, 1.03);
         Path mirrored = path, moved = path;
         mirrored.start = {path.start.x, -path.start.y, -path.start.yaw};
-        for (Arc &segment : mirrored.pieces)
+        for (PathPiece &segment : mirrored.pieces)
             segment.curvature = -segment.curvature;
         const Pose motion = random.pose(100.0);
         moved.start = compose(motion, path.start);
