@@ -1,6 +1,6 @@
 #include "benchmarks/comparison/BenchmarkConfig.h"
 
-#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/ReadFile.h"

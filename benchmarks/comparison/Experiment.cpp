@@ -1,8 +1,8 @@
 #include "benchmarks/comparison/Experiment.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
 #include <ompl/base/samplers/BridgeTestValidStateSampler.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "benchmarks/comparison/Experiment.h"
-#include "benchmarks/programs/PlanRun.h"
 #include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/problems/PlanRun.h"
 
 #include <atomic>
 #include <map>

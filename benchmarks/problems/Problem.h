@@ -3,9 +3,9 @@
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/planners/SolveRecord.h"
 #include "parking_geometry/Scenario.h"
-#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ObstacleSet.h"
+#include "state_validity/ompl/CurveSpace.h"
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>

@@ -1,6 +1,6 @@
 #include "benchmarks/programs/BenchmarkOptions.h"
 
-#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 

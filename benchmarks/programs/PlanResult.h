@@ -1,7 +1,7 @@
 #pragma once
 
+#include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/programs/PlanOptions.h"
-#include "benchmarks/programs/PlanRun.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // parking_benchmark: compares planners on parking problems. docs/comparison.md says how.
 
-#include "benchmarks/programs/BenchmarkOptions.h"
-#include "benchmarks/comparison/Comparison.h"
 #include "benchmarks/planners/PluginLoader.h"
+#include "benchmarks/programs/BenchmarkOptions.h"
+#include "benchmarks/programs/Comparison.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 

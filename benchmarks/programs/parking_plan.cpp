@@ -1,9 +1,9 @@
 // parking_plan: plans one scenario. docs/comparison.md says how.
 
-#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/planners/PluginLoader.h"
 #include "benchmarks/programs/PlanOptions.h"
 #include "benchmarks/programs/PlanResult.h"
-#include "benchmarks/planners/PluginLoader.h"
+#include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"

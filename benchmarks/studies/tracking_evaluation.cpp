@@ -3,7 +3,7 @@
 // of docs/path-tracking.md comes from here.
 
 #include "automatic_parking/AutomaticParking.h"
-#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "benchmarks/problems/Problem.h"
 #include "benchmarks/comparison/RunRecord.h"
 #include "benchmarks/planners/SolveRecord.h"
+#include "benchmarks/problems/Problem.h"
 
 #include <string>
 #include <vector>

@@ -25,6 +25,9 @@ MAY_INCLUDE = {
     'examples': LIBRARIES,
     'tests': LIBRARIES + ['benchmarks', 'examples'],
 }
+# The rooms of the comparison, each of which may use those before it. The studies beside them use what they like.
+ROOMS = [f'benchmarks/{room}' for room in ('system', 'planners', 'problems', 'comparison', 'summary', 'programs')]
+MAY_INCLUDE.update({room: LIBRARIES + ROOMS[:k] for k, room in enumerate(ROOMS)})
 
 # folder -> what it must not include although it may include what is round it.
 NEVER = {

@@ -1,6 +1,6 @@
 // Planners by name, and parameters as texts that must be what the planner makes of them.
 
-#include "benchmarks/programs/PlanRun.h"
+#include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/problems/Problem.h"
 #include "parking_geometry/io/ScenarioReader.h"

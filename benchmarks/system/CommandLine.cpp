@@ -1,4 +1,4 @@
-#include "benchmarks/programs/CommandLine.h"
+#include "benchmarks/system/CommandLine.h"
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/programs/PlanRun.h"
+#include "benchmarks/problems/PlanRun.h"
 
 #include "ompl_improved_astar/ImprovedAStar.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "benchmarks/programs/BenchmarkOptions.h"
 #include "benchmarks/comparison/Experiment.h"
-#include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/programs/BenchmarkOptions.h"
 
 #include <nlohmann/json.hpp>
 
