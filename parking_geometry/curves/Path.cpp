@@ -115,6 +115,16 @@ namespace parking
             append(piece);
     }
 
+    Path Path::part(std::size_t first, std::size_t last) const
+    {
+        Path result{
+            start,
+            {pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.begin() + static_cast<std::ptrdiff_t>(last)}};
+        for (std::size_t i = 0; i < first; ++i)
+            result.start = advance(result.start, pieces[i]);
+        return result;
+    }
+
     std::vector<Stretch> Path::stretches() const
     {
         std::vector<Stretch> result;
@@ -138,6 +148,13 @@ namespace parking
         SampledPath path;
         PathState state;
         state.pose = start;
+        // A turn before the first drive has the direction of that.
+        const auto drives = [](const PathPiece &piece)
+        {
+            return piece.direction() != 0;
+        };
+        if (const auto first = std::find_if(pieces.begin(), pieces.end(), drives); first != pieces.end())
+            state.direction = first->direction();
         for (const PathPiece &piece : pieces)
         {
             const double length = piece.driven();

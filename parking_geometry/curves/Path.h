@@ -125,6 +125,11 @@ namespace parking
         /** \brief Adds the pieces of a path that starts where this one ends. */
         void extend(const Path &path);
 
+        /** \brief The pieces from \e first to before \e last as a path of their own, from where the first of them
+         * begins.
+         */
+        Path part(std::size_t first, std::size_t last) const;
+
         /** \brief The stretches in order. A turn on the spot belongs to the stretch that it precedes; one at the very
             end belongs to the last stretch. Pieces that do nothing are passed over. Empty for a path that never
             drives. */

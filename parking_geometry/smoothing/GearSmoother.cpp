@@ -46,7 +46,7 @@ namespace parking
             constexpr double W[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
             const double turn = 0.5 * (k0 + k1) * length;
             if (std::max(std::abs(k0), std::abs(k1)) * length > 0.15)
-                return advance({}, ClothoidSegment{k0, (k1 - k0) / length, length}, length);
+                return advance({}, PathPiece(k0, length, (k1 - k0) / length), length);
             double x = 0.0, y = 0.0;
             for (int i = 0; i < 3; ++i)
             {
@@ -239,7 +239,7 @@ namespace parking
     }
 
     bool GearSmoother::smooth(const GearSegment &gear, const Limits &limits, const Clearance &clearance,
-                              std::vector<ClothoidSegment> &result)
+                              std::vector<PathPiece> &result)
     {
         result.clear();
         if (gear.arcs.empty())
@@ -277,9 +277,8 @@ namespace parking
         if (!found)
             return false;
         for (std::size_t i = 0; i < lengths_.size(); ++i)
-            result.push_back({gear.direction * curvatures_[i],
-                              (curvatures_[i + 1] - curvatures_[i]) * gear.direction / lengths_[i],
-                              gear.direction * lengths_[i]});
+            result.emplace_back(gear.direction * curvatures_[i], gear.direction * lengths_[i],
+                                (curvatures_[i + 1] - curvatures_[i]) * gear.direction / lengths_[i]);
         return true;
     }
 }  // namespace parking

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "parking_geometry/curves/Clothoid.h"
-#include "parking_geometry/smoothing/CurvatureProgram.h"
-#include "parking_geometry/curves/GearSegments.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/GearSegments.h"
+#include "parking_geometry/curves/Path.h"
+#include "parking_geometry/smoothing/CurvatureProgram.h"
 
 #include <functional>
 #include <vector>
@@ -39,7 +39,7 @@ namespace parking
             poses moved to either side, promises that it is free \param result the pieces, from gear.start to gear.end
             within 1e-9 m \return whether there is such a path */
         bool smooth(const GearSegment &gear, const Limits &limits, const Clearance &clearance,
-                    std::vector<ClothoidSegment> &result);
+                    std::vector<PathPiece> &result);
 
     private:
         struct Node

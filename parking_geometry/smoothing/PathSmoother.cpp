@@ -34,7 +34,7 @@ namespace parking
         constexpr double BEND_OF_CUT = 0.99;
 
         /** The speed up to which the steering keeps up along all of \e piece. */
-        double steeringLimit(const Vehicle &vehicle, const ClothoidSegment &piece)
+        double steeringLimit(const Vehicle &vehicle, const PathPiece &piece)
         {
             const double from = piece.curvature, to = piece.endCurvature();
             const double least = from * to <= 0.0 ? 0.0 : std::min(std::abs(from), std::abs(to));
@@ -44,7 +44,7 @@ namespace parking
         /** A part of a stretch between two stops. */
         struct SmoothPart
         {
-            ClothoidPath pieces;
+            Path pieces;
             Pose end;
             double speed{0.0};
             bool changed{false};
@@ -75,7 +75,7 @@ namespace parking
             {
                 SmoothPart result{{gear.start, {}}, gear.end, planned_, false, true, gear.movingEnd};
                 for (const Arc &arc : gear.arcs)
-                    result.pieces.pieces.push_back({arc.curvature, 0.0, gear.direction * arc.length});
+                    result.pieces.pieces.emplace_back(arc.curvature, gear.direction * arc.length);
                 result.free = isFree(result);
                 return result;
             }
@@ -172,10 +172,10 @@ namespace parking
                 return false;
             }
 
-            double steeringSpeed(const ClothoidPath &pieces) const
+            double steeringSpeed(const Path &pieces) const
             {
                 double least = vehicle_.maxSpeed;
-                for (const ClothoidSegment &piece : pieces.pieces)
+                for (const PathPiece &piece : pieces.pieces)
                     least = std::min(least, steeringLimit(vehicle_, piece));
                 return least;
             }
@@ -261,7 +261,7 @@ namespace parking
             }
 
         private:
-            double limitOf(const ClothoidSegment &segment) const
+            double limitOf(const PathPiece &segment) const
             {
                 return std::min(vehicle_.maxSpeed, steeringLimit(vehicle_, segment));
             }

@@ -2,7 +2,6 @@
 
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/Vehicle.h"
-#include "parking_geometry/curves/Clothoid.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
@@ -54,7 +53,7 @@ namespace parking
             that of the vehicle; 0 where the car stops: first and last state, changes of direction, stops. */
         std::vector<double> speedLimit;
 
-        ClothoidPath pieces;             ///< the same path in exact form
+        Path pieces;                     ///< the same path in exact form
         std::vector<GearReport> gears;   ///< the stretches in order
         std::vector<std::size_t> stops;  ///< states inside of stretches where the car stops to steer
         double lengthBefore{0.0};        ///< metres, of the arcs

@@ -54,7 +54,7 @@ namespace
 
         // Pieces meet with equal curvature unless the car stands between them.
         std::size_t jumps = 0;
-        const std::vector<ClothoidSegment> &pieces = plan.smooth.pieces.pieces;
+        const std::vector<PathPiece> &pieces = plan.smooth.pieces.pieces;
         for (std::size_t i = 1; i < pieces.size(); ++i)
             jumps += pieces[i - 1].length * pieces[i].length > 0.0 &&
                      std::abs(pieces[i - 1].endCurvature() - pieces[i].curvature) > 1e-9;

@@ -96,8 +96,8 @@ TEST(PathSmoother, ShortPiecesAtHighSpeedStayAsLong)
     {
         const Vehicle car = random.vehicle();
         Path path = random.plannerPath(car, 1.15);
-        for (PathPiece &segment : path.pieces)
-            segment.length *= 0.3;
+        for (PathPiece &piece : path.pieces)
+            piece.length *= 0.3;
         SmoothingOptions options;
         options.speed = 2.5;
         options.tolerance = 0.5;
@@ -367,8 +367,8 @@ TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
         const Path path = random.plannerPath(car, 1.03);
         Path mirrored = path, moved = path;
         mirrored.start = {path.start.x, -path.start.y, -path.start.yaw};
-        for (PathPiece &segment : mirrored.pieces)
-            segment.curvature = -segment.curvature;
+        for (PathPiece &piece : mirrored.pieces)
+            piece.curvature = -piece.curvature;
         const Pose motion = random.pose(100.0);
         moved.start = compose(motion, path.start);
         const PathSmoother smoother(car);

@@ -124,7 +124,7 @@ namespace parking_test
         std::size_t jumps = 0;
         for (std::size_t i = 1; i < result.pieces.pieces.size(); ++i)
         {
-            const ClothoidSegment &before = result.pieces.pieces[i - 1], &after = result.pieces.pieces[i];
+            const PathPiece &before = result.pieces.pieces[i - 1], &after = result.pieces.pieces[i];
             jumps += before.length * after.length > 0.0 && std::abs(before.endCurvature() - after.curvature) > 1e-9;
         }
         ASSERT_LE(jumps, result.stops.size());
