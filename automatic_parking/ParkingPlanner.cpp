@@ -6,6 +6,7 @@
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/text/Text.h"
+#include "state_validity/PathSweep.h"
 
 #include <algorithm>
 #include <chrono>
@@ -54,20 +55,20 @@ namespace parking
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        bool sweptFree(const FootprintChecker &checker, const SampledPath &path, std::size_t first)
+        /** \e path sampled, with the curvature of each state being that of the arc that ends there. */
+        SampledPath joinedByArcs(const Path &path)
         {
-            if (path.empty() || first >= path.size() || !checker.isFree(path[first].pose))
-                return path.empty() || first >= path.size();
-            for (std::size_t i = first + 1; i < path.size(); ++i)
+            SampledPath result = path.sample(SAMPLING);
+            for (std::size_t i = 1; i < result.size(); ++i)
             {
-                const double length = path[i].arcLength - path[i - 1].arcLength;
-                if (length > 0.0 &&
-                    checker.freeLength(path[i - 1].pose, path[i].curvature, path[i].direction * length) < length)
-                    return false;
-                if (!checker.isFree(path[i].pose))
-                    return false;
+                const double length = result[i].arcLength - result[i - 1].arcLength;
+                if (length > 0.0)
+                    result[i].curvature = wrapAngle(result[i].pose.yaw - result[i - 1].pose.yaw) /
+                                          (length * static_cast<double>(result[i].direction));
             }
-            return true;
+            if (result.size() > 1)
+                result.front().curvature = result[1].curvature;
+            return result;
         }
 
         bool isAt(const Pose &pose, const Pose &goal)
@@ -207,7 +208,7 @@ namespace parking
                 std::vector<ReverseParkingResult> fitting;
                 std::vector<Pose> starts;
                 for (ReverseParkingResult &each :
-                     ReverseParking(scenario_.vehicle, options).planAll(*scenario_.slot, queriesOf(checker)))
+                     ReverseParking(scenario_.vehicle, options).planAll(*scenario_.slot, queriesOf(*checker)))
                     if (each.fits() && !each.path.pieces.empty())
                     {
                         starts.push_back(each.path.start);
@@ -245,11 +246,10 @@ namespace parking
             plan.path = plan.arcs.sample(SAMPLING);
             if (parameters.smooth)
             {
-                plan.smooth = PathSmoother(vehicle, parameters.smoothing).smooth(plan.arcs, queriesOf(checker));
-                const SampledPath path = joinedByArcs(plan.smooth);
+                plan.smooth = PathSmoother(vehicle, parameters.smoothing).smooth(plan.arcs, queriesOf(*checker));
                 // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
-                if (plan.smooth.free && path.size() > 1 && world.isFree(path))
-                    plan.path = path;
+                if (plan.smooth.free && isPathFree(world.footprint(), plan.smooth.path))
+                    plan.path = joinedByArcs(plan.smooth.path);
                 else
                     plan.smooth = {};
             }
@@ -291,7 +291,18 @@ namespace parking
 
     bool ParkingWorld::isFree(const SampledPath &path, std::size_t first) const
     {
-        return sweptFree(*footprint_, path, first);
+        if (first >= path.size() || !footprint_->isFree(path[first].pose))
+            return first >= path.size();
+        for (std::size_t i = first + 1; i < path.size(); ++i)
+        {
+            const double length = path[i].arcLength - path[i - 1].arcLength;
+            if (length > 0.0 &&
+                footprint_->freeLength(path[i - 1].pose, path[i].curvature, path[i].direction * length) < length)
+                return false;
+            if (!footprint_->isFree(path[i].pose))
+                return false;
+        }
+        return true;
     }
 
     double ParkingWorld::clearance(const SampledPath &path) const
@@ -320,24 +331,6 @@ namespace parking
             }
         }
         return least;
-    }
-
-    FootprintQueries queriesOf(std::shared_ptr<const FootprintChecker> checker)
-    {
-        FootprintQueries queries;
-        queries.isFree = [checker](const Pose &pose)
-        {
-            return checker->isFree(pose);
-        };
-        queries.clearance = [checker](const Pose &pose)
-        {
-            return checker->clearance(pose);
-        };
-        queries.isPathFree = [checker](const SampledPath &path)
-        {
-            return sweptFree(*checker, path, 0);
-        };
-        return queries;
     }
 
     ParkingPlanner::ParkingPlanner(const PlanningParameters &parameters)
@@ -434,20 +427,5 @@ namespace parking
         plan.message = (plan.manoeuvre.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
                        std::string(", at least ") + centimetres(plan.clearance) + " from obstacles";
         return plan;
-    }
-
-    SampledPath joinedByArcs(const SmoothPath &path)
-    {
-        SampledPath result = path.path;
-        for (std::size_t i = 1; i < result.size(); ++i)
-        {
-            const double length = result[i].arcLength - result[i - 1].arcLength;
-            if (length > 0.0)
-                result[i].curvature = wrapAngle(result[i].pose.yaw - result[i - 1].pose.yaw) /
-                                      (length * static_cast<double>(result[i].direction));
-        }
-        if (result.size() > 1)
-            result.front().curvature = result[1].curvature;
-        return result;
     }
 }  // namespace parking

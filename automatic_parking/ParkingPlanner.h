@@ -2,7 +2,6 @@
 
 #include "automatic_parking/ParkingStatus.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/smoothing/PathSmoother.h"
@@ -103,9 +102,6 @@ namespace parking
         std::shared_ptr<const FootprintChecker> footprint_;
     };
 
-    /** \brief The world as manoeuvres and smoothing ask about it. \param checker is kept */
-    FootprintQueries queriesOf(std::shared_ptr<const FootprintChecker> checker);
-
     /** \brief Plans how a car gets from where it stands to where it shall stand (paper, "Overall Workflow"): the way
         into the slot is constructed, the planner brings the car to where it begins, both are smoothed as one.
 
@@ -133,7 +129,4 @@ namespace parking
     private:
         PlanningParameters parameters_;
     };
-
-    /** \brief \e path with the curvature of each state being that of the arc that ends there, as drives need it. */
-    SampledPath joinedByArcs(const SmoothPath &path);
 }  // namespace parking

@@ -3,11 +3,11 @@
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "ompl_improved_astar/search/FootprintEnvironment.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/curves/Kinematics.h"
 #include "parking_geometry/manoeuvres/MultiMoveParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/FootprintChecker.h"
+#include "state_validity/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,55 +44,6 @@ namespace parking
         /** Growth of slots that are too small, metres. */
         constexpr double GROWTH_STEP = 0.25;
         constexpr double MOST_GROWTH = 2.0;
-
-        /** Checker and queries for one gap. */
-        class Judge
-        {
-        public:
-            Judge(const ObstacleSet &world, const Vehicle &vehicle, double gap) : checker_(world, vehicle, gap)
-            {
-            }
-
-            const FootprintChecker &checker() const
-            {
-                return checker_;
-            }
-
-            /** Refers to this object. Whole paths are swept, arc by arc. */
-            FootprintQueries queries() const
-            {
-                FootprintQueries result;
-                result.isFree = [this](const Pose &pose)
-                {
-                    return checker_.isFree(pose);
-                };
-                result.clearance = [this](const Pose &pose)
-                {
-                    return checker_.clearance(pose);
-                };
-                result.isPathFree = [this](const SampledPath &path)
-                {
-                    return isSweptPathFree(path);
-                };
-                return result;
-            }
-
-        private:
-            bool isSweptPathFree(const SampledPath &path) const
-            {
-                if (!path.empty() && !checker_.isFree(path.front().pose))
-                    return false;
-                for (std::size_t i = 1; i < path.size(); ++i)
-                {
-                    const Arc arc = arcBetween(path[i - 1].pose, path[i].pose);
-                    if (checker_.freeLength(path[i - 1].pose, arc.curvature, arc.length) < std::abs(arc.length))
-                        return false;
-                }
-                return true;
-            }
-
-            FootprintChecker checker_;
-        };
 
         struct SearchTask
         {
@@ -255,20 +206,21 @@ namespace parking
             ReverseParkingOptions sweep = options_.sweep;
             sweep.clearance = gap;
             const ReverseParking parking(vehicle_, sweep);
-            const Judge judge(world, vehicle_, 0.5 * clearance), planning(world, vehicle_, clearance - SWEEP_TOLERANCE);
+            const FootprintChecker judge(world, vehicle_, 0.5 * clearance);
+            const FootprintChecker planning(world, vehicle_, clearance - SWEEP_TOLERANCE);
             const SlotExitPlanner shunts = [&, radius = radiusFactor * vehicle_.minTurningRadius()](const auto &task)
             {
-                return searchPath(planning.checker(), {task.parked, task.exits, Bounds{task.min, task.max}, radius,
-                                                       GEAR_CHANGE, false, options_.effort});
+                return searchPath(planning, {task.parked, task.exits, Bounds{task.min, task.max}, radius, GEAR_CHANGE,
+                                             false, options_.effort});
             };
-            ReverseParkingResult result = planInMoves(parking, slot, judge.queries(), shunts);
+            ReverseParkingResult result = planInMoves(parking, slot, queriesOf(judge), shunts);
             const auto moves = static_cast<double>(found.manoeuvre.moves());
             if (found.clearance > 0.0 &&
                 !(result.fits() && (!found.manoeuvre.fits() ||
                                     static_cast<double>(result.moves()) <= (1.0 - WORTH_A_SMALLER_GAP) * moves)))
                 continue;
             found = {result, {}, clearance, radiusFactor};
-            for (ReverseParkingResult &each : parking.planAll(slot, judge.queries()))
+            for (ReverseParkingResult &each : parking.planAll(slot, queriesOf(judge)))
                 if (each.fits())
                     found.sweeps.push_back(std::move(each));
             if (result.fits() && result.moves() <= MANY_MOVES)
@@ -312,8 +264,8 @@ namespace parking
         if (!found.manoeuvre.fits())
             return plan;
 
-        const Judge bare(world, vehicle_, 0.0);
-        const double startGap = bare.checker().exactClearance(start);
+        const FootprintChecker bare(world, vehicle_, 0.0);
+        const double startGap = bare.exactClearance(start);
         if (!(startGap > 4.0 * SWEEP_TOLERANCE))
         {
             plan.message = startGap > 0.0 ? "the start is nearer to an obstacle than the least gap of 4 mm"
@@ -321,7 +273,7 @@ namespace parking
             return plan;
         }
         plan.clearance = std::min(plan.clearance, 0.9 * startGap);
-        const Judge planning(world, vehicle_, plan.clearance - SWEEP_TOLERANCE);
+        const FootprintChecker planning(world, vehicle_, plan.clearance - SWEEP_TOLERANCE);
         SearchTask task{start,
                         {},
                         boundsOf(world),
@@ -333,7 +285,7 @@ namespace parking
             found.sweeps.push_back(found.manoeuvre);
         for (const ReverseParkingResult &sweep : found.sweeps)
             task.to.push_back(sweep.path.start);
-        const Path approach = searchPath(planning.checker(), task);
+        const Path approach = searchPath(planning, task);
         if (!approach.pieces.empty() || isSame(start, task.to.front()))
         {
             for (const ReverseParkingResult &sweep : found.sweeps)
@@ -348,14 +300,14 @@ namespace parking
         {
             task.to = slot.goals(vehicle_);
             task.gearChange = GEAR_CHANGE;
-            plan.path = searchPath(planning.checker(), task);
+            plan.path = searchPath(planning, task);
         }
         plan.solved = !plan.path.pieces.empty();
         plan.message = plan.solved ? "" : "no way was found from the start to the slot";
         if (plan.solved)
         {
-            const Judge judge(world, vehicle_, 0.5 * plan.clearance);
-            plan.smooth = PathSmoother(vehicle_, options_.smoothing).smooth(plan.path, judge.queries());
+            const FootprintChecker judge(world, vehicle_, 0.5 * plan.clearance);
+            plan.smooth = PathSmoother(vehicle_, options_.smoothing).smooth(plan.path, queriesOf(judge));
         }
         return plan;
     }

@@ -60,15 +60,16 @@ namespace parking_examples
         void draw(const parking::SlotPlan &plan, const std::string &title, const std::string &subtitle,
                   const std::string &file) const
         {
-            parking::SvgMap map(parking::viewAround(scenario_, plan.smooth.path, 2.0));
+            // Finely, since the curvature changes linearly between the states.
+            const parking::SampledPath path = plan.smooth.path.sample(0.02);
+            parking::SvgMap map(parking::viewAround(scenario_, path, 2.0));
             parking::drawScenario(map, scenario_);
             for (const auto &[pose, car] : parked_)
                 parking::drawCar(map, pose, car, parking::svg_colour::OBSTACLE_EDGE);
-            parking::drawPath(map, plan.smooth.path, scenario_.vehicle);
+            parking::drawPath(map, path, scenario_.vehicle);
             parking::SvgFigure figure(title, subtitle);
             figure.setMap(map);
-            // Finely, since the curvature changes linearly between the states.
-            figure.addPlot(parking::curvaturePlot(plan.smooth.pieces.sampleEvenly(0.02), scenario_.vehicle));
+            figure.addPlot(parking::curvaturePlot(path, scenario_.vehicle));
             figure.write(file);
         }
 

@@ -55,7 +55,7 @@ int main(int argc, char **argv)
         reverse.entry = SlotEntry::Reverse;
         std::cout << "forwards: an aisle of " << inMetres(plan.manoeuvre.neededAisleWidth) << " would do; in reverse: "
                   << inMetres(ReverseParking(car, options.sweep).plan(reverse).neededAisleWidth) << "; " << plan.moves()
-                  << " moves, " << inMetres(pathLength(plan.smooth.path)) << " in all\n";
+                  << " moves, " << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Angled parking, nose first", "Toyota Corolla into a stall at 60 degrees", file);
         return plan.smooth.free ? 0 : 1;
     }

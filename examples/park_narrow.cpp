@@ -42,7 +42,7 @@ int main(int argc, char **argv)
         options.effort = 4000;  // enough to say how narrow it may be
         const SlotPlanner quick(car, options);
         std::cout << "several: " << plan.manoeuvre.moves() << " moves at the slot, " << plan.moves() << " and "
-                  << inMetres(pathLength(plan.smooth.path))
+                  << inMetres(plan.smooth.path.length())
                   << " in all; the narrowest slot that would do: " << inMetres(quick.smallestSlot(slot, 0.05)) << "\n";
         scene.draw(plan, "A narrow slot in several moves",
                    "Tesla Model 3, 15 cm to the walls on either side, aisle of 4.5 m", file);

@@ -56,7 +56,7 @@ int main(int argc, char **argv)
         }
         std::cout << "a slot of " << inMetres(slot.length) << ": R_min " << inMetres(plan.manoeuvre.minRadius)
                   << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.moves() << " moves, "
-                  << inMetres(pathLength(plan.smooth.path)) << " in all\n";
+                  << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Parallel parking in reverse", "Tesla Model 3 in one sweep: two arcs, joined by clothoids",
                    file);
         return plan.smooth.free && plan.manoeuvre.moves() == 1 ? 0 : 1;

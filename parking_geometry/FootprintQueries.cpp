@@ -1,7 +1,5 @@
 #include "parking_geometry/FootprintQueries.h"
 
-#include "parking_geometry/curves/Kinematics.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,46 +7,62 @@ namespace parking
 {
     namespace
     {
-        /** Motions of the body shorter than this are decided by their ends. */
+        /** Motions of the body shorter than this are decided by their ends, metres. */
         constexpr double FINEST_MOTION = 5e-3;
 
-        class MotionCheck
+        /** Between the poses that are asked about where no clearance is known, metres driven. */
+        constexpr double SPACING = 0.1;
+
+        /** Covers one piece of a path by poses. */
+        class PieceCheck
         {
         public:
-            MotionCheck(const FootprintQueries &queries, double reach) : queries_(queries), reach_(reach)
+            /** \param reach of the body from its rear axle, metres */
+            PieceCheck(const FootprintQueries &queries, const Pose &start, const PathPiece &piece, double reach)
+              : queries_(queries),
+                start_(start),
+                piece_(piece),
+                finest_(queries.clearance ? FINEST_MOTION : SPACING)
             {
+                const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+                const double turning = queries.clearance ? steepest * reach : 0.0;
+                motion_ = piece.driven() * (1.0 + turning) + std::abs(piece.turn) * reach;
+            }
+
+            /** Free between these shares of the piece, at whose ends so much clearance is known? */
+            bool isFree(double from, double clearanceFrom, double to, double clearanceTo) const
+            {
+                // No point of the body moves farther than this.
+                const double moved = (to - from) * motion_;
+                if (clearanceFrom + clearanceTo > moved || moved <= finest_)
+                    return true;
+                const double middle = 0.5 * (from + to);
+                const double clearance = clearanceAt(queries_, poseAt(middle));
+                return clearance >= 0.0 && isFree(from, clearanceFrom, middle, clearance) &&
+                       isFree(middle, clearance, to, clearanceTo);
             }
 
             /** A lower bound of the distance to the obstacles, negative when the pose collides. */
-            double distanceAt(const Pose &pose) const
+            static double clearanceAt(const FootprintQueries &queries, const Pose &pose)
             {
-                const double clearance = queries_.clearance(pose);
-                if (clearance > 0.0)
-                    return clearance;
-                return queries_.isFree && queries_.isFree(pose) ? 0.0 : -1.0;
-            }
-
-            /** How far any point of the body moves along \e arc at most. */
-            double motion(const Arc &arc) const
-            {
-                return std::abs(arc.length) * (1.0 + std::abs(arc.curvature) * reach_);
-            }
-
-            bool isFree(const Pose &from, double distanceFrom, const Arc &arc, double distanceTo) const
-            {
-                const double moved = motion(arc);
-                if (distanceFrom + distanceTo > moved || moved < FINEST_MOTION)
-                    return true;
-                const Arc half{arc.curvature, 0.5 * arc.length};
-                const Pose middle = advance(from, half.curvature, half.length);
-                const double distance = distanceAt(middle);
-                return distance >= 0.0 && isFree(from, distanceFrom, half, distance) &&
-                       isFree(middle, distance, half, distanceTo);
+                if (queries.clearance)
+                    if (const double clearance = queries.clearance(pose); clearance > 0.0)
+                        return clearance;
+                return queries.isFree && queries.isFree(pose) ? 0.0 : -1.0;
             }
 
         private:
+            Pose poseAt(double share) const
+            {
+                PathPiece part = piece_;
+                part.turn *= share;
+                return advance(start_, part, share * piece_.driven());
+            }
+
             const FootprintQueries &queries_;
-            double reach_;
+            Pose start_;
+            PathPiece piece_;
+            double finest_, motion_;
         };
     }  // namespace
 
@@ -58,35 +72,26 @@ namespace parking
                           0.5 * vehicle.width);
     }
 
-    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const SampledPath &path)
+    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path)
     {
         if (queries.isPathFree)
             return queries.isPathFree(path);
-        if (!queries.clearance)
-            return !queries.isFree || std::all_of(path.begin(), path.end(),
-                                                  [&](const PathState &state) { return queries.isFree(state.pose); });
-        if (path.empty())
+        if (!queries.clearance && !queries.isFree)
             return true;
-        const MotionCheck check(queries, farthestCorner(vehicle));
-        // `known` is the last state asked about; states that its clearance covers are skipped.
-        double distance = check.distanceAt(path.front().pose), moved = 0.0;
-        if (distance < 0.0)
-            return false;
-        for (std::size_t i = 1; i < path.size(); ++i)
+        const double reach = farthestCorner(vehicle);
+        Pose pose = path.start;
+        double clearance = PieceCheck::clearanceAt(queries, pose);
+        for (const PathPiece &piece : path.pieces)
         {
-            const Arc arc = arcBetween(path[i - 1].pose, path[i].pose);
-            const double next = moved + check.motion(arc);
-            if (next < distance)
-            {
-                moved = next;
-                continue;
-            }
-            const double there = check.distanceAt(path[i].pose);
-            if (there < 0.0 || !check.isFree(path[i - 1].pose, std::max(0.0, distance - moved), arc, there))
+            if (clearance < 0.0)
                 return false;
-            distance = there;
-            moved = 0.0;
+            const Pose next = advance(pose, piece);
+            const double there = PieceCheck::clearanceAt(queries, next);
+            if (there < 0.0 || !PieceCheck(queries, pose, piece, reach).isFree(0.0, clearance, 1.0, there))
+                return false;
+            pose = next;
+            clearance = there;
         }
-        return true;
+        return clearance >= 0.0;
     }
 }  // namespace parking

@@ -23,17 +23,16 @@ namespace parking
             collide there or be too near to tell, and isFree decides (without isFree it counts as colliding). */
         std::function<double(const Pose &)> clearance;
 
-        /** \brief Is the whole motion free, between the states as well? Between two states the car drives a circular
-            arc. Takes precedence over the other two where whole paths are checked. */
-        std::function<bool(const SampledPath &)> isPathFree;
+        /** \brief Is the whole motion free? Takes precedence over the other two where whole paths are checked. */
+        std::function<bool(const Path &)> isPathFree;
     };
 
-    /** \brief Is every motion along \e path free?
+    /** \brief Is every motion along \e path free, turns on the spot included?
 
-        Asks isPathFree when there is one. Otherwise, with clearance, the arcs between the states are covered by poses
-        whose clearances overlap, down to motions of 5 mm (below that the ends decide); with isFree alone only the
-        states are checked, so they should lie close together. */
-    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const SampledPath &path);
+        Asks isPathFree when there is one. Otherwise each piece is covered by poses on it: with clearance, until what
+        they promise to be free overlaps, down to motions of the body of 5 mm, below which the ends decide; with isFree
+        alone, by its ends and poses at most 10 cm apart. */
+    bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
 
     /** \brief Distance from the midpoint of the rear axle to the farthest corner of the body, metres: a turn by an
         angle moves no point of the body farther than this times the angle. */

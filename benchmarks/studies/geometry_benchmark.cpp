@@ -186,7 +186,7 @@ namespace
             benchmark::DoNotOptimize(smoother.smooth(paths[i % paths.size()], queries[i % paths.size()]));
             ++i;
         }
-        std::size_t gears = 0, continuous = 0;
+        std::size_t stretches = 0, continuous = 0;
         double change = 0.0;
         std::vector<double> times;
         for (std::size_t k = 0; k < paths.size(); ++k)
@@ -195,14 +195,14 @@ namespace
             const SmoothPath result = smoother.smooth(paths[k], queries[k]);
             times.push_back(
                 std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count());
-            gears += result.gears.size();
-            continuous += result.continuousGears();
-            change = std::max(change, std::abs(pathLength(result.path) / result.lengthBefore - 1.0));
+            stretches += result.stretches.size();
+            continuous += result.continuousStretches();
+            change = std::max(change, std::abs(result.path.length() / result.lengthBefore - 1.0));
         }
         std::sort(times.begin(), times.end());
         state.counters["median us"] = times[times.size() / 2];
         state.counters["p95 us"] = times[times.size() * 95 / 100];
-        state.counters["continuous %"] = 100.0 * static_cast<double>(continuous) / static_cast<double>(gears);
+        state.counters["continuous %"] = 100.0 * static_cast<double>(continuous) / static_cast<double>(stretches);
         state.counters["length change %"] = 100.0 * change;
     }
     BENCHMARK_CAPTURE(smooth30m, lattice, true, false)->Arg(100)->Arg(102)->Arg(105)->Unit(benchmark::kMicrosecond);

@@ -187,45 +187,6 @@ namespace parking
         return path;
     }
 
-    SampledPath Path::sampleEvenly(double step) const
-    {
-        const double total = length();
-        const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(total / step)));
-        SampledPath path;
-        path.reserve(count + 1);
-        Pose pose = start;
-        double before = 0.0;
-        for (const PathPiece &piece : pieces)
-        {
-            const double length = piece.driven();
-            const auto add = [&](double driven, double arcLength)
-            {
-                PathState state;
-                state.pose = advance(pose, piece, driven);
-                state.pose.yaw = wrapAngle(state.pose.yaw);
-                state.arcLength = arcLength;
-                state.curvature = piece.curvatureAt(driven);
-                state.direction = piece.length < 0.0 ? -1 : 1;
-                path.push_back(state);
-            };
-            const bool last = &piece == &pieces.back();
-            while (path.size() < count)
-            {
-                const double arcLength = total * static_cast<double>(path.size()) / static_cast<double>(count);
-                if (arcLength > before + length)
-                    break;
-                add(arcLength - before, arcLength);
-            }
-            if (last)
-                add(length, total);
-            pose = advance(pose, piece);
-            before += length;
-        }
-        if (path.empty())
-            path.push_back({start, 0.0, 0.0, 1});
-        return path;
-    }
-
     double pathLength(const SampledPath &path)
     {
         return path.empty() ? 0.0 : path.back().arcLength - path.front().arcLength;

@@ -142,10 +142,6 @@ namespace parking
             place. The curvature of a state is that of the path there; where two pieces meet with different curvatures,
             that of the earlier one. */
         SampledPath sample(double step) const;
-
-        /** \brief The same with states at even distances, whatever the ends of the pieces: fewer where pieces are
-            short. All pieces must drive, in one direction. */
-        SampledPath sampleEvenly(double step) const;
     };
 
     /** \brief Metres driven along \e path. */

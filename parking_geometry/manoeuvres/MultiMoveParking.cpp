@@ -90,7 +90,7 @@ namespace parking
                 throw Error("multi-move parking: the planner's path does not begin at the parked pose");
             if (std::none_of(task.exits.begin(), task.exits.end(), [&](const Pose &exit) { return isSame(exit, end); }))
                 throw Error("multi-move parking: the planner's path does not end at one of the exits");
-            if (!isPathFree(world, parking.vehicle(), out.sample(parking.options().step)))
+            if (!isPathFree(world, parking.vehicle(), out))
                 throw Error("multi-move parking: the planner's path is not free");
             const bool fewer = out.cusps() + 1 < best.moves();
             const bool shorter = out.cusps() + 1 == best.moves() && out.length() < best.path.length();

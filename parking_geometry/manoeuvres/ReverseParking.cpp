@@ -255,7 +255,6 @@ namespace parking
         check("preferred radius", options.preferredRadius,
               std::isfinite(options.preferredRadius) && options.preferredRadius >= 0.0,
               "a number of metres that is not negative");
-        check("step", options.step, std::isfinite(options.step) && options.step > 0.0, "a positive number of metres");
     }
 
     ReverseParkingResult ReverseParking::planOne(const ParkingSlot &slot, SlotEntry entry, SlotSide side,
@@ -305,12 +304,11 @@ namespace parking
         }
         for (const Variant &variant : variants)
         {
-            if (!isPathFree(world, vehicle_, exit.wayIn(variant.out, 0.0).sample(options_.step)))
+            if (!isPathFree(world, vehicle_, exit.wayIn(variant.out, 0.0)))
                 continue;
             double guard = options_.guardLength;
             Path path = exit.wayIn(variant.out, guard);
-            for (; guard > 0.0 && !isPathFree(world, vehicle_, path.sample(options_.step));
-                 path = exit.wayIn(variant.out, guard))
+            for (; guard > 0.0 && !isPathFree(world, vehicle_, path); path = exit.wayIn(variant.out, guard))
                 guard = guard > 0.25 ? 0.5 * guard : 0.0;
             accept(variant, guard, std::move(path));
             return result;

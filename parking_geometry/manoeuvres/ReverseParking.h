@@ -28,9 +28,6 @@ namespace parking
         /** Radius to use where there is room for it, metres; 0: 1.15 times the smallest, so that tracking and smoothing
             keep a reserve of steering. Never below the smallest. */
         double preferredRadius{0.0};
-
-        /** Distance between the states that FootprintQueries get to see, metres. */
-        double step{0.05};
     };
 
     enum class ReverseParkingStatus

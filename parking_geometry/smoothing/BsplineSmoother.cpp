@@ -224,7 +224,10 @@ namespace parking
             for (const PathState &state : span)
                 if (std::abs(state.curvature) > options.maxCurvature)
                     return false;
-            return isPathFree(world, vehicle, span);
+            Path arcs{span.front().pose, {}};
+            for (std::size_t i = 1; i < span.size(); ++i)
+                arcs.pieces.emplace_back(arcBetween(span[i - 1].pose, span[i].pose));
+            return isPathFree(world, vehicle, arcs);
         }
     }  // namespace
 

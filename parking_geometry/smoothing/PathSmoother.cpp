@@ -1,9 +1,9 @@
 #include "parking_geometry/smoothing/PathSmoother.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/curves/GearSegments.h"
 #include "parking_geometry/curves/Kinematics.h"
-#include "parking_geometry/smoothing/GearSmoother.h"
+#include "parking_geometry/smoothing/StretchPart.h"
+#include "parking_geometry/smoothing/StretchSmoother.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -44,8 +44,7 @@ namespace parking
         /** A part of a stretch between two stops. */
         struct SmoothPart
         {
-            Path pieces;
-            Pose end;
+            Path path;
             double speed{0.0};
             bool changed{false};
             bool free{true};
@@ -71,33 +70,29 @@ namespace parking
             }
 
             /** One arc as it is. */
-            SmoothPart keep(const GearSegment &gear) const
+            SmoothPart keep(const StretchPart &part) const
             {
-                SmoothPart result{{gear.start, {}}, gear.end, planned_, false, true, gear.movingEnd};
-                for (const Arc &arc : gear.arcs)
-                    result.pieces.pieces.emplace_back(arc.curvature, gear.direction * arc.length);
-                result.free = isFree(result);
-                return result;
+                return {part.arcs, planned_, false, isPathFree(world_, vehicle_, part.arcs), part.movingEnd};
             }
 
-            /** \e piece in as few parts, divided by stops, as can be found. */
-            std::vector<SmoothPart> smoothPiece(const GearSegment &piece)
+            /** \e whole in as few parts, divided by stops, as can be found. */
+            std::vector<SmoothPart> smooth(const StretchPart &whole)
             {
                 std::vector<SmoothPart> parts;
                 SmoothPart found, attempt;
-                for (std::size_t first = 0, arcs = piece.arcs.size(); first < arcs;)
+                for (std::size_t first = 0, arcs = whole.arcs.pieces.size(); first < arcs;)
                 {
                     // The most arcs from here on that can be joined, by bisection when not all: one always can.
                     std::size_t last = arcs;
-                    if (!smooth(piece.part(first, last), found))
+                    if (!smoothAsOne(whole.part(first, last), found))
                     {
                         std::size_t fails = last;
                         last = first + 1;
-                        found = keep(piece.part(first, last));
+                        found = keep(whole.part(first, last));
                         while (fails - last > 1)
                         {
                             const std::size_t middle = last + (fails - last) / 2;
-                            if (smooth(piece.part(first, middle), attempt))
+                            if (smoothAsOne(whole.part(first, middle), attempt))
                             {
                                 last = middle;
                                 std::swap(found, attempt);
@@ -113,19 +108,19 @@ namespace parking
             }
 
         private:
-            bool smooth(const GearSegment &gear, SmoothPart &result)
+            bool smoothAsOne(const StretchPart &part, SmoothPart &result)
             {
-                if (gear.arcs.size() < 2)
+                if (part.arcs.pieces.size() < 2)
                 {
-                    result = keep(gear);
+                    result = keep(part);
                     return true;
                 }
                 // At the planned speed first, confined to the clearance only when it collides without.
-                if (smoothAt(planned_, {false, false}, gear, result) &&
+                if (smoothAt(planned_, {false, false}, part, result) &&
                     (isFree(result) ||
-                     (world_.clearance && smoothAt(planned_, {false, true}, gear, result) && isFree(result))))
+                     (world_.clearance && smoothAt(planned_, {false, true}, part, result) && isFree(result))))
                     return true;
-                return slowest() < planned_ && smoothSlower(gear, result);
+                return slowest() < planned_ && smoothSlower(part, result);
             }
 
             double slowest() const
@@ -143,13 +138,13 @@ namespace parking
 
             /** Below the planned speed. What works is found out at the lowest one, where there is the most room, and
                 then tried at higher ones. */
-            bool smoothSlower(const GearSegment &gear, SmoothPart &result)
+            bool smoothSlower(const StretchPart &part, SmoothPart &result)
             {
                 for (const Approach approach : {Approach{false, false}, {false, true}, {true, true}, {true, false}})
                 {
                     if (approach.confined && !world_.clearance)
                         continue;
-                    if (!smoothAt(slowest(), approach, gear, result))
+                    if (!smoothAt(slowest(), approach, part, result))
                     {
                         if (approach.confined)
                             continue;
@@ -158,10 +153,10 @@ namespace parking
                     if (!isFree(result))
                         continue;
                     // A soft one steers fast only where it must: the speed it really allows says which one to try.
-                    result.speed = std::min(planned_, steeringSpeed(result.pieces));
+                    result.speed = std::min(planned_, steeringSpeed(result.path));
                     SmoothPart faster;
                     for (double speed = 0.5 * planned_; speed > result.speed; speed *= 0.5)
-                        if ((approach.near || speed < 1.5 * result.speed) && smoothAt(speed, approach, gear, faster) &&
+                        if ((approach.near || speed < 1.5 * result.speed) && smoothAt(speed, approach, part, faster) &&
                             isFree(faster))
                         {
                             result = std::move(faster);
@@ -172,111 +167,78 @@ namespace parking
                 return false;
             }
 
-            double steeringSpeed(const Path &pieces) const
+            double steeringSpeed(const Path &path) const
             {
                 double least = vehicle_.maxSpeed;
-                for (const PathPiece &piece : pieces.pieces)
+                for (const PathPiece &piece : path.pieces)
                     least = std::min(least, steeringLimit(vehicle_, piece));
                 return least;
             }
 
-            bool smoothAt(double speed, const Approach &approach, const GearSegment &gear, SmoothPart &result)
+            bool smoothAt(double speed, const Approach &approach, const StretchPart &part, SmoothPart &result)
             {
-                const GearSmoother::Limits limits{maxSharpness(vehicle_, speed),
-                                                  maxSharpness(vehicle_, approach.near ? speed : planned_),
-                                                  approach.near ? NEAR : options_.tolerance};
-                result.pieces.start = gear.start;
-                result.end = gear.end;
+                const StretchSmoother::Limits limits{maxSharpness(vehicle_, speed),
+                                                     maxSharpness(vehicle_, approach.near ? speed : planned_),
+                                                     approach.near ? NEAR : options_.tolerance};
+                result.path.start = part.arcs.start;
                 result.speed = speed;
                 result.changed = result.free = true;
-                result.movingEnd = gear.movingEnd;
-                return smoother_.smooth(gear, limits, approach.confined ? world_.clearance : nullptr,
-                                        result.pieces.pieces) &&
-                       std::abs(result.pieces.length() - gear.length()) <= LARGEST_CHANGE_OF_LENGTH * gear.length();
+                result.movingEnd = part.movingEnd;
+                const double length = part.arcs.length();
+                return smoother_.smooth(part, limits, approach.confined ? world_.clearance : nullptr,
+                                        result.path.pieces) &&
+                       std::abs(result.path.length() - length) <= LARGEST_CHANGE_OF_LENGTH * length;
             }
 
             bool isFree(const SmoothPart &part) const
             {
-                return isPathFree(world_, vehicle_, part.pieces.sampleEvenly(options_.step));
+                return isPathFree(world_, vehicle_, part.path);
             }
 
             const Vehicle &vehicle_;
             const SmoothingOptions &options_;
             const FootprintQueries &world_;
-            GearSmoother smoother_;
+            StretchSmoother smoother_;
             double planned_{1.0};
         };
 
-        /** Appends to the result, keeping states, limits and counts together. */
-        class Assembly
+        /** Appends what became of a stretch. */
+        void append(SmoothPath &result, const std::vector<SmoothPart> &parts, StretchReport &report)
         {
-        public:
-            Assembly(const Vehicle &vehicle, const SmoothingOptions &options, const Pose &start, SmoothPath &result)
-              : vehicle_(vehicle),
-                options_(options),
-                result_(result)
+            bool standing = true;
+            for (const SmoothPart &part : parts)
             {
-                result_.pieces.start = start;
-                result_.path.push_back({start, 0.0, 0.0, 1});
-                result_.path.back().pose.yaw = wrapAngle(start.yaw);
-                result_.speedLimit.push_back(0.0);
-            }
-
-            void append(const SmoothPart &part)
-            {
-                const SampledPath states = part.pieces.sampleEvenly(options_.step);
-                if (states.size() < 2)
-                    return;
-                if (result_.path.size() == 1)
+                if (standing && report.pieces.first < result.path.pieces.size())
                 {
-                    result_.path.front().curvature = states.front().curvature;
-                    result_.path.front().direction = states.front().direction;
+                    result.stops.push_back(result.path.pieces.size());
+                    ++report.stops;
                 }
-                const double before = result_.path.back().arcLength;
-                std::size_t piece = 0;
-                double pieceEnd = std::abs(part.pieces.pieces.front().length);
-                for (std::size_t i = 1; i < states.size(); ++i)
-                {
-                    double limit = limitOf(part.pieces.pieces[piece]);
-                    while (piece + 1 < part.pieces.pieces.size() && pieceEnd < states[i].arcLength)
-                    {
-                        ++piece;
-                        pieceEnd += std::abs(part.pieces.pieces[piece].length);
-                        limit = std::min(limit, limitOf(part.pieces.pieces[piece]));
-                    }
-                    // The change of curvature between two states limits the speed at both.
-                    if (i > 1 || moving_)
-                        result_.speedLimit.back() = std::min(result_.speedLimit.back(), limit);
-                    result_.path.push_back(states[i]);
-                    result_.path.back().arcLength += before;
-                    result_.speedLimit.push_back(limit);
-                }
-                result_.path.back().pose = part.end;
-                result_.path.back().pose.yaw = wrapAngle(part.end.yaw);
-                moving_ = part.movingEnd;
-                if (!moving_)
-                    result_.speedLimit.back() = 0.0;
-                result_.pieces.pieces.insert(result_.pieces.pieces.end(), part.pieces.pieces.begin(),
-                                             part.pieces.pieces.end());
+                // After a stop a piece begins in any case; halves of an arc that was cut are one again.
+                if (standing)
+                    result.path.pieces.push_back(part.path.pieces.front());
+                result.path.extend(part.path.part(standing ? 1 : 0, part.path.pieces.size()));
+                report.speed = std::min(report.speed, part.speed);
+                report.changed = report.changed || part.changed;
+                result.free = result.free && part.free;
+                standing = !part.movingEnd;
             }
+            report.pieces.last = result.path.pieces.size();
+        }
 
-        private:
-            double limitOf(const PathPiece &segment) const
-            {
-                return std::min(vehicle_.maxSpeed, steeringLimit(vehicle_, segment));
-            }
-
-            const Vehicle &vehicle_;
-            const SmoothingOptions &options_;
-            SmoothPath &result_;
-            bool moving_{false};  // the last state is passed in motion
-        };
+        /** The arcs of a stretch, equal neighbours merged. */
+        StretchPart arcsOf(const Path &path, const Stretch &stretch)
+        {
+            const Path part = path.part(stretch.first, stretch.last);
+            StretchPart result{{part.start, {}}, false, false};
+            result.arcs.extend(part);
+            return result;
+        }
     }  // namespace
 
-    std::size_t SmoothPath::continuousGears() const
+    std::size_t SmoothPath::continuousStretches() const
     {
-        return static_cast<std::size_t>(
-            std::count_if(gears.begin(), gears.end(), [](const GearReport &gear) { return gear.continuous(); }));
+        return static_cast<std::size_t>(std::count_if(stretches.begin(), stretches.end(),
+                                                      [](const StretchReport &each) { return each.isContinuous(); }));
     }
 
     PathSmoother::PathSmoother(const Vehicle &vehicle, const SmoothingOptions &options)
@@ -286,55 +248,34 @@ namespace parking
         vehicle.validate();
         check("speed", options.speed, "a positive number of m/s");
         check("min speed", options.minSpeed, "a positive number of m/s");
-        check("step", options.step, "a positive number of metres");
         check("tolerance", options.tolerance, "a positive number of metres");
     }
 
     SmoothPath PathSmoother::smooth(const Path &path, const FootprintQueries &world) const
     {
-        return smooth(gearSegments(path), path.start, world);
-    }
-
-    SmoothPath PathSmoother::smooth(const SampledPath &path, const FootprintQueries &world) const
-    {
-        if (path.empty())
-            throw Error("smoothing: the path is empty; it must have at least one state");
-        return smooth(gearSegments(path), path.front().pose, world);
-    }
-
-    SmoothPath PathSmoother::smooth(const std::vector<GearSegment> &gears, const Pose &start,
-                                    const FootprintQueries &world) const
-    {
+        for (const PathPiece &piece : path.pieces)
+            if (piece.turn != 0.0 || piece.sharpness != 0.0)
+                throw Error("smoothing: piece " + std::to_string(&piece - path.pieces.data()) +
+                            (piece.turn != 0.0 ? " turns on the spot" : " is a clothoid") +
+                            "; only arcs and lines can be smoothed");
         SmoothPath result;
-        Assembly assembly(vehicle_, options_, start, result);
+        result.path.start = path.start;
+        result.lengthBefore = path.length();
         PartSmoother smoother(vehicle_, options_, world);
         const double maxCurvature = 1.0 / vehicle_.minTurningRadius();
         const double transition = 2.0 * maxCurvature / maxSharpness(vehicle_, smoother.plannedSpeed());
-        for (const GearSegment &gear : gears)
+        for (const Stretch &stretch : path.stretches())
         {
-            GearReport report;
-            report.firstState = result.path.size() - 1;
+            StretchReport report;
+            report.pieces = {result.path.pieces.size(), 0, stretch.direction};
             report.speed = smoother.plannedSpeed();
-            result.lengthBefore += gear.length();
-            for (const GearSegment &piece :
-                 gear.cutAtLongArcs(LONG_ARC_IN_TRANSITIONS * transition, BEND_OF_CUT * maxCurvature))
-                for (const SmoothPart &part : smoother.smoothPiece(piece))
-                {
-                    assembly.append(part);
-                    report.speed = std::min(report.speed, part.speed);
-                    report.changed = report.changed || part.changed;
-                    result.free = result.free && part.free;
-                    if (!part.movingEnd)
-                    {
-                        result.stops.push_back(result.path.size() - 1);
-                        ++report.stops;
-                    }
-                }
-            // The stop at the end of the stretch is a change of direction or the goal.
-            result.stops.pop_back();
-            --report.stops;
-            report.lastState = result.path.size() - 1;
-            result.gears.push_back(report);
+            std::vector<SmoothPart> parts;
+            for (const StretchPart &part :
+                 arcsOf(path, stretch).cutAtLongArcs(LONG_ARC_IN_TRANSITIONS * transition, BEND_OF_CUT * maxCurvature))
+                for (SmoothPart &each : smoother.smooth(part))
+                    parts.push_back(std::move(each));
+            append(result, parts, report);
+            result.stretches.push_back(report);
         }
         return result;
     }

@@ -9,8 +9,6 @@
 
 namespace parking
 {
-    struct GearSegment;
-
     struct SmoothingOptions
     {
         /** Planned speed, m/s, at which the steering must keep up; the vehicle's maximum where that is lower. */
@@ -20,47 +18,36 @@ namespace parking
             m/s. Slower than that the car had better stop to steer. */
         double minSpeed{0.1};
 
-        double step{0.1};  ///< metres between the states of the result, at most
-
         /** Deviation from the arcs, metres, that is worth steering at the full rate of the planned speed. Larger values
             give softer steering and larger deviations. */
         double tolerance{0.05};
     };
 
-    /** \brief What became of a stretch between two changes of direction. */
-    struct GearReport
+    /** \brief What became of a stretch. */
+    struct StretchReport
     {
-        std::size_t firstState{0};  ///< into SmoothPath::path: the pose where it begins
-        std::size_t lastState{0};   ///< where it ends; the next one begins here
-        double speed{0.0};          ///< m/s, the lowest planned speed that any of its transitions assumes
-        std::size_t stops{0};       ///< joints that kept their jump of curvature: the car stops there to steer
-        bool changed{false};        ///< false: it is what it was, for instance because it is one arc
+        Stretch pieces;        ///< of SmoothPath::path
+        double speed{0.0};     ///< m/s, the lowest planned speed that any of its transitions assumes
+        std::size_t stops{0};  ///< joints that kept their jump of curvature: the car stops there to steer
+        bool changed{false};   ///< false: it is what it was, for instance because it is one arc
 
-        bool continuous() const
+        bool isContinuous() const
         {
             return stops == 0;
         }
     };
 
-    /** \brief A drivable path whose curvature is continuous wherever the car moves. */
+    /** \brief A path whose curvature is continuous wherever the car moves, and what smoothing did to get there. */
     struct SmoothPath
     {
-        /** States at most SmoothingOptions::step apart, curvatures those of the curve at the state. A state where the
-            car stops has the curvature and direction of arrival. */
-        SampledPath path;
-
-        /** Per state, the speed, m/s, up to which the steering keeps up with the change of curvature there, at most
-            that of the vehicle; 0 where the car stops: first and last state, changes of direction, stops. */
-        std::vector<double> speedLimit;
-
-        Path pieces;                     ///< the same path in exact form
-        std::vector<GearReport> gears;   ///< the stretches in order
-        std::vector<std::size_t> stops;  ///< states inside of stretches where the car stops to steer
-        double lengthBefore{0.0};        ///< metres, of the arcs
-        bool free{true};                 ///< whether the world's callables agree, kept arcs included
+        Path path;                             ///< of arcs, lines and clothoids
+        std::vector<StretchReport> stretches;  ///< in order
+        std::vector<std::size_t> stops;        ///< pieces before which the car stops to steer, ends of stretches apart
+        double lengthBefore{0.0};              ///< metres, of the arcs
+        bool free{true};                       ///< whether the world's callables agree, kept arcs included
 
         /** \brief Stretches of continuous curvature. */
-        std::size_t continuousGears() const;
+        std::size_t continuousStretches() const;
     };
 
     /** \brief Turns a path of arcs and lines, the planner's or a manoeuvre's, into one that a car can drive without
@@ -84,15 +71,10 @@ namespace parking
         /** \brief Throws parking::Error for an invalid vehicle or option, naming it. */
         explicit PathSmoother(const Vehicle &vehicle, const SmoothingOptions &options = {});
 
+        /** \brief Throws parking::Error for pieces that are no arcs or lines: clothoids and turns on the spot. */
         SmoothPath smooth(const Path &path, const FootprintQueries &world = {}) const;
 
-        /** \brief The same for a sampled path: between its states lie the circular arcs that their poses imply. */
-        SmoothPath smooth(const SampledPath &path, const FootprintQueries &world = {}) const;
-
     private:
-        SmoothPath smooth(const std::vector<GearSegment> &gears, const Pose &start,
-                          const FootprintQueries &world) const;
-
         Vehicle vehicle_;
         SmoothingOptions options_;
     };

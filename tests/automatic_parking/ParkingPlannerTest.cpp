@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "state_validity/PathSweep.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 #include "tests/parking_geometry/ExpectError.h"
 
@@ -56,7 +57,7 @@ namespace
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner().plan(scenario);
         ASSERT_TRUE(plan.found);
-        ASSERT_FALSE(plan.smooth.path.empty());
+        ASSERT_FALSE(plan.smooth.path.pieces.empty());
         EXPECT_TRUE(plan.smooth.stops.empty());
         const double most = 1.0 / scenario.vehicle.minTurningRadius();
         for (std::size_t i = 1; i < plan.path.size(); ++i)
@@ -84,7 +85,7 @@ namespace
         const auto fits = [&](double gap)
         {
             const auto checker = ParkingWorld(scenario).enlarged(gap);
-            return queriesOf(checker).isPathFree(plan.path);
+            return isPathFree(*checker, plan.smooth.path);
         };
         EXPECT_TRUE(fits(0.7 * plan.clearance));
         EXPECT_FALSE(fits(1.05 * plan.clearance + 0.01));

@@ -180,9 +180,9 @@ TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
                     const PolygonOracle oracle = oracleFor(slot, aisle);
                     expectFree(plan.path, car, oracle, plan.clearance - 0.002);
                     EXPECT_TRUE(plan.smooth.free);
-                    EXPECT_LT(gap(plan.smooth.path.front().pose, start), 1e-9);
-                    EXPECT_LT(gap(plan.smooth.path.back().pose, plan.path.end()), 1e-9);
-                    for (const PathState &state : plan.smooth.pieces.sampleEvenly(0.01))
+                    EXPECT_LT(gap(plan.smooth.path.start, start), 1e-9);
+                    EXPECT_LT(gap(plan.smooth.path.end(), plan.path.end()), 1e-9);
+                    for (const PathState &state : plan.smooth.path.sample(0.01))
                     {
                         ASSERT_TRUE(oracle.isFree(state.pose, car));
                         ASSERT_LE(std::abs(state.curvature), (1.0 + 1e-9) / car.minTurningRadius());
@@ -208,7 +208,7 @@ TEST(SlotPlanner, EveryWayInIsAGoal)
             const SlotPlan plan = planner.plan(slot, {7.0, y, yaw}, world);
             ASSERT_TRUE(plan.solved) << plan.message;
             EXPECT_LT(gap(plan.path.end(), plan.manoeuvre.goal), 1e-6);
-            EXPECT_LT(gap(plan.smooth.path.back().pose, plan.manoeuvre.goal), 1e-6);
+            EXPECT_LT(gap(plan.smooth.path.end(), plan.manoeuvre.goal), 1e-6);
             driven.emplace(plan.manoeuvre.entry, plan.manoeuvre.side);
         }
     EXPECT_GE(driven.size(), 2u);

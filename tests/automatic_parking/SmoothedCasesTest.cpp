@@ -29,7 +29,7 @@ namespace
 {
     struct Count
     {
-        std::size_t cases{0}, solved{0}, gears{0}, continuous{0};
+        std::size_t cases{0}, solved{0}, stretches{0}, continuous{0};
         double largestChange{0.0};
     };
 
@@ -45,42 +45,42 @@ namespace
         if (!plan.found)
             return;
         ++count.solved;
-        const std::size_t gears = plan.arcs.cusps() + 1;
-        count.gears += gears;
-        ASSERT_FALSE(plan.smooth.path.empty()) << "the smoother's result was refused";
-        ASSERT_EQ(plan.smooth.gears.size(), gears);
+        const std::size_t stretches = plan.arcs.cusps() + 1;
+        count.stretches += stretches;
+        ASSERT_FALSE(plan.smooth.path.pieces.empty()) << "the smoother's result was refused";
+        ASSERT_EQ(plan.smooth.stretches.size(), stretches);
         EXPECT_TRUE(plan.smooth.free);
         parking_test::expectDrivable(plan.smooth, plan.arcs, car, parameters.smoothing);
 
         // Pieces meet with equal curvature unless the car stands between them.
         std::size_t jumps = 0;
-        const std::vector<PathPiece> &pieces = plan.smooth.pieces.pieces;
+        const std::vector<PathPiece> &pieces = plan.smooth.path.pieces;
         for (std::size_t i = 1; i < pieces.size(); ++i)
             jumps += pieces[i - 1].length * pieces[i].length > 0.0 &&
                      std::abs(pieces[i - 1].endCurvature() - pieces[i].curvature) > 1e-9;
         EXPECT_LE(jumps, plan.smooth.stops.size());
-        count.continuous += plan.smooth.continuousGears();
+        count.continuous += plan.smooth.continuousStretches();
 
-        const double change = std::abs(pathLength(plan.smooth.path) / plan.smooth.lengthBefore - 1.0);
+        const double change = std::abs(plan.smooth.path.length() / plan.smooth.lengthBefore - 1.0);
         EXPECT_LT(change, 0.03);
         count.largestChange = std::max(count.largestChange, change);
 
         const PolygonOracle oracle(scenario);
         std::size_t hits = 0;
-        for (const PathState &state : plan.smooth.pieces.sampleEvenly(0.005))
+        for (const PathState &state : plan.smooth.path.sample(0.005))
             hits += !oracle.isFree(state.pose, car, -1e-6);
         EXPECT_EQ(hits, 0u);
-        std::printf("%-28s %2zu stretches, %2zu continuous, length %6.2f m, %+.2f %%\n", scenario.name.c_str(), gears,
-                    plan.smooth.continuousGears(), plan.smooth.lengthBefore,
-                    100.0 * (pathLength(plan.smooth.path) / plan.smooth.lengthBefore - 1.0));
+        std::printf("%-28s %2zu stretches, %2zu continuous, length %6.2f m, %+.2f %%\n", scenario.name.c_str(),
+                    stretches, plan.smooth.continuousStretches(), plan.smooth.lengthBefore,
+                    100.0 * (plan.smooth.path.length() / plan.smooth.lengthBefore - 1.0));
     }
 
     void report(const Count &count)
     {
-        const double share = 100.0 * static_cast<double>(count.continuous) / static_cast<double>(count.gears);
+        const double share = 100.0 * static_cast<double>(count.continuous) / static_cast<double>(count.stretches);
         std::printf(
             "%zu of %zu cases solved; %zu of %zu stretches continuous (%.1f %%); length changes by at most %.2f %%\n",
-            count.solved, count.cases, count.continuous, count.gears, share, 100.0 * count.largestChange);
+            count.solved, count.cases, count.continuous, count.stretches, share, 100.0 * count.largestChange);
         EXPECT_GE(share, 95.0);
     }
 }  // namespace

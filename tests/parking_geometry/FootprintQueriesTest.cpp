@@ -24,8 +24,8 @@ namespace
 
 TEST(FootprintQueries, AWorldWithoutCallablesIsFree)
 {
-    EXPECT_TRUE(isPathFree({}, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
-    EXPECT_TRUE(isPathFree({}, Vehicle(), {}));
+    EXPECT_TRUE(isPathFree({}, Vehicle(), Path{{}, {{0.1, 5.0}}}));
+    EXPECT_TRUE(isPathFree({}, Vehicle(), Path()));
 }
 
 TEST(FootprintQueries, ThePathCallableDecidesAlone)
@@ -39,12 +39,12 @@ TEST(FootprintQueries, ThePathCallableDecidesAlone)
     {
         return 0.0;
     };
-    queries.isPathFree = [](const SampledPath &)
+    queries.isPathFree = [](const Path &)
     {
         return true;
     };
-    EXPECT_TRUE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
-    queries.isPathFree = [](const SampledPath &)
+    EXPECT_TRUE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}));
+    queries.isPathFree = [](const Path &)
     {
         return false;
     };
@@ -52,24 +52,45 @@ TEST(FootprintQueries, ThePathCallableDecidesAlone)
     {
         return true;
     };
-    EXPECT_FALSE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}.sample(0.1)));
+    EXPECT_FALSE(isPathFree(queries, Vehicle(), Path{{}, {{0.1, 5.0}}}));
 }
 
-TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenTheStates)
+TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenThePoses)
 {
-    // A pin that the outer front corner hits between two states only.
-    Vehicle car;
-    const Path path{{}, {{1.0 / car.minTurningRadius(), 2.0}}};
-    const SampledPath states = path.sample(2.0);
-    ASSERT_EQ(states.size(), 2u);
-    const Pose middle = advance(path.start, path.pieces[0].curvature, 1.0);
-    const Eigen::Vector2d corner = car.footprint(middle)[1];
-    const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.01)});
-    ASSERT_TRUE(world.isFree(states[0].pose) && world.isFree(states[1].pose) && !world.isFree(middle));
-    FootprintQueries queries = world.queries();
-    EXPECT_FALSE(isPathFree(queries, car, states));
-    queries.clearance = nullptr;
-    EXPECT_TRUE(isPathFree(queries, car, states)) << "without clearance only the states are asked about";
+    // Pins of 2 cm that the outer front corner hits on the way, on arcs, clothoids and turns on the spot.
+    const Vehicle car;
+    const double curvature = 1.0 / car.minTurningRadius();
+    for (const PathPiece &piece : {PathPiece(curvature, 2.0), PathPiece(curvature, -2.0),
+                                   PathPiece(0.0, 2.0, 0.5 * curvature), PathPiece::turnOnTheSpot(0.5)})
+        for (const double share : {0.3, 0.5, 0.77})
+        {
+            const Path path{{1.0, 2.0, 0.3}, {piece}};
+            PathPiece part = piece;
+            part.turn *= share;
+            const Pose there = advance(path.start, part, share * piece.driven());
+            const Eigen::Vector2d corner = car.footprint(there)[1];
+            const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.01)});
+            ASSERT_TRUE(world.isFree(path.start) && world.isFree(path.end()) && !world.isFree(there));
+            EXPECT_FALSE(isPathFree(world.queries(), car, path));
+        }
+}
+
+TEST(FootprintQueries, WithoutClearancePosesAreAskedEvery10Centimetres)
+{
+    const Path path{{}, {{0.1, 5.0}, {0.1, -3.0, 0.05}, PathPiece::turnOnTheSpot(1.0)}};
+    std::vector<Pose> asked;
+    FootprintQueries queries;
+    queries.isFree = [&](const Pose &pose)
+    {
+        asked.push_back(pose);
+        return true;
+    };
+    EXPECT_TRUE(isPathFree(queries, Vehicle(), path));
+    EXPECT_LT(asked.size(), 250u);
+    for (const PathState &state : path.sample(0.01))
+        EXPECT_TRUE(std::any_of(asked.begin(), asked.end(),
+                                [&](const Pose &pose)
+                                { return std::hypot(pose.x - state.pose.x, pose.y - state.pose.y) <= 0.05 + 1e-9; }));
 }
 
 TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
@@ -90,7 +111,7 @@ TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
             continue;
         EXPECT_LT(covered, moved);
         beyondHalf += covered > 0.5 * moved;
-        EXPECT_FALSE(isPathFree(world.queries(), car, path.sample(length))) << length;
+        EXPECT_FALSE(isPathFree(world.queries(), car, path)) << length;
     }
     EXPECT_GT(beyondHalf, 0);
 }
@@ -101,9 +122,9 @@ TEST(FootprintQueries, ZeroClearanceLeavesTheDecisionToIsFree)
     // Along a wall that the body touches.
     const double y = 0.5 * car.width;
     const PolygonWorld world(car, {{{-5.0, y}, {15.0, y}, {15.0, y + 1.0}, {-5.0, y + 1.0}}});
-    const SampledPath path = Path{{}, {{0.0, 5.0}}}.sample(0.1);
+    const Path path{{}, {{0.0, 5.0}}};
     FootprintQueries queries = world.queries();
-    ASSERT_EQ(queries.clearance(path[3].pose), 0.0);
+    ASSERT_EQ(queries.clearance(path.start), 0.0);
     EXPECT_TRUE(isPathFree(queries, car, path));
     queries.isFree = nullptr;
     EXPECT_FALSE(isPathFree(queries, car, path));
@@ -117,7 +138,7 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
     {
         const Vehicle car = random.vehicle();
         const Path path = random.plannerPath(car, 1.0);
-        const SampledPath coarse = path.sample(0.2), dense = path.sample(0.002);
+        const SampledPath dense = path.sample(0.002);
         std::vector<Polygon> obstacles;
         for (int k = 0; k < 2; ++k)
         {
@@ -136,7 +157,7 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
             collides = collides || !lenient.isFree(state.pose);
             least = std::min(least, world.clearance(state.pose));
         }
-        const bool found = isPathFree(world.queries(), car, coarse);
+        const bool found = isPathFree(world.queries(), car, path);
         if (collides)
         {
             EXPECT_FALSE(found) << i;
@@ -161,6 +182,6 @@ TEST(FootprintQueries, AsksSeldomWhereThereIsRoom)
         ++asked;
         return 5.0;
     };
-    EXPECT_TRUE(isPathFree(queries, car, Path{{}, {{0.0, 30.0}}}.sample(0.1)));
+    EXPECT_TRUE(isPathFree(queries, car, Path{{}, {{0.0, 30.0}}}));
     EXPECT_LE(asked, 8);
 }

@@ -173,36 +173,6 @@ TEST(Path, SamplesLieOnThePathAtMostAStepApart)
     }
 }
 
-TEST(Path, EvenSamplesLieOnThePathToo)
-{
-    RandomParking random(6);
-    for (int i = 0; i < 300; ++i)
-    {
-        Path path{random.pose(5.0), {}};
-        const double direction = random.coin() ? 1.0 : -1.0;
-        for (int k = 0; k < 5; ++k)
-            path.pieces.emplace_back(random.uniform(-0.3, 0.3), direction * random.uniform(0.01, 1.5),
-                                     random.uniform(-0.4, 0.4));
-        const double step = random.uniform(0.03, 0.5);
-        const SampledPath even = path.sampleEvenly(step);
-        ASSERT_EQ(even.size(), static_cast<std::size_t>(std::ceil(path.length() / step)) + 1);
-        EXPECT_LT(gap(even.back().pose, path.end()), 1e-11);
-        for (const PathState &state : even)
-        {
-            Pose pose = path.start;
-            double left = state.arcLength;
-            for (const PathPiece &piece : path.pieces)
-            {
-                const double driven = std::min(left, piece.driven());
-                pose = advance(pose, piece, driven);
-                left -= driven;
-            }
-            ASSERT_LT(gap(pose, state.pose), 1e-11);
-            ASSERT_EQ(state.direction, direction);
-        }
-    }
-}
-
 TEST(Path, StretchesCoverThePathAndAlternate)
 {
     RandomParking random(7);
@@ -319,6 +289,4 @@ TEST(Path, WithoutPiecesIsItsStart)
     EXPECT_TRUE(path.stretches().empty());
     EXPECT_EQ(gap(path.end(), path.start), 0.0);
     ASSERT_EQ(path.sample(0.1).size(), 1u);
-    ASSERT_EQ(path.sampleEvenly(0.1).size(), 1u);
-    EXPECT_EQ(path.sampleEvenly(0.1).front().pose.x, 1.0);
 }

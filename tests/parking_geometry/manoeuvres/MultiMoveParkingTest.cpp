@@ -134,7 +134,7 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
     };
     expectError([&] { planInMoves(parking, slot, {}, elsewhere); }, {"multi-move", "exits"});
     FootprintQueries closed;
-    closed.isPathFree = [](const SampledPath &)
+    closed.isPathFree = [](const Path &)
     {
         return false;
     };

@@ -266,7 +266,6 @@ TEST(ReverseParking, NonsenseIsAnError)
     badOption(&ReverseParkingOptions::guardLength, -1.0, "guard length");
     badOption(&ReverseParkingOptions::guardLength, INFINITE, "guard length");
     badOption(&ReverseParkingOptions::preferredRadius, -1.0, "preferred radius");
-    badOption(&ReverseParkingOptions::step, 0.0, "step");
 }
 
 TEST(ReverseParking, TheWorldMayBeKinderThanTheModel)

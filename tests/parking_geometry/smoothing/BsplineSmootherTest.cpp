@@ -47,6 +47,14 @@ namespace
         return least;
     }
 
+    Path arcsThrough(const SampledPath &states)
+    {
+        Path path{states.front().pose, {}};
+        for (std::size_t i = 1; i < states.size(); ++i)
+            path.pieces.emplace_back(arcBetween(states[i - 1].pose, states[i].pose));
+        return path;
+    }
+
     Vehicle robot()
     {
         Vehicle car;
@@ -156,7 +164,7 @@ TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
         const BsplinePath result = bsplineSmooth(points, options, car, world.queries());
         const BsplinePath plain = bsplineSmooth(points, options, car, {});
         EXPECT_EQ(plain.denserPieces + plain.polylinePieces, 0u);
-        if (isPathFree(world.queries(), car, plain.path))
+        if (isPathFree(world.queries(), car, arcsThrough(plain.path)))
         {
             EXPECT_EQ(result.denserPieces + result.polylinePieces, 0u);
             EXPECT_EQ(result.path.size(), plain.path.size());

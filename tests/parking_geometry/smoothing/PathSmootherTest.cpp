@@ -55,17 +55,17 @@ namespace
 
     struct Share
     {
-        std::size_t gears{0}, continuous{0};
+        std::size_t stretches{0}, continuous{0};
 
         void add(const SmoothPath &path)
         {
-            gears += path.gears.size();
-            continuous += path.continuousGears();
+            stretches += path.stretches.size();
+            continuous += path.continuousStretches();
         }
 
         double percent() const
         {
-            return 100.0 * static_cast<double>(continuous) / static_cast<double>(gears);
+            return 100.0 * static_cast<double>(continuous) / static_cast<double>(stretches);
         }
     };
 }  // namespace
@@ -79,7 +79,6 @@ TEST(PathSmoother, PlannerPathsBecomeDrivable)
         const Vehicle car = random.vehicle();
         SmoothingOptions options;
         options.speed = random.uniform(0.3, 2.0);
-        options.step = random.uniform(0.05, 0.2);
         const Path path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
@@ -142,7 +141,7 @@ TEST(PathSmoother, AmongObstaclesTheResultIsFreeAndMostlyContinuous)
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
         EXPECT_TRUE(result.free);
         // The oracle, on the exact pieces at 2 cm.
-        for (const PathState &state : result.pieces.sample(0.02))
+        for (const PathState &state : result.path.sample(0.02))
             ASSERT_TRUE(world.isFree(state.pose) || !queries.clearance) << i;
         share.add(result);
     }
@@ -172,7 +171,7 @@ TEST(PathSmoother, ManoeuvresIntoSlotsBecomeContinuous)
         const SmoothPath result = PathSmoother(car).smooth(manoeuvre.path, world.queries());
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, manoeuvre.path, car, {})) << i;
         EXPECT_TRUE(result.free);
-        EXPECT_LT(gap(result.path.back().pose, manoeuvre.goal), 1e-9);
+        EXPECT_LT(gap(result.path.end(), manoeuvre.goal), 1e-9);
         share.add(result);
     }
     EXPECT_GE(share.percent(), 99.0) << "the tightest slots and aisles with 5 cm of clearance";
@@ -192,7 +191,7 @@ TEST(PathSmoother, AWallOnOneSideLeavesTheOther)
     ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, {}));
     EXPECT_TRUE(result.free);
     EXPECT_EQ(result.stops.size(), 0u);
-    EXPECT_GE(result.gears[0].speed, 0.4) << "with room on one side there is no need to creep";
+    EXPECT_GE(result.stretches[0].speed, 0.4) << "with room on one side there is no need to creep";
 }
 
 TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
@@ -233,13 +232,13 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
     EXPECT_TRUE(result.free);
     ASSERT_GE(result.stops.size(), 1u);
     EXPECT_LE(result.stops.size(), 2u) << "the other end of that turn may have to keep its arcs as well";
-    EXPECT_LT(distance(result.path[result.stops.back()].pose, joint), 1e-9);
+    EXPECT_LT(distance(result.path.part(result.stops.back(), result.path.pieces.size()).start, joint), 1e-9);
     // Far from it nothing has changed.
-    for (const std::size_t i : {std::size_t{100}, std::size_t{300}})
+    const std::size_t openPieces = open.path.pieces.size(), pieces = result.path.pieces.size();
+    for (const std::size_t i : {std::size_t{20}, std::size_t{80}})
     {
-        EXPECT_LT(gap(open.path[i].pose, result.path[i].pose), 1e-9);
-        const std::size_t fromEnd = i + 1;
-        EXPECT_LT(gap(open.path[open.path.size() - fromEnd].pose, result.path[result.path.size() - fromEnd].pose),
+        EXPECT_LT(gap(open.path.part(i, openPieces).start, result.path.part(i, pieces).start), 1e-9);
+        EXPECT_LT(gap(open.path.part(openPieces - i, openPieces).start, result.path.part(pieces - i, pieces).start),
                   1e-9);
     }
 }
@@ -249,13 +248,13 @@ TEST(PathSmoother, OneArcStaysAsItIs)
     const Vehicle car;
     const Path path{{1.0, 2.0, 0.3}, {{1.0 / car.minTurningRadius(), 2.0}, {-0.2, -1.5}}};
     const SmoothPath result = PathSmoother(car).smooth(path);
-    ASSERT_EQ(result.gears.size(), 2u);
-    EXPECT_FALSE(result.gears[0].changed || result.gears[1].changed);
-    EXPECT_EQ(result.continuousGears(), 2u);
-    ASSERT_EQ(result.pieces.pieces.size(), 2u);
-    EXPECT_EQ(result.pieces.pieces[1].length, -1.5);
-    EXPECT_NEAR(pathLength(result.path), 3.5, 1e-12);
-    EXPECT_EQ(result.path.front().curvature, 1.0 / car.minTurningRadius());
+    ASSERT_EQ(result.stretches.size(), 2u);
+    EXPECT_FALSE(result.stretches[0].changed || result.stretches[1].changed);
+    EXPECT_EQ(result.continuousStretches(), 2u);
+    ASSERT_EQ(result.path.pieces.size(), 2u);
+    EXPECT_EQ(result.path.pieces[1].length, -1.5);
+    EXPECT_NEAR(result.path.length(), 3.5, 1e-12);
+    EXPECT_EQ(result.path.pieces[0].curvature, 1.0 / car.minTurningRadius());
 }
 
 TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
@@ -266,10 +265,9 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
     const Path path{{}, {{full, 1.5}, {-full, 1.5}}};
     const SmoothPath result = PathSmoother(car).smooth(path);
     ASSERT_EQ(result.stops.size(), 1u);
-    EXPECT_EQ(result.continuousGears(), 0u);
-    EXPECT_FALSE(result.gears[0].changed);
-    EXPECT_EQ(result.speedLimit[result.stops[0]], 0.0);
-    EXPECT_LT(gap(result.path[result.stops[0]].pose, advance({}, full, 1.5)), 1e-12);
+    EXPECT_EQ(result.continuousStretches(), 0u);
+    EXPECT_FALSE(result.stretches[0].changed);
+    EXPECT_LT(gap(result.path.part(result.stops[0], 2).start, advance({}, full, 1.5)), 1e-12);
     // A radius 5 % larger leaves the room.
     const Path wider{{}, {{full / 1.05, 1.5}, {-full / 1.05, 1.5}}};
     EXPECT_EQ(PathSmoother(car).smooth(wider).stops.size(), 0u);
@@ -279,7 +277,7 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
         const Path line{{}, {{full, direction * 1.5}, {-full, direction * 1.5}, {0.0, direction * 2.0}}};
         const SmoothPath smooth = PathSmoother(car).smooth(line);
         EXPECT_EQ(smooth.stops.size(), 0u);
-        EXPECT_TRUE(smooth.gears[0].changed);
+        EXPECT_TRUE(smooth.stretches[0].changed);
     }
 }
 
@@ -328,7 +326,7 @@ TEST(PathSmoother, ReportsThatTheGivenPathIsNotFree)
     const SmoothPath result = PathSmoother(Vehicle()).smooth(path, closed);
     EXPECT_FALSE(result.free);
     EXPECT_EQ(result.stops.size(), 1u);
-    EXPECT_LT(gap(result.path.back().pose, path.end()), 1e-9);
+    EXPECT_LT(gap(result.path.end(), path.end()), 1e-9);
 }
 
 TEST(PathSmoother, SlowerTransitionsDeviateLess)
@@ -345,7 +343,7 @@ TEST(PathSmoother, SlowerTransitionsDeviateLess)
         ASSERT_EQ(result.stops.size(), 0u);
         double deviation = 0.0;
         const SampledPath arcs = path.sample(0.01);
-        for (const PathState &state : result.path)
+        for (const PathState &state : result.path.sample(0.05))
         {
             double nearest = 1e9;
             for (const PathState &arc : arcs)
@@ -373,32 +371,17 @@ TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
         moved.start = compose(motion, path.start);
         const PathSmoother smoother(car);
         const SmoothPath a = smoother.smooth(path), b = smoother.smooth(mirrored), c = smoother.smooth(moved);
-        ASSERT_EQ(a.path.size(), b.path.size());
-        ASSERT_EQ(a.path.size(), c.path.size());
-        for (std::size_t k = 0; k < a.path.size(); ++k)
+        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
+        ASSERT_EQ(a.path.pieces.size(), c.path.pieces.size());
+        for (std::size_t k = 0; k < a.path.pieces.size(); ++k)
         {
-            const Pose &pose = a.path[k].pose;
-            ASSERT_LT(gap({pose.x, -pose.y, -pose.yaw}, b.path[k].pose), 1e-7);
-            ASSERT_LT(gap(compose(motion, pose), c.path[k].pose), 1e-7);
-            ASSERT_NEAR(a.path[k].curvature, -b.path[k].curvature, 1e-6);
+            const PathPiece &piece = a.path.pieces[k];
+            ASSERT_NEAR(piece.length, b.path.pieces[k].length, 1e-7);
+            ASSERT_NEAR(piece.curvature, -b.path.pieces[k].curvature, 1e-6);
+            ASSERT_NEAR(piece.length, c.path.pieces[k].length, 1e-7);
+            ASSERT_NEAR(piece.curvature, c.path.pieces[k].curvature, 1e-6);
         }
-    }
-}
-
-TEST(PathSmoother, SampledPathsAreTakenForTheirArcs)
-{
-    RandomParking random(47);
-    for (int i = 0; i < 200; ++i)
-    {
-        const Vehicle car = random.vehicle();
-        const Path path = random.plannerPath(car, 1.03);
-        const PathSmoother smoother(car);
-        const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path.sample(0.1));
-        ASSERT_EQ(a.gears.size(), b.gears.size());
-        EXPECT_EQ(a.stops.size(), b.stops.size());
-        ASSERT_EQ(a.path.size(), b.path.size());
-        for (std::size_t k = 0; k < a.path.size(); ++k)
-            ASSERT_LT(gap(a.path[k].pose, b.path[k].pose), 1e-5);
+        EXPECT_LT(gap(compose(motion, a.path.end()), c.path.end()), 1e-7);
     }
 }
 
@@ -411,20 +394,44 @@ TEST(PathSmoother, IsDeterministic)
     {
         const Path path = random.plannerPath(car, 1.0);
         const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path);
-        ASSERT_EQ(a.path.size(), b.path.size());
-        for (std::size_t k = 0; k < a.path.size(); ++k)
-            ASSERT_EQ(gap(a.path[k].pose, b.path[k].pose), 0.0);
+        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
+        for (std::size_t k = 0; k < a.path.pieces.size(); ++k)
+        {
+            ASSERT_EQ(a.path.pieces[k].length, b.path.pieces[k].length);
+            ASSERT_EQ(a.path.pieces[k].curvature, b.path.pieces[k].curvature);
+        }
     }
 }
 
-TEST(PathSmoother, PathsWithoutMotionHaveOneState)
+TEST(PathSmoother, PathsWithoutMotionStayEmpty)
 {
     const SmoothPath none = PathSmoother(Vehicle()).smooth(Path{{1.0, 2.0, 0.5}, {}});
-    ASSERT_EQ(none.path.size(), 1u);
-    EXPECT_EQ(none.path[0].pose.x, 1.0);
-    EXPECT_TRUE(none.gears.empty());
-    EXPECT_EQ(PathSmoother(Vehicle()).smooth(SampledPath{PathState()}).path.size(), 1u);
-    expectError([] { PathSmoother(Vehicle()).smooth(SampledPath()); }, {"smoothing", "empty"});
+    EXPECT_EQ(none.path.start.x, 1.0);
+    EXPECT_TRUE(none.path.pieces.empty());
+    EXPECT_TRUE(none.stretches.empty());
+    EXPECT_TRUE(none.free);
+}
+
+TEST(PathSmoother, EqualNeighboursAreOneArc)
+{
+    const Path parts{{}, {{0.1, 1.0}, {0.1, 0.0}, {0.1, 2.0}, {0.0, 3.0}}}, whole{{}, {{0.1, 3.0}, {0.0, 3.0}}};
+    const SmoothPath a = PathSmoother(Vehicle()).smooth(parts), b = PathSmoother(Vehicle()).smooth(whole);
+    EXPECT_EQ(a.path.pieces.size(), b.path.pieces.size());
+    EXPECT_LT(gap(a.path.end(), b.path.end()), 1e-9);
+}
+
+TEST(PathSmoother, OnlyArcsAndLinesCanBeSmoothed)
+{
+    expectError(
+        [] {
+            PathSmoother(Vehicle()).smooth({{}, {{0.0, 1.0}, {0.0, 1.0, 0.1}}});
+        },
+        {"smoothing", "piece 1", "clothoid"});
+    expectError(
+        [] {
+            PathSmoother(Vehicle()).smooth({{}, {PathPiece::turnOnTheSpot(1.0), {0.0, 1.0}}});
+        },
+        {"smoothing", "piece 0", "turns on the spot"});
 }
 
 TEST(PathSmoother, BadOptionsAreNamed)
@@ -439,7 +446,6 @@ TEST(PathSmoother, BadOptionsAreNamed)
     {
         bad(&SmoothingOptions::speed, value, "speed");
         bad(&SmoothingOptions::minSpeed, value, "min speed");
-        bad(&SmoothingOptions::step, value, "step");
         bad(&SmoothingOptions::tolerance, value, "tolerance");
     }
     Vehicle car;

@@ -1,4 +1,4 @@
-#include "parking_geometry/smoothing/GearSmoother.h"
+#include "parking_geometry/smoothing/StretchSmoother.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ namespace parking
         }
     }  // namespace
 
-    GearSmoother::GearSmoother(const Vehicle &vehicle)
+    StretchSmoother::StretchSmoother(const Vehicle &vehicle)
       : vehicle_(vehicle),
         maxCurvature_(1.0 / vehicle.minTurningRadius())
     {
@@ -66,13 +66,14 @@ namespace parking
         settings_.lever = 0.5 * vehicle.length();
     }
 
-    void GearSmoother::placeNodes(const GearSegment &gear, double sharpness)
+    void StretchSmoother::placeNodes(const StretchPart &part, double sharpness)
     {
         intervals_.clear();
-        const double sign = gear.direction;
+        const std::vector<PathPiece> &arcs = part.arcs.pieces;
+        const double direction = part.direction();
         const auto joint = [&](std::size_t i)
         {
-            return std::abs(gear.arcs[i].curvature - gear.arcs[i - 1].curvature);
+            return std::abs(arcs[i].curvature - arcs[i - 1].curvature);
         };
         // Lengths of the intervals from one end of half an arc to its middle, appended to intervals_.
         const auto half = [&](double length, double jump, bool towardsJoint, double curvature)
@@ -93,17 +94,16 @@ namespace parking
             if (towardsJoint)
                 std::reverse(intervals_.begin() + static_cast<std::ptrdiff_t>(first), intervals_.end());
         };
-        const std::size_t arcs = gear.arcs.size();
-        for (std::size_t i = 0; i < arcs; ++i)
+        for (std::size_t i = 0; i < arcs.size(); ++i)
         {
-            const Arc &arc = gear.arcs[i];
-            half(0.5 * arc.length, i > 0 ? joint(i) : 0.0, false, sign * arc.curvature);
-            half(0.5 * arc.length, i + 1 < arcs ? joint(i + 1) : 0.0, true, sign * arc.curvature);
+            const double length = 0.5 * arcs[i].driven(), curvature = direction * arcs[i].curvature;
+            half(length, i > 0 ? joint(i) : 0.0, false, curvature);
+            half(length, i + 1 < arcs.size() ? joint(i + 1) : 0.0, true, curvature);
         }
         nodes_.resize(intervals_.size() + 1);
-        Pose pose = gear.start;
-        if (gear.direction < 0)
-            pose.yaw += PI;
+        const double turnedRound = direction < 0.0 ? PI : 0.0;
+        Pose pose = part.arcs.start;
+        pose.yaw += turnedRound;
         for (std::size_t i = 0; i < nodes_.size(); ++i)
         {
             nodes_[i] = {pose, std::cos(pose.yaw), std::sin(pose.yaw)};
@@ -112,13 +112,13 @@ namespace parking
         }
         // The end that was asked for, in the turn count of the integration.
         Node &last = nodes_.back();
-        const double endYaw = gear.end.yaw + (gear.direction < 0 ? PI : 0.0);
-        last.pose = {gear.end.x, gear.end.y, last.pose.yaw + wrapAngle(endYaw - last.pose.yaw)};
+        const Pose end = part.arcs.end();
+        last.pose = {end.x, end.y, last.pose.yaw + wrapAngle(end.yaw + turnedRound - last.pose.yaw)};
         last.cosine = std::cos(last.pose.yaw);
         last.sine = std::sin(last.pose.yaw);
     }
 
-    void GearSmoother::placeCorridors(bool reverse, const Clearance &clearance)
+    void StretchSmoother::placeCorridors(bool reverse, const Clearance &clearance)
     {
         corridors_.clear();
         if (!clearance)
@@ -146,7 +146,7 @@ namespace parking
         }
     }
 
-    bool GearSmoother::simulate()
+    bool StretchSmoother::simulate()
     {
         const std::size_t n = intervals_.size();
         lengths_.resize(n);
@@ -185,7 +185,7 @@ namespace parking
         return true;
     }
 
-    bool GearSmoother::close(double sharpness)
+    bool StretchSmoother::close(double sharpness)
     {
         program_.endSensitivity(sensitivity_);
         const std::size_t n = intervals_.size();
@@ -226,7 +226,7 @@ namespace parking
         return false;
     }
 
-    bool GearSmoother::keepsLimits(double sharpness) const
+    bool StretchSmoother::keepsLimits(double sharpness) const
     {
         constexpr double ROUNDING = 1.0 + 1e-9;
         for (const double curvature : curvatures_)
@@ -238,24 +238,25 @@ namespace parking
         return true;
     }
 
-    bool GearSmoother::smooth(const GearSegment &gear, const Limits &limits, const Clearance &clearance,
-                              std::vector<PathPiece> &result)
+    bool StretchSmoother::smooth(const StretchPart &part, const Limits &limits, const Clearance &clearance,
+                                 std::vector<PathPiece> &result)
     {
         result.clear();
-        if (gear.arcs.empty())
+        if (part.arcs.pieces.empty())
             return true;
-        const bool reverse = gear.direction < 0;
+        const double direction = part.direction();
+        const bool reverse = direction < 0.0;
         const double sharpness = limits.sharpness;
         settings_.tolerance = limits.tolerance;
         settings_.softRate = limits.softSharpness;
         settings_.front = reverse ? vehicle_.rearOverhang : vehicle_.wheelbase + vehicle_.frontOverhang;
         settings_.rear = reverse ? vehicle_.wheelbase + vehicle_.frontOverhang : vehicle_.rearOverhang;
         settings_.startCurvature = settings_.endCurvature = std::nullopt;
-        if (gear.movingStart)
-            settings_.startCurvature = gear.direction * gear.arcs.front().curvature;
-        if (gear.movingEnd)
-            settings_.endCurvature = gear.direction * gear.arcs.back().curvature;
-        placeNodes(gear, sharpness);
+        if (part.movingStart)
+            settings_.startCurvature = direction * part.arcs.pieces.front().curvature;
+        if (part.movingEnd)
+            settings_.endCurvature = direction * part.arcs.pieces.back().curvature;
+        placeNodes(part, sharpness);
         placeCorridors(reverse, clearance);
         program_.reset(settings_, intervals_, corridors_);
         bool found = false;
@@ -277,8 +278,8 @@ namespace parking
         if (!found)
             return false;
         for (std::size_t i = 0; i < lengths_.size(); ++i)
-            result.emplace_back(gear.direction * curvatures_[i], gear.direction * lengths_[i],
-                                (curvatures_[i + 1] - curvatures_[i]) * gear.direction / lengths_[i]);
+            result.emplace_back(direction * curvatures_[i], direction * lengths_[i],
+                                (curvatures_[i + 1] - curvatures_[i]) * direction / lengths_[i]);
         return true;
     }
 }  // namespace parking
