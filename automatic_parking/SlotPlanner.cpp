@@ -3,7 +3,7 @@
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "ompl_improved_astar/search/FootprintEnvironment.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+#include "parking_geometry/manoeuvres/MultiStretchParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/FootprintChecker.h"
@@ -17,19 +17,19 @@ namespace parking
 {
     namespace
     {
-        /** Gaps tried for several moves between that of the sweep and the least one, metres. */
+        /** Gaps tried for several stretches between that of the sweep and the least one, metres. */
         constexpr double MIDDLE_GAP = 0.02;
 
         /** The search proves motions free up to this many metres from contact; its gap is smaller by as much. */
         constexpr double SWEEP_TOLERANCE = 1e-3;
 
-        /** In several moves, metres of driving that a change of direction may save. */
+        /** In several stretches, metres of driving that a change of direction may save. */
         constexpr double GEAR_CHANGE = 4.0;
         constexpr double STEERING_CHANGE = 0.1;
 
-        /** Manoeuvres of more moves than this are sought with the next smaller gap, too, which is worth it when it
+        /** Manoeuvres of more stretches than this are sought with the next smaller gap, too, which is worth it when it
            saves this share of them. */
-        constexpr std::size_t MANY_MOVES = 8;
+        constexpr std::size_t MANY_STRETCHES = 8;
         constexpr double WORTH_A_SMALLER_GAP = 0.25;
 
         /** On the way to the slot. */
@@ -56,7 +56,7 @@ namespace parking
             std::uint64_t effort;
         };
 
-        /** Without segments when nothing was found. */
+        /** Without pieces when nothing was found. */
         Path searchPath(const FootprintChecker &checker, const SearchTask &task)
         {
             const Vehicle &vehicle = checker.vehicle();
@@ -187,7 +187,7 @@ namespace parking
             if (missing > 0.0 && !found.manoeuvre.fits())
             {
                 found.manoeuvre.message +=
-                    "; nor does a car of this size get round the corner in any number of moves: the "
+                    "; nor does a car of this size get round the corner in any number of stretches: the "
                     "slot would have to be " +
                     formatNumber(std::ceil(1000.0 * missing) / 10.0) + " cm wider";
                 return found;
@@ -213,21 +213,22 @@ namespace parking
                 return searchPath(planning, {task.parked, task.exits, Bounds{task.min, task.max}, radius, GEAR_CHANGE,
                                              false, options_.effort});
             };
-            ReverseParkingResult result = planInMoves(parking, slot, queriesOf(judge), shunts);
-            const auto moves = static_cast<double>(found.manoeuvre.moves());
+            ReverseParkingResult result = planInStretches(parking, slot, queriesOf(judge), shunts);
+            const std::size_t stretches = result.path.stretches().size();
+            const double few =
+                (1.0 - WORTH_A_SMALLER_GAP) * static_cast<double>(found.manoeuvre.path.stretches().size());
             if (found.clearance > 0.0 &&
-                !(result.fits() && (!found.manoeuvre.fits() ||
-                                    static_cast<double>(result.moves()) <= (1.0 - WORTH_A_SMALLER_GAP) * moves)))
+                !(result.fits() && (!found.manoeuvre.fits() || static_cast<double>(stretches) <= few)))
                 continue;
             found = {result, {}, clearance, radiusFactor};
             for (ReverseParkingResult &each : parking.planAll(slot, queriesOf(judge)))
                 if (each.fits())
                     found.sweeps.push_back(std::move(each));
-            if (result.fits() && result.moves() <= MANY_MOVES)
+            if (result.fits() && stretches <= MANY_STRETCHES)
                 break;
         }
         if (!found.manoeuvre.fits())
-            found.manoeuvre.message += "; nor was a way in several moves found";
+            found.manoeuvre.message += "; nor was a way in several stretches found";
         return found;
     }
 

@@ -24,7 +24,8 @@ namespace parking
             through, full lock is used. At least 1. */
         double radiusFactor{1.03};
 
-        /** Gap all round the body, metres, that manoeuvres in several moves may go down to, from that of the sweep. */
+        /** Gap all round the body, metres, that manoeuvres in several stretches may go down to, from that of the sweep.
+         */
         double leastClearance{0.01};
 
         /** Expansions after which a search gives up. */
@@ -40,25 +41,19 @@ namespace parking
         bool solved{false};
         std::string message;  ///< one line: what is wrong, when not solved
 
-        Path path;          ///< from the start to the parked pose, arcs and lines; no segments unless solved
+        Path path;          ///< from the start to the parked pose, arcs and lines; no pieces unless solved
         SmoothPath smooth;  ///< the same, drivable; re-checked by the swept footprint
 
         /** Gap, metres, that path keeps all round the body (to a millimetre); smooth keeps at least half of it. */
         double clearance{0.0};
-
-        /** \brief Moves of the whole way: stretches in one direction. */
-        std::size_t moves() const
-        {
-            return path.pieces.empty() ? 0 : path.cusps() + 1;
-        }
     };
 
-    /** \brief Parks a car in a slot, in one sweep where that fits and in several moves where not.
+    /** \brief Parks a car in a slot, in one sweep where that fits and in several stretches where not.
 
         1. The one-sweep manoeuvre of ReverseParking, checked against the world by the swept footprint.
-        2. Where no sweep fits, planInMoves() with the planner's car model: shunts, searched out of the slot. The gap
-           kept is that of the sweep, then 2 cm, then leastClearance: smaller ones where nothing else gets through, or
-           where many moves become a quarter fewer.
+        2. Where no sweep fits, planInStretches() with the planner's car model: shunts, searched out of the slot. The
+       gap kept is that of the sweep, then 2 cm, then leastClearance: smaller ones where nothing else gets through, or
+           where many stretches become a quarter fewer.
         3. The planner brings the car to the manoeuvre's beginning P. Where the manoeuvre cannot be reached, the planner
            goes all the way to the parked pose.
         4. Both are joined and smoothed as one.
@@ -74,8 +69,8 @@ namespace parking
         /** \brief Throws parking::Error for an invalid vehicle or option, naming it. */
         explicit SlotPlanner(const Vehicle &vehicle, const SlotPlannerOptions &options = {});
 
-        /** \brief The part at the slot: from P in the aisle to the parked pose. ReverseParkingResult::moves() says in
-            how many moves, neededSlotLength and neededAisleWidth what one sweep would need. */
+        /** \brief The part at the slot: from P in the aisle to the parked pose. its path says in
+            how many stretches, neededSlotLength and neededAisleWidth what one sweep would need. */
         ReverseParkingResult manoeuvre(const ParkingSlot &slot) const;
         ReverseParkingResult manoeuvre(const ParkingSlot &slot, const ObstacleSet &world) const;
 
@@ -87,7 +82,7 @@ namespace parking
         SlotPlan plan(const ParkingSlot &slot, const Pose &start, const ObstacleSet &world) const;
 
         /** \brief The shortest parallel slot, or the narrowest other one, in metres, that the car gets into in however
-            many moves, in the world of slotSurroundings(); centre, and the rest of \e slot, stay as they are.
+            many stretches, in the world of slotSurroundings(); centre, and the rest of \e slot, stay as they are.
 
             By bisection to \e precision metres, from \e slot, or from larger ones where it does not fit; infinite when
             2 m more do not do. An upper bound: the search may have overlooked a way. */

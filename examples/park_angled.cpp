@@ -54,8 +54,9 @@ int main(int argc, char **argv)
         ParkingSlot reverse = slot;
         reverse.entry = SlotEntry::Reverse;
         std::cout << "forwards: an aisle of " << inMetres(plan.manoeuvre.neededAisleWidth) << " would do; in reverse: "
-                  << inMetres(ReverseParking(car, options.sweep).plan(reverse).neededAisleWidth) << "; " << plan.moves()
-                  << " moves, " << inMetres(plan.smooth.path.length()) << " in all\n";
+                  << inMetres(ReverseParking(car, options.sweep).plan(reverse).neededAisleWidth) << "; "
+                  << plan.path.stretches().size() << " stretches, " << inMetres(plan.smooth.path.length())
+                  << " in all\n";
         scene.draw(plan, "Angled parking, nose first", "Toyota Corolla into a stall at 60 degrees", file);
         return plan.smooth.free ? 0 : 1;
     }

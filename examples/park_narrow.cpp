@@ -1,4 +1,4 @@
-// A slot only 30 cm wider than the car on an aisle of 4.5 m: no single sweep gets in, several moves do.
+// A slot only 30 cm wider than the car on an aisle of 4.5 m: no single sweep gets in, several stretches do.
 
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"
@@ -41,12 +41,12 @@ int main(int argc, char **argv)
         }
         options.effort = 4000;  // enough to say how narrow it may be
         const SlotPlanner quick(car, options);
-        std::cout << "several: " << plan.manoeuvre.moves() << " moves at the slot, " << plan.moves() << " and "
-                  << inMetres(plan.smooth.path.length())
+        std::cout << "several: " << plan.manoeuvre.path.stretches().size() << " stretches at the slot, "
+                  << plan.path.stretches().size() << " and " << inMetres(plan.smooth.path.length())
                   << " in all; the narrowest slot that would do: " << inMetres(quick.smallestSlot(slot, 0.05)) << "\n";
-        scene.draw(plan, "A narrow slot in several moves",
+        scene.draw(plan, "A narrow slot in several stretches",
                    "Tesla Model 3, 15 cm to the walls on either side, aisle of 4.5 m", file);
-        return plan.smooth.free && plan.manoeuvre.moves() > 1 ? 0 : 1;
+        return plan.smooth.free && plan.manoeuvre.path.stretches().size() > 1 ? 0 : 1;
     }
     catch (const Error &error)
     {

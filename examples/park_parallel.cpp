@@ -55,11 +55,11 @@ int main(int argc, char **argv)
             return 1;
         }
         std::cout << "a slot of " << inMetres(slot.length) << ": R_min " << inMetres(plan.manoeuvre.minRadius)
-                  << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.moves() << " moves, "
-                  << inMetres(plan.smooth.path.length()) << " in all\n";
+                  << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.path.stretches().size()
+                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Parallel parking in reverse", "Tesla Model 3 in one sweep: two arcs, joined by clothoids",
                    file);
-        return plan.smooth.free && plan.manoeuvre.moves() == 1 ? 0 : 1;
+        return plan.smooth.free && plan.manoeuvre.path.stretches().size() == 1 ? 0 : 1;
     }
     catch (const Error &error)
     {

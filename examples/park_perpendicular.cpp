@@ -46,8 +46,8 @@ int main(int argc, char **argv)
             return 1;
         }
         std::cout << "one sweep at a radius of " << inMetres(plan.manoeuvre.firstRadius) << ", "
-                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle would do; " << plan.moves() << " moves, "
-                  << inMetres(plan.smooth.path.length()) << " in all\n";
+                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle would do; " << plan.path.stretches().size()
+                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Perpendicular parking in reverse",
                    "VW Golf 8 into a slot of 2.5 m x 5 m from an aisle of 6 m", file);
         return plan.smooth.free && plan.smooth.stops.empty() ? 0 : 1;

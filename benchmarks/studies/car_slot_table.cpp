@@ -1,5 +1,5 @@
-// Which car parks in which slot in how many moves: writes docs/car-slot-table.md, or checks that it is what would be
-// written.
+// Which car parks in which slot in how many stretches: writes docs/car-slot-table.md, or checks that it is what would
+// be written.
 
 #include "automatic_parking/SlotPlanner.h"
 #include "parking_geometry/Error.h"
@@ -109,7 +109,7 @@ namespace
         if (car.width + 2.0 * options.leastClearance > slot.width)
             return "wide";
         const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
-        return result.fits() ? std::to_string(result.moves()) : "-";
+        return result.fits() ? std::to_string(result.path.stretches().size()) : "-";
     }
 
     /** Header and rule of a table. */
@@ -147,7 +147,7 @@ namespace
     {
         std::string text =
             header({"car", "length x width", "R_min", "aisle for one sweep, 2.5 m slot", "parallel slot for one sweep",
-                    "moves, parallel, length + 0.5 m", "moves, perpendicular, width + 0.3 m, aisle 4.5 m"});
+                    "stretches, parallel, length + 0.5 m", "stretches, perpendicular, width + 0.3 m, aisle 4.5 m"});
         for (const Vehicle &car : cars)
         {
             ParkingSlot bay;
@@ -193,7 +193,8 @@ namespace
             cars.push_back(vehicleByName(name));
         return "# Which car parks in which slot\n\n"
                "Written by `car_slot_table`; do not edit it by hand, run `scripts/make_car_slot_table`.\n\n"
-               "The number of moves (stretches in one direction) from the aisle into the slot: 1 is a single sweep.\n"
+               "The number of stretches (parts between changes of direction) from the aisle into the slot: 1 is a "
+               "single sweep.\n"
                "`long` and `wide`: the car is longer or wider than the slot, less 1 cm at either end. `-`: no way was "
                "found. In reverse, but "
                "for\n"
@@ -202,9 +203,10 @@ namespace
                "the\n"
                "kerb of a parallel slot is a wall, and a wall bounds the aisle. The car stands in the middle. A sweep "
                "keeps\n"
-               "5 cm all round the body, several moves 1 to 5 cm. Cars between real cars, which leave some of their "
+               "5 cm all round the body, several stretches 1 to 5 cm. Cars between real cars, which leave some of "
+               "their "
                "slots\n"
-               "free, need fewer moves.\n\n" +
+               "free, need fewer stretches.\n\n" +
                movesTable(cars) +
                "\n\\* The pages read say nothing about the aisle, or lane, of this slot: the number is assumed.\n\n"
                "## What a car needs\n\n"

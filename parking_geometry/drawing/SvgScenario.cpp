@@ -78,33 +78,33 @@ namespace parking
         }
 
         /** Pieces of one direction, which their last state tells; each begins with the last state of the one before. */
-        std::vector<SampledPath> gearSegments(const SampledPath &path)
+        std::vector<SampledPath> stretchesOf(const SampledPath &path)
         {
-            std::vector<SampledPath> pieces;
+            std::vector<SampledPath> stretches;
             for (std::size_t i = 1; i < path.size(); ++i)
             {
-                if (pieces.empty() || path[i].direction != pieces.back().back().direction)
-                    pieces.push_back({path[i - 1]});
-                pieces.back().push_back(path[i]);
+                if (stretches.empty() || path[i].direction != stretches.back().back().direction)
+                    stretches.push_back({path[i - 1]});
+                stretches.back().push_back(path[i]);
             }
-            return pieces;
+            return stretches;
         }
 
-        /** The car along one piece, \e spacing metres apart and at the piece's end. */
-        void drawSweep(SvgMap &map, const SampledPath &piece, const Vehicle &vehicle, double spacing)
+        /** The car along one stretch, \e spacing metres apart and at the stretch's end. */
+        void drawSweep(SvgMap &map, const SampledPath &stretch, const Vehicle &vehicle, double spacing)
         {
-            SvgStyle style = filled(colourOf(piece.back().direction), colourOf(piece.back().direction));
+            SvgStyle style = filled(colourOf(stretch.back().direction), colourOf(stretch.back().direction));
             style.fillOpacity = 0.035;
             style.strokeOpacity = 0.4;
             style.strokeWidth = 0.8;
-            double next = piece.front().arcLength + spacing;
-            for (const PathState &state : piece)
+            double next = stretch.front().arcLength + spacing;
+            for (const PathState &state : stretch)
             {
-                const bool last = &state == &piece.back();
+                const bool last = &state == &stretch.back();
                 if (state.arcLength < next && !last)
                     continue;
                 // Not two cars within half a spacing: they would look like one with a fat line.
-                if (!last && piece.back().arcLength - state.arcLength < 0.5 * spacing)
+                if (!last && stretch.back().arcLength - state.arcLength < 0.5 * spacing)
                     continue;
                 map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
                 next = state.arcLength + spacing;
@@ -172,17 +172,17 @@ namespace parking
         if (path.size() < 2)
             return;
         const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
-        const std::vector<SampledPath> pieces = gearSegments(path);
-        for (const SampledPath &piece : pieces)
+        const std::vector<SampledPath> stretches = stretchesOf(path);
+        for (const SampledPath &stretch : stretches)
         {
-            const int direction = piece.back().direction;
-            drawSweep(map, piece, vehicle, spacing);
+            const int direction = stretch.back().direction;
+            drawSweep(map, stretch, vehicle, spacing);
             std::vector<Eigen::Vector2d> track;
-            for (const PathState &state : piece)
+            for (const PathState &state : stretch)
                 track.push_back(positionOf(state.pose));
             map.drawLine(SvgLayer::Lines, track, stroked(colourOf(direction), 2.4));
             map.addLegend({direction < 0 ? "reverse" : "forward", stroked(colourOf(direction), 2.4), true});
-            if (&piece != &pieces.back())
+            if (&stretch != &stretches.back())
             {
                 SvgStyle dot = filled("#ffffff", "#0f172a");
                 dot.strokeWidth = 1.4;
@@ -254,18 +254,18 @@ namespace parking
         plot.yLabel = "curvature (1/m)";
         const double limit = 1.0 / vehicle.minTurningRadius();
         plot.limits = {-limit, limit};
-        for (const SampledPath &piece : gearSegments(path))
+        for (const SampledPath &stretch : stretchesOf(path))
         {
-            if (piece.back().direction < 0)
-                plot.bands.push_back({piece.front().arcLength, piece.back().arcLength, svg_colour::REVERSE});
-            // A curve for each piece: the steering may jump where the car stands.
+            if (stretch.back().direction < 0)
+                plot.bands.push_back({stretch.front().arcLength, stretch.back().arcLength, svg_colour::REVERSE});
+            // A curve for each stretch: the steering may jump where the car stands.
             SvgSeries series;
-            series.colour = colourOf(piece.back().direction);
-            for (std::size_t i = 1; i < piece.size(); ++i)
+            series.colour = colourOf(stretch.back().direction);
+            for (std::size_t i = 1; i < stretch.size(); ++i)
             {
                 // Constant from state to state, which is what the path says.
-                series.x.insert(series.x.end(), {piece[i - 1].arcLength, piece[i].arcLength});
-                series.y.insert(series.y.end(), {piece[i].curvature, piece[i].curvature});
+                series.x.insert(series.x.end(), {stretch[i - 1].arcLength, stretch[i].arcLength});
+                series.y.insert(series.y.end(), {stretch[i].curvature, stretch[i].curvature});
             }
             plot.series.push_back(std::move(series));
         }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace parking
 {
@@ -47,10 +49,10 @@ namespace parking
             const ReverseParkingOptions &options;
             const ParkingSlot &slot;
             ExitBody body;
-            double gear;    ///< 1 when the car leaves forwards, -1 in reverse
-            double mirror;  ///< 1 for a slot on the right, -1 on the left
-            double turn;    ///< curvature of the car per curvature in the frame of the leaving body
-            Pose local;     ///< parked pose in the frame of the slot
+            double direction;  ///< 1 when the car leaves forwards, -1 in reverse
+            double mirror;     ///< 1 for a slot on the right, -1 on the left
+            double turn;       ///< curvature of the car per curvature in the frame of the leaving body
+            Pose local;        ///< parked pose in the frame of the slot
             double minRadius;
             double preferredRadius;
             ReverseParkingResult result;
@@ -58,15 +60,15 @@ namespace parking
             /** A piece as it is in the frame of the leaving body of a slot on the right. */
             Arc piece(double curvature, double length) const
             {
-                return {turn * curvature, gear * length};
+                return {turn * curvature, direction * length};
             }
 
             /** The way in: \e out, the way out without its guard line, driven backwards from the guard line's start. */
             Path wayIn(const std::vector<Arc> &out, double guard) const
             {
                 Path path{result.goal, {}};
-                for (const Arc &segment : out)
-                    path.append(segment);
+                for (const Arc &arc : out)
+                    path.append(arc);
                 path.append(piece(0.0, guard));
                 return path.reversed();
             }
@@ -200,9 +202,9 @@ namespace parking
             const ExitBody &body = exit.body;
             ReverseParkingResult &result = exit.result;
             const double offset = exit.mirror * exit.local.y;
-            const KerbSlot kerb{0.5 * slot.length - exit.gear * exit.local.x, 0.5 * slot.width - offset,
+            const KerbSlot kerb{0.5 * slot.length - exit.direction * exit.local.x, 0.5 * slot.width - offset,
                                 0.5 * slot.width + offset - body.halfWidth};
-            judgeParallel(exit, kerb, 0.5 * slot.length + exit.gear * exit.local.x);
+            judgeParallel(exit, kerb, 0.5 * slot.length + exit.direction * exit.local.x);
 
             const double smallest = std::isfinite(result.minRadius) ? result.minRadius : exit.minRadius;
             const LaneExit tight = narrowestLaneExit(kerb, body, smallest, exit.minRadius);
@@ -236,6 +238,18 @@ namespace parking
             return variants;
         }
 
+        /** The allowed entries and sides, in their order. */
+        std::vector<std::pair<SlotEntry, SlotSide>> waysInto(const ParkingSlot &slot)
+        {
+            std::vector<std::pair<SlotEntry, SlotSide>> ways;
+            for (const SlotEntry entry : {SlotEntry::Reverse, SlotEntry::Forward})
+                for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
+                    if ((slot.entry == SlotEntry::Either || slot.entry == entry) &&
+                        (slot.side == SlotSide::Either || slot.side == side))
+                        ways.emplace_back(entry, side);
+            return ways;
+        }
+
         bool isEmpty(const FootprintQueries &world)
         {
             return !world.isFree && !world.clearance && !world.isPathFree;
@@ -261,11 +275,11 @@ namespace parking
                                                  const FootprintQueries &world) const
     {
         const bool tailLeads = entry == SlotEntry::Forward;
-        const double gear = tailLeads ? -1.0 : 1.0, mirror = side == SlotSide::Left ? -1.0 : 1.0;
+        const double direction = tailLeads ? -1.0 : 1.0, mirror = side == SlotSide::Left ? -1.0 : 1.0;
         // A car that leaves in reverse is turned round in that frame, where left stays left and driving backwards swaps
         // the sign of a turn. Parallel slots are left backwards towards their rear, which mirrors the frame once more.
-        const double turn = slot.kind == SlotKind::Parallel ? mirror : mirror * gear;
-        Exit exit{vehicle_, options_, slot, {}, gear, mirror, turn, {}, 0.0, 0.0, {}};
+        const double turn = slot.kind == SlotKind::Parallel ? mirror : mirror * direction;
+        Exit exit{vehicle_, options_, slot, {}, direction, mirror, turn, {}, 0.0, 0.0, {}};
         const double front = vehicle_.wheelbase + vehicle_.frontOverhang + options_.clearance;
         const double rear = vehicle_.rearOverhang + options_.clearance;
         exit.body = {tailLeads ? rear : front, tailLeads ? front : rear, 0.5 * vehicle_.width + options_.clearance};
@@ -325,33 +339,24 @@ namespace parking
     {
         slot.validate();
         std::vector<ReverseParkingResult> results;
-        for (const SlotEntry entry : {SlotEntry::Reverse, SlotEntry::Forward})
-            for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
-                if ((slot.entry == SlotEntry::Either || slot.entry == entry) &&
-                    (slot.side == SlotSide::Either || slot.side == side))
-                    results.push_back(planOne(slot, entry, side, world));
+        for (const auto &[entry, side] : waysInto(slot))
+            results.push_back(planOne(slot, entry, side, world));
         return results;
     }
 
     ReverseParkingResult ReverseParking::plan(const ParkingSlot &slot, const FootprintQueries &world) const
     {
         slot.validate();
-        ReverseParkingResult best;
-        bool any = false;
-        for (const SlotEntry entry : {SlotEntry::Reverse, SlotEntry::Forward})
-            for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
-            {
-                if ((slot.entry != SlotEntry::Either && slot.entry != entry) ||
-                    (slot.side != SlotSide::Either && slot.side != side))
-                    continue;
-                ReverseParkingResult result = planOne(slot, entry, side, world);
-                if (result.fits())
-                    return result;
-                if (!any || result.missing < best.missing)
-                    best = std::move(result);
-                any = true;
-            }
-        return best;
+        std::optional<ReverseParkingResult> best;
+        for (const auto &[entry, side] : waysInto(slot))
+        {
+            ReverseParkingResult result = planOne(slot, entry, side, world);
+            if (result.fits())
+                return result;
+            if (!best || result.missing < best->missing)
+                best = std::move(result);
+        }
+        return *best;
     }
 
     Path joined(const Path &first, const Path &second)
@@ -363,8 +368,7 @@ namespace parking
             throw Error("paths to be joined are " + formatNumber(gap) + " m and " + formatNumber(turn) +
                         " rad apart; the second must start where the first ends");
         Path path = first;
-        for (const PathPiece &segment : second.pieces)
-            path.append(segment);
+        path.extend(second);
         return path;
     }
 }  // namespace parking

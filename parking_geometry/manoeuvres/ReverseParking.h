@@ -49,7 +49,7 @@ namespace parking
         SlotSide side{SlotSide::Right};       ///< Right or Left
         Pose goal;                            ///< the parked car
 
-        /** From P, the start of the guard line and the planner's goal, to goal; no segments unless it fits. */
+        /** From P, the start of the guard line and the planner's goal, to goal; no pieces unless it fits. */
         Path path;
         double guardLength{0.0};  ///< metres of guard line left in path; shorter than asked where the world ends
 
@@ -65,12 +65,6 @@ namespace parking
         bool fits() const
         {
             return status == ReverseParkingStatus::Fits;
-        }
-
-        /** \brief Moves that the manoeuvre takes: stretches in one direction. */
-        std::size_t moves() const
-        {
-            return path.pieces.empty() ? 0 : path.cusps() + 1;
         }
     };
 

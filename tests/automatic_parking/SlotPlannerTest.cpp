@@ -84,11 +84,11 @@ TEST_P(TightSlots, ParallelOfCarLengthAndHalfAMetre)
     const ParkingSlot slot = tightSlot(SlotKind::Parallel, car);
     const ReverseParkingResult result = SlotPlanner(car, inAisle(AISLE)).manoeuvre(slot);
     ASSERT_TRUE(result.fits()) << result.message;
-    EXPECT_GT(result.moves(), 1u);
+    EXPECT_GT(result.path.stretches().size(), 1u);
     EXPECT_LT(gap(result.path.end(), slot.goals(car).front()), 1e-9);
     EXPECT_GT(result.neededSlotLength, slot.length) << "one sweep needs more";
     expectFree(result.path, car, oracleFor(slot, AISLE), 0.008);
-    RecordProperty("moves", static_cast<int>(result.moves()));
+    RecordProperty("stretches", static_cast<int>(result.path.stretches().size()));
 }
 
 TEST_P(TightSlots, PerpendicularOfWidthAndThirtyCentimetres)
@@ -101,14 +101,14 @@ TEST_P(TightSlots, PerpendicularOfWidthAndThirtyCentimetres)
     {
         // 5.18 m of car, a ladder round a corner: not even sideways would it get in.
         EXPECT_FALSE(result.fits());
-        EXPECT_NE(result.message.find("any number of moves"), std::string::npos) << result.message;
+        EXPECT_NE(result.message.find("any number of stretches"), std::string::npos) << result.message;
         EXPECT_GT(result.neededAisleWidth, AISLE);
         return;
     }
     ASSERT_TRUE(result.fits()) << result.message;
     EXPECT_LT(gap(result.path.end(), slot.goals(car).front()), 1e-9);
     expectFree(result.path, car, oracleFor(slot, AISLE), 0.008);
-    RecordProperty("moves", static_cast<int>(result.moves()));
+    RecordProperty("stretches", static_cast<int>(result.path.stretches().size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cars, TightSlots, testing::ValuesIn(vehicleNames()),
@@ -137,7 +137,7 @@ TEST(SlotPlanner, NoBodyTurnsWhereTheBoundSaysSo)
         SlotPlannerOptions options = inAisle(AISLE);
         options.effort = 100;
         const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
-        EXPECT_EQ(always, result.message.find("any number of moves") == std::string::npos) << more;
+        EXPECT_EQ(always, result.message.find("any number of stretches") == std::string::npos) << more;
         EXPECT_EQ(always, more > 0.3);
     }
 }
@@ -151,7 +151,7 @@ TEST(SlotPlanner, OneSweepIsLeftAlone)
     const ReverseParkingResult sweep = ReverseParking(car, options.sweep).plan(slot);
     const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
     ASSERT_TRUE(sweep.fits() && result.fits());
-    EXPECT_EQ(result.moves(), 1u);
+    EXPECT_EQ(result.path.stretches().size(), 1u);
     EXPECT_EQ(result.firstRadius, sweep.firstRadius);
 }
 
@@ -174,7 +174,7 @@ TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
                     const Pose start = inTheAisle(slot, -8.0);
                     const SlotPlan plan = planner.plan(slot, start);
                     ASSERT_TRUE(plan.solved) << plan.message;
-                    EXPECT_EQ(plan.manoeuvre.moves() == 1, !tight);
+                    EXPECT_EQ(plan.manoeuvre.path.stretches().size() == 1, !tight);
                     EXPECT_LT(gap(plan.path.start, start), 1e-9);
                     EXPECT_LT(gap(plan.path.end(), slot.goals(car).front()), 1e-6);
                     const PolygonOracle oracle = oracleFor(slot, aisle);

@@ -95,11 +95,11 @@ namespace parking_test
         bool isPathFree(const Path &path, double finest = 1e-4) const
         {
             Pose pose = path.start;
-            for (const PathPiece &segment : path.pieces)
+            for (const PathPiece &piece : path.pieces)
             {
-                if (!isArcFree(pose, segment, finest))
+                if (!isPieceFree(pose, piece, finest))
                     return false;
-                pose = advance(pose, segment.curvature, segment.length);
+                pose = advance(pose, piece);
             }
             return true;
         }
@@ -128,18 +128,21 @@ namespace parking_test
             return {pose.x + ahead * std::cos(pose.yaw), pose.y + ahead * std::sin(pose.yaw)};
         }
 
-        bool isArcFree(const Pose &from, const PathPiece &arc, double finest) const
+        bool isPieceFree(const Pose &from, const PathPiece &piece, double finest) const
         {
-            const Pose pose = advance(from, arc.curvature, 0.5 * arc.length);
-            const double moved =
-                0.5 * std::abs(arc.length) * (1.0 + std::abs(arc.curvature) * farthestCorner(vehicle_));
+            const double driven = 0.5 * piece.driven(), turn = 0.5 * piece.turn;
+            PathPiece first(piece.curvature, 0.5 * piece.length, piece.sharpness);
+            PathPiece second(piece.curvatureAt(driven), 0.5 * piece.length, piece.sharpness);
+            first.turn = second.turn = turn;
+            const Pose pose = advance(from, first);
+            const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            const double moved = driven + (steepest * driven + std::abs(turn)) * farthestCorner(vehicle_);
             const double distance = clearance(pose);
             if (distance > moved)
                 return true;
             if (distance == 0.0 && !isFree(pose))
                 return false;
-            const Arc half{arc.curvature, 0.5 * arc.length};
-            return moved < finest || (isArcFree(from, half, finest) && isArcFree(pose, half, finest));
+            return moved < finest || (isPieceFree(from, first, finest) && isPieceFree(pose, second, finest));
         }
 
         static Eigen::Vector2d toCar(const Pose &pose, const Eigen::Vector2d &point)

@@ -70,13 +70,15 @@ namespace
     double narrowestAisle(const ParkingSlot &slot, const Vehicle &car)
     {
         const Pose goal = slot.goals(car).front();
-        const double gear = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
-        const double turn = -gear * (slot.side == SlotSide::Left ? -1.0 : 1.0);
+        const double direction = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
+        const double turn = -direction * (slot.side == SlotSide::Left ? -1.0 : 1.0);
         const PolygonWorld world(car, slotSurroundings(slot, slot.side, INFINITE, 20.0));
         const auto out = [&](double radius, double straight)
         {
-            return Path{
-                goal, {{0.0, gear * straight}, {turn / radius, gear * radius * slot.aisleAngle()}, {0.0, gear * 3.0}}};
+            return Path{goal,
+                        {{0.0, direction * straight},
+                         {turn / radius, direction * radius * slot.aisleAngle()},
+                         {0.0, direction * 3.0}}};
         };
         const auto needed = [&](double radius)
         {
@@ -106,7 +108,7 @@ namespace
     /** Is there a way out of the slot with this first radius, whatever the second radius and the angle? */
     bool hasExit(const ParkingSlot &slot, const Vehicle &car, double first)
     {
-        const double gear = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
+        const double direction = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
         const double side = slot.side == SlotSide::Left ? -1.0 : 1.0;
         const double out = 0.5 * slot.width - side * slot.lateralOffset + 0.5 * car.width;
         const PolygonWorld world(car, slotSurroundings(slot, slot.side, INFINITE, 40.0));
@@ -117,9 +119,9 @@ namespace
                 if ((first + second) * (1.0 - std::cos(turn)) < out)
                     continue;
                 const Path path{slot.goals(car).front(),
-                                {{side / first, gear * first * turn},
-                                 {-side / second, gear * second * turn},
-                                 {0.0, gear * 1.5 * car.length()}}};
+                                {{side / first, direction * first * turn},
+                                 {-side / second, direction * second * turn},
+                                 {0.0, direction * 1.5 * car.length()}}};
                 if (world.isPathFree(path))
                     return true;
             }
@@ -130,14 +132,14 @@ namespace
        then the shortest slot that has an exit with it. */
     double shortestSlot(const ParkingSlot &slot, const Vehicle &car)
     {
-        const double gear = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
+        const double direction = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
         const double side = slot.side == SlotSide::Left ? -1.0 : 1.0;
         const ParkingSlot endless = lengthened(slot, 120.0);
         const PolygonWorld street(car, slotSurroundings(endless, slot.side, INFINITE, 40.0));
         const auto offTheKerb = [&](double radius)
         {
             return street.isPathFree(
-                Path{endless.goals(car).front(), {{side / radius, gear * std::min(radius * 1.2, 40.0)}}});
+                Path{endless.goals(car).front(), {{side / radius, direction * std::min(radius * 1.2, 40.0)}}});
         };
         const double smallest = car.minTurningRadius();
         const double radius = offTheKerb(smallest) ? smallest : bisect(smallest, 80.0, offTheKerb);
@@ -195,7 +197,7 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotAgreesWithBruteForceOnFootpr
         // No other pair of radii and angle does better.
         const ParkingSlot shorter = lengthened(slot, needed - 1e-3);
         const PolygonWorld world(car, slotSurroundings(shorter, slot.side, INFINITE, 40.0));
-        const double gear = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
+        const double direction = slot.entry == SlotEntry::Forward ? -1.0 : 1.0;
         const double side = slot.side == SlotSide::Left ? -1.0 : 1.0;
         const double out = 0.5 * slot.width - side * slot.lateralOffset + 0.5 * car.width;
         for (int k = 0; k < 1000; ++k)
@@ -206,9 +208,9 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotAgreesWithBruteForceOnFootpr
             if ((first + second) * (1.0 - std::cos(turn)) < out)
                 continue;
             ASSERT_FALSE(world.isPathFree(Path{shorter.goals(car).front(),
-                                               {{side / first, gear * first * turn},
-                                                {-side / second, gear * second * turn},
-                                                {0.0, gear * 1.5 * car.length()}}}));
+                                               {{side / first, direction * first * turn},
+                                                {-side / second, direction * second * turn},
+                                                {0.0, direction * 1.5 * car.length()}}}));
         }
     }
 }

@@ -65,19 +65,19 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
             ASSERT_TRUE(result.path.pieces.empty());
             ASSERT_GT(result.missing, 0.0);
             ASSERT_NE(result.message.find(" cm"), std::string::npos);
-            ASSERT_EQ(result.moves(), 0u);
+            ASSERT_EQ(result.path.stretches().size(), 0u);
             continue;
         }
         ++fits;
-        // Closure. Segments of constant curvature are tangent by construction; what remains is the goal.
+        // Closure. Pieces of constant curvature are tangent by construction; what remains is the goal.
         ASSERT_LT(gap(result.path.end(), result.goal), 1e-9);
-        ASSERT_EQ(result.moves(), 1u);
+        ASSERT_EQ(result.path.stretches().size(), 1u);
         ASSERT_TRUE(result.message.empty());
         const double direction = slot.entry == SlotEntry::Forward ? 1.0 : -1.0;
-        for (const PathPiece &segment : result.path.pieces)
+        for (const PathPiece &piece : result.path.pieces)
         {
-            ASSERT_GT(direction * segment.length, 0.0);
-            ASSERT_LE(std::abs(segment.curvature), (1.0 + 1e-12) / car.minTurningRadius());
+            ASSERT_GT(direction * piece.length, 0.0);
+            ASSERT_LE(std::abs(piece.curvature), (1.0 + 1e-12) / car.minTurningRadius());
         }
         // P lies along the aisle, headed so that the car drives off in its direction.
         const bool turned = slot.entry == SlotEntry::Forward && slot.kind != SlotKind::Parallel;

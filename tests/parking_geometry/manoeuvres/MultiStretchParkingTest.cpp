@@ -1,4 +1,4 @@
-#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+#include "parking_geometry/manoeuvres/MultiStretchParking.h"
 
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
@@ -22,7 +22,7 @@ namespace
     }
 }  // namespace
 
-TEST(MultiMoveParking, ExitsLieInTheAisleAndAlongIt)
+TEST(MultiStretchParking, ExitsLieInTheAisleAndAlongIt)
 {
     RandomParking random(31);
     for (int i = 0; i < 3000; ++i)
@@ -52,20 +52,20 @@ TEST(MultiMoveParking, ExitsLieInTheAisleAndAlongIt)
     }
 }
 
-TEST(MultiMoveParking, OneSweepNeedsNoPlanner)
+TEST(MultiStretchParking, OneSweepNeedsNoPlanner)
 {
     const ReverseParking parking{Vehicle()};
-    const ReverseParkingResult result = planInMoves(parking, ParkingSlot(), {},
-                                                    [](const SlotExitTask &) -> Path
-                                                    {
-                                                        ADD_FAILURE() << "asked without need";
-                                                        return {};
-                                                    });
+    const ReverseParkingResult result = planInStretches(parking, ParkingSlot(), {},
+                                                        [](const SlotExitTask &) -> Path
+                                                        {
+                                                            ADD_FAILURE() << "asked without need";
+                                                            return {};
+                                                        });
     EXPECT_TRUE(result.fits());
-    EXPECT_EQ(result.moves(), 1u);
+    EXPECT_EQ(result.path.stretches().size(), 1u);
 }
 
-TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
+TEST(MultiStretchParking, ThePlannersPathIsReversedAndCounted)
 {
     // An aisle that is too narrow for one sweep, and a planner that need not care: there are no callables.
     ReverseParkingOptions options;
@@ -89,15 +89,15 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
         path.append({0.0, -exit.y - radius});
         return path;
     };
-    const ReverseParkingResult result = planInMoves(parking, slot, {}, shunts);
+    const ReverseParkingResult result = planInStretches(parking, slot, {}, shunts);
     ASSERT_TRUE(result.fits()) << result.message;
     EXPECT_EQ(asked, 2);
     EXPECT_LT(gap(result.path.end(), result.goal), 1e-9);
-    EXPECT_EQ(result.moves(), result.path.cusps() + 1);
-    EXPECT_GE(result.moves(), 3u);
+    EXPECT_EQ(result.path.stretches().size(), result.path.cusps() + 1);
+    EXPECT_GE(result.path.stretches().size(), 3u);
     EXPECT_TRUE(result.message.empty());
 
-    // With a way on either side the one with fewer moves wins, whichever is asked for first.
+    // With a way on either side the one with fewer stretches wins, whichever is asked for first.
     for (const SlotSide better : {SlotSide::Right, SlotSide::Left})
     {
         const SlotExitPlanner both = [&](const SlotExitTask &task)
@@ -112,13 +112,13 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
             path.append({0.0, -mirror * exit.y - radius});
             return path;
         };
-        EXPECT_EQ(planInMoves(parking, slot, {}, both).side, better);
+        EXPECT_EQ(planInStretches(parking, slot, {}, both).side, better);
     }
 
-    const ReverseParkingResult none = planInMoves(parking, slot, {},
-                                                  [](const SlotExitTask &task) {
-                                                      return Path{task.parked, {}};
-                                                  });
+    const ReverseParkingResult none = planInStretches(parking, slot, {},
+                                                      [](const SlotExitTask &task) {
+                                                          return Path{task.parked, {}};
+                                                      });
     EXPECT_EQ(none.status, ReverseParkingStatus::AisleTooNarrow);
 
     const auto shifted = [&](const SlotExitTask &task)
@@ -127,21 +127,21 @@ TEST(MultiMoveParking, ThePlannersPathIsReversedAndCounted)
         path.start.x += 0.01;
         return path;
     };
-    expectError([&] { planInMoves(parking, slot, {}, shifted); }, {"multi-move", "begin"});
+    expectError([&] { planInStretches(parking, slot, {}, shifted); }, {"multi-stretch", "begin"});
     const auto elsewhere = [&](const SlotExitTask &task)
     {
         return Path{task.parked, {{0.0, 1.0}}};
     };
-    expectError([&] { planInMoves(parking, slot, {}, elsewhere); }, {"multi-move", "exits"});
+    expectError([&] { planInStretches(parking, slot, {}, elsewhere); }, {"multi-stretch", "exits"});
     FootprintQueries closed;
     closed.isPathFree = [](const Path &)
     {
         return false;
     };
-    expectError([&] { planInMoves(parking, slot, closed, shunts); }, {"multi-move", "free"});
+    expectError([&] { planInStretches(parking, slot, closed, shunts); }, {"multi-stretch", "free"});
 }
 
-TEST(MultiMoveParking, SmallestSlotBisects)
+TEST(MultiStretchParking, SmallestSlotBisects)
 {
     const ReverseParking parking{Vehicle()};
     ParkingSlot slot;

@@ -1,4 +1,4 @@
-#include "parking_geometry/manoeuvres/MultiMoveParking.h"
+#include "parking_geometry/manoeuvres/MultiStretchParking.h"
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -73,8 +73,8 @@ namespace parking
         return task;
     }
 
-    ReverseParkingResult planInMoves(const ReverseParking &parking, const ParkingSlot &slot,
-                                     const FootprintQueries &world, const SlotExitPlanner &planner)
+    ReverseParkingResult planInStretches(const ReverseParking &parking, const ParkingSlot &slot,
+                                         const FootprintQueries &world, const SlotExitPlanner &planner)
     {
         ReverseParkingResult best = parking.plan(slot, world);
         if (best.fits())
@@ -87,13 +87,13 @@ namespace parking
                 continue;
             const Pose end = out.end();
             if (!isSame(out.start, task.parked))
-                throw Error("multi-move parking: the planner's path does not begin at the parked pose");
+                throw Error("multi-stretch parking: the planner's path does not begin at the parked pose");
             if (std::none_of(task.exits.begin(), task.exits.end(), [&](const Pose &exit) { return isSame(exit, end); }))
-                throw Error("multi-move parking: the planner's path does not end at one of the exits");
+                throw Error("multi-stretch parking: the planner's path does not end at one of the exits");
             if (!isPathFree(world, parking.vehicle(), out))
-                throw Error("multi-move parking: the planner's path is not free");
-            const bool fewer = out.cusps() + 1 < best.moves();
-            const bool shorter = out.cusps() + 1 == best.moves() && out.length() < best.path.length();
+                throw Error("multi-stretch parking: the planner's path is not free");
+            const bool fewer = out.cusps() < best.path.cusps();
+            const bool shorter = out.cusps() == best.path.cusps() && out.length() < best.path.length();
             if (best.fits() && !fewer && !shorter)
                 continue;
             best = refused;

@@ -31,19 +31,19 @@ namespace parking
     SlotExitTask slotExitTask(const ReverseParking &parking, const ParkingSlot &slot, SlotEntry entry, SlotSide side);
 
     /** \brief A planner for such tasks: a path from \e parked to one of \e exits, as many changes of direction as it
-        takes; without segments when there is none. */
+        takes; without pieces when there is none. */
     using SlotExitPlanner = std::function<Path(const SlotExitTask &)>;
 
-    /** \brief In one sweep where that fits, otherwise in several moves found by \e planner.
+    /** \brief In one sweep where that fits, otherwise in several stretches found by \e planner.
 
         The planner's path is checked: it must begin at the parked pose and end at an exit (1e-6 m, 1e-6 rad) and pass
-        the world's callables. Reversed it is the manoeuvre; ReverseParkingResult::moves() counts its stretches, and
-        guard line and radii are 0. Among the allowed entries and sides the one with the fewest moves wins, then the
+        the world's callables. Reversed it is the manoeuvre; its path counts its stretches, and
+        guard line and radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
         shortest. When none works, the verdict is that of the single sweep.
 
         Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */
-    ReverseParkingResult planInMoves(const ReverseParking &parking, const ParkingSlot &slot,
-                                     const FootprintQueries &world, const SlotExitPlanner &planner);
+    ReverseParkingResult planInStretches(const ReverseParking &parking, const ParkingSlot &slot,
+                                         const FootprintQueries &world, const SlotExitPlanner &planner);
 
     /** \brief The least \e dimension (&ParkingSlot::length or &ParkingSlot::width), to \e precision metres, with which
         \e fits still says yes; centre and the rest of the slot stay as they are.
