@@ -1,5 +1,6 @@
 #include "benchmarks/comparison/ExperimentLog.h"
 
+#include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/system/Subprocess.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -37,7 +38,7 @@ namespace parking
         {
             ompl::tools::Benchmark::RunProgressData data;
             std::vector<double> times;
-            const double total = std::min(limit, record.number("time REAL"));
+            const double total = std::min(limit, record.time.value_or(0.0));
             for (int i = 1; i * PROGRESS_STEP <= total; ++i)
                 times.push_back(i * PROGRESS_STEP);
             for (const Improvement &each : record.progress)
@@ -109,10 +110,9 @@ namespace parking
             planner.progressPropertyNames = {"best cost REAL", "time REAL"};
             for (const RunRecord *record : own)
             {
-                planner.runs.push_back(record->properties);
+                planner.runs.push_back(omplProperties(*record));
                 planner.runsProgressData.push_back(progressOf(*record, config.timeLimit));
-                if (const double time = record->number("time REAL"); time > 0.0)
-                    data.totalDuration += time;
+                data.totalDuration += record->time.value_or(0.0);
             }
             data.planners.push_back(std::move(planner));
         }

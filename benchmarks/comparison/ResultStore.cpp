@@ -20,7 +20,7 @@ namespace parking
     namespace
     {
         constexpr std::size_t FILE_LIMIT = std::size_t(4) << 30;  // bytes
-        constexpr int FORMAT = 1;
+        constexpr int FORMAT = 2;  // of the lines; 1 kept figures as text under names with types
 
         bool hasContent(const std::string &file)
         {

@@ -1,5 +1,6 @@
 #include "benchmarks/comparison/RunRecord.h"
 
+#include "benchmarks/comparison/RunColumns.h"
 #include "parking_geometry/curves/Kinematics.h"
 #include "parking_geometry/text/Text.h"
 
@@ -27,6 +28,28 @@ namespace parking
         Pose poseFrom(const json &array)
         {
             return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>()};
+        }
+
+        /** JSON has no infinity: what is not finite is the word for it. */
+        json figureJson(const FigureValue &value)
+        {
+            const auto *real = std::get_if<double>(&value);
+            if (real != nullptr && !std::isfinite(*real))
+                return formatNumber(*real);
+            return std::visit([](auto each) { return json(each); }, value);
+        }
+
+        FigureValue figureFrom(const json &value)
+        {
+            if (value.is_boolean())
+                return value.get<bool>();
+            if (value.is_number_integer())
+                return value.get<std::int64_t>();
+            if (value == "inf" || value == "-inf")
+                return (value == "inf" ? 1.0 : -1.0) * std::numeric_limits<double>::infinity();
+            if (value == "nan")
+                return std::numeric_limits<double>::quiet_NaN();
+            return value.get<double>();
         }
     }  // namespace
 
@@ -99,27 +122,16 @@ namespace parking
         return path;
     }
 
-    double RunRecord::number(const std::string &property) const
-    {
-        const auto found = properties.find(property);
-        if (found == properties.end())
-            return std::numeric_limits<double>::quiet_NaN();
-        double value = 0.0;
-        if (parseNumber(found->second, value))
-            return value;
-        return found->second == "inf" ? std::numeric_limits<double>::infinity()
-                                      : std::numeric_limits<double>::quiet_NaN();
-    }
-
-    bool RunRecord::solved() const
-    {
-        return number("success BOOLEAN") == 1.0;
-    }
-
     json RunRecord::toJson() const
     {
-        json text{{"experiment", experiment}, {"planner", planner},      {"run", run}, {"seed", seed},
-                  {"properties", properties}, {"parameters", parameters}};
+        json text{{"experiment", experiment}, {"planner", planner}, {"parameters", parameters}};
+        json &figures = text["figures"] = json::object();
+        for (const RunColumn &column : runColumns())
+            if (const std::optional<FigureValue> value = column.valueOf(*this))
+                figures[column.name] = figureJson(*value);
+        json &own = text["reported"] = json::object();
+        for (const auto &[name, value] : reported)
+            own[name] = figureJson(value);
         json improvements = json::array();
         for (const Improvement &each : progress)
             improvements.push_back(json::array({each.time, each.cost}));
@@ -150,10 +162,14 @@ namespace parking
         RunRecord record;
         text.at("experiment").get_to(record.experiment);
         text.at("planner").get_to(record.planner);
-        text.at("run").get_to(record.run);
-        text.at("seed").get_to(record.seed);
-        text.at("properties").get_to(record.properties);
         text.at("parameters").get_to(record.parameters);
+        const json &figures = text.at("figures");
+        for (const char *key : {"run", "seed"})
+            figures.at(key);  // which run it is must be there, all else may be missing
+        for (const auto &[name, value] : figures.items())
+            runColumn(name).set(record, figureFrom(value));
+        for (const auto &[name, value] : text.at("reported").items())
+            record.reported[name] = figureFrom(value);
         for (const json &each : text.at("progress"))
             record.progress.push_back({each.at(0).get<double>(), each.at(1).get<double>()});
         const auto path = text.find("path");

@@ -1,13 +1,15 @@
 #pragma once
 
 #include "benchmarks/planners/SolveRecord.h"
-#include "benchmarks/problems/PlannedPath.h"
+#include "benchmarks/problems/PlanRun.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace parking
@@ -25,15 +27,48 @@ namespace parking
         SampledPath sample(double step) const;
     };
 
-    /** \brief Everything that is kept of one run: a line in the file of results. */
+    /** \brief A figure of a run, of any type that OMPL's logs know; enumerations are whole numbers here. */
+    using FigureValue = std::variant<bool, std::int64_t, double>;
+
+    /** \brief Everything that is kept of one run: a line in the file of results, a row in the database.
+
+        A figure without a value was not measured. Each has a row in runColumns() that says its name, unit and meaning,
+        and by which it goes to files and back: whoever adds a figure adds a member here and a row there. */
     struct RunRecord
     {
         std::string experiment;
         std::string planner;
         std::size_t run{0};
         std::uint32_t seed{0};
-        /** What OMPL's benchmark and we measured, by OMPL's names with types, for example "time REAL". */
-        std::map<std::string, std::string> properties;
+
+        // How it ended.
+        std::optional<PlanStatus> outcome;
+        std::optional<bool> success, late;
+        // What it took.
+        std::optional<double> firstSolutionTime, planningTime, cpuTime, mapLoadingTime;
+        std::optional<std::uint64_t> nodesExpanded, motionsGenerated, statesChecked, exactChecks;
+        // The path.
+        std::optional<double> pathLength, leastClearance, distanceToGoal;
+        std::optional<std::uint64_t> cusps, denseCollisions;
+        std::optional<bool> denselyValid;
+        // The same path after OMPL's simplification.
+        std::optional<double> simplificationTime, simplifiedLength, simplifiedClearance;
+        std::optional<std::uint64_t> simplifiedCusps, simplifiedDenseCollisions;
+        std::optional<bool> simplifiedDenselyValid;
+        // The drive along it.
+        std::optional<bool> drivenToTheEnd;
+        std::optional<double> travelTime, drivenLength, meanAcceleration, meanSteeringAngle, greatestPositionError,
+            finalPositionError, finalYawError, medianMpcTime;
+        std::optional<std::uint64_t> drivingCollisions;
+        // What ompl::tools::Benchmark measures itself.
+        std::optional<double> time, memory, validSegmentFraction;
+        std::optional<ompl::base::PlannerStatus::StatusType> status;
+        std::optional<bool> solved, approximateSolution, correctSolution, correctSolutionStrict;
+        std::optional<double> solutionLength, solutionDifference, solutionClearance, solutionSmoothness;
+        std::optional<std::uint64_t> solutionSegments, graphStates, graphMotions;
+
+        /** What the planner tells of itself and nobody can know beforehand, by its own names without types. */
+        std::map<std::string, FigureValue> reported;
         /** Of the planner, by OMPL's names. */
         std::map<std::string, std::string> parameters;
         std::vector<Improvement> progress;
@@ -41,11 +76,11 @@ namespace parking
         bool exact{false};
         StoredPath path;
 
-        /** \brief A property as a number; NaN when there is none. */
-        double number(const std::string &property) const;
-
-        /** \brief Exact, and valid when checked once more. */
-        bool solved() const;
+        /** \brief Exact, valid when checked once more, and in time. */
+        bool isSuccess() const
+        {
+            return success.value_or(false);
+        }
 
         nlohmann::json toJson() const;
 

@@ -1,5 +1,6 @@
 #include "benchmarks/comparison/UnitRunner.h"
 
+#include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/problems/PathQuality.h"
 #include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
@@ -10,6 +11,7 @@
 #include <ompl/util/Console.h>
 
 #include <chrono>
+#include <map>
 #include <sstream>
 
 namespace ob = ompl::base;
@@ -23,68 +25,76 @@ namespace parking
         constexpr double SIMPLIFY_SHARE = 1.0;      // of the time limit, at most
         constexpr double DEGREES = 180.0 / PI;
 
-        using Properties = std::map<std::string, std::string>;
-
-        void putReal(Properties &properties, const std::string &name, double value)
+        void putPath(RunRecord &record, const PlannedPath &path)
         {
-            properties[name + " REAL"] = formatNumber(value);
-        }
-
-        void putInteger(Properties &properties, const std::string &name, std::uint64_t value)
-        {
-            properties[name + " INTEGER"] = std::to_string(value);
-        }
-
-        void putBoolean(Properties &properties, const std::string &name, bool value)
-        {
-            properties[name + " BOOLEAN"] = value ? "1" : "0";
-        }
-
-        void putPath(Properties &properties, const std::string &prefix, const PlannedPath &path)
-        {
-            putReal(properties, prefix + "path length", path.length);
-            putInteger(properties, prefix + "cusps", path.cusps);
-            putReal(properties, prefix + "least clearance", path.clearance);
-            putBoolean(properties, prefix + "densely valid", path.recheck.valid);
-            putInteger(properties, prefix + "dense collisions", path.recheck.collisions);
+            record.pathLength = path.length;
+            record.cusps = path.cusps;
+            record.leastClearance = path.clearance;
+            record.denselyValid = path.recheck.valid;
+            record.denseCollisions = path.recheck.collisions;
         }
 
         /** OMPL's simplification, on the solution in the problem definition. */
-        void simplify(Properties &properties, const Problem &problem, const PreparedPlanner &prepared, double timeLimit,
-                      bool exact)
+        void simplify(RunRecord &record, const Problem &problem, const PreparedPlanner &prepared, double timeLimit)
         {
             const auto begin = std::chrono::steady_clock::now();
             prepared.setup->simplifySolution(SIMPLIFY_SHARE * timeLimit);
-            putReal(properties, "simplification time",
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-            const auto *path =
+            record.simplificationTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            const auto *solution =
                 dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
-            putPath(properties, "simplified ", readPath(problem, *path, exact));
+            const PlannedPath path = readPath(problem, *solution, record.exact);
+            record.simplifiedLength = path.length;
+            record.simplifiedCusps = path.cusps;
+            record.simplifiedClearance = path.clearance;
+            record.simplifiedDenselyValid = path.recheck.valid;
+            record.simplifiedDenseCollisions = path.recheck.collisions;
         }
 
         /** The paper's figures of the drive. */
-        void track(Properties &properties, const Problem &problem, const PlannedPath &path)
+        void track(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
+            record.drivenToTheEnd = false;
             try
             {
                 ClosedLoop loop(problem.scenario().vehicle);
                 loop.setValidity([&problem](const Pose &pose) { return problem.footprint().isFree(pose); });
                 const DriveResult drive = loop.drive(pathToDrive(path, problem.scenario().vehicle));
                 const Evaluation &figures = drive.evaluation;
-                putBoolean(properties, "driven to the end", drive.arrived);
-                putReal(properties, "travel time", figures.travelTime);
-                putReal(properties, "driven length", figures.drivenLength);
-                putReal(properties, "mean acceleration", figures.meanAbsAcceleration);
-                putReal(properties, "mean steering angle", figures.meanAbsSteering * DEGREES);
-                putReal(properties, "greatest position error", figures.maxPositionError);
-                putReal(properties, "final position error", figures.finalPositionError);
-                putReal(properties, "final yaw error", figures.finalYawError);
-                putInteger(properties, "collisions while driving", figures.collisions);
-                putReal(properties, "median MPC time", figures.solveTime.median);
+                record.drivenToTheEnd = drive.arrived;
+                record.travelTime = figures.travelTime;
+                record.drivenLength = figures.drivenLength;
+                record.meanAcceleration = figures.meanAbsAcceleration;
+                record.meanSteeringAngle = figures.meanAbsSteering * DEGREES;
+                record.greatestPositionError = figures.maxPositionError;
+                record.finalPositionError = figures.finalPositionError;
+                record.finalYawError = figures.finalYawError;
+                record.drivingCollisions = figures.collisions;
+                record.medianMpcTime = figures.solveTime.median;
             }
             catch (const Error &)
             {
-                putBoolean(properties, "driven to the end", false);
+                // A path that cannot be driven is a result, too.
+            }
+        }
+
+        /** How the run ended and what it took. */
+        void putOutcome(RunRecord &record, const Problem &problem, const PlanRun &run, double timeLimit)
+        {
+            record.exact = run.status == PlanStatus::Exact;
+            // AIT* and LazyPRM* look at the clock too seldom: what they find after the limit is worth nothing.
+            record.late = record.exact && run.firstSolutionTime > timeLimit + LATE;
+            record.outcome = run.status;
+            record.success = record.exact && run.path && run.path->recheck.valid && !*record.late;
+            if (record.exact)
+                record.firstSolutionTime = run.firstSolutionTime;
+            record.planningTime = run.planningTime;
+            record.mapLoadingTime = problem.loadingTime() + run.mapLoadingTime;
+            record.nodesExpanded = run.search.expanded;
+            record.motionsGenerated = run.search.generated;
+            if (run.search.stateChecks > 0)  // nobody counts the checks of a disc
+            {
+                record.statesChecked = run.search.stateChecks;
+                record.exactChecks = run.search.exactChecks;
             }
         }
     }  // namespace
@@ -169,49 +179,10 @@ namespace parking
                 world.resetCounts();
             });
         benchmark.setPostRunEvent(
-            [&](const ob::PlannerPtr &, Properties &properties)
+            [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
-                const auto status = static_cast<ob::PlannerStatus::StatusType>(
-                    std::stoi(properties.count("status ENUM") > 0 ? properties["status ENUM"] : "0"));
-                const PlanRun result = evaluateRun(world, prepared, status, config_.timeLimit);
-                const bool exact = result.status == PlanStatus::Exact;
-                if (prepared.measured != nullptr)
-                {
-                    // Without the millisecond that OMPL's own clock takes to notice the end.
-                    putReal(properties, "time", result.planningTime + result.mapLoadingTime);
-                    putReal(properties, "cpu time", result.cpuTime);
-                    record.progress = prepared.measured->record()->improvements();
-                }
-                putReal(properties, "map loading time", world.loadingTime() + result.mapLoadingTime);
-                putReal(properties, "planning time", result.planningTime);
-                putInteger(properties, "run", record.run);
-                putInteger(properties, "seed", record.seed);
-                putInteger(properties, "outcome", static_cast<std::uint64_t>(result.status));
-                putInteger(properties, "nodes expanded", result.search.expanded);
-                putInteger(properties, "motions generated", result.search.generated);
-                if (result.search.stateChecks > 0)  // nobody counts the checks of a disc
-                {
-                    putInteger(properties, "states checked", result.search.stateChecks);
-                    putInteger(properties, "exact checks", result.search.exactChecks);
-                }
-                const bool valid = result.path && result.path->recheck.valid;
-                // AIT* and LazyPRM* look at the clock too seldom: what they find after the limit is worth nothing.
-                const bool late = exact && result.firstSolutionTime > config_.timeLimit + LATE;
-                putBoolean(properties, "late", late);
-                putBoolean(properties, "success", exact && valid && !late);
-                if (exact)
-                    putReal(properties, "first solution time", result.firstSolutionTime);
-                if (!result.path)
-                    return;
-                putPath(properties, "", *result.path);
-                putReal(properties, "distance to goal", result.goalDistance);
-                record.hasPath = true;
-                record.exact = exact;
-                record.path = StoredPath::of(*result.path);
-                if (config_.simplify && exact)
-                    simplify(properties, world, prepared, config_.timeLimit, exact);
-                if (config_.track)
-                    track(properties, world, *result.path);
+                takeOmplProperties(record, properties);
+                measure(record, world, prepared);
             });
         ompl::tools::Benchmark::Request request(config_.timeLimit, config_.memoryLimit, 1, PROGRESS_INTERVAL, false,
                                                 false, false);
@@ -223,8 +194,31 @@ namespace parking
         const auto &experiment = benchmark.getRecordedExperimentData();
         if (experiment.planners.empty() || experiment.planners.front().runs.empty())
             throw Error("planner " + spec.name + " on " + record.experiment + ": OMPL's benchmark recorded no run");
-        record.properties = experiment.planners.front().runs.front();
         record.parameters = experiment.planners.front().common;
         return record;
+    }
+
+    void UnitRunner::measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const
+    {
+        const PlanRun run =
+            evaluateRun(world, prepared, record.status.value_or(ob::PlannerStatus::UNKNOWN), config_.timeLimit);
+        putOutcome(record, world, run, config_.timeLimit);
+        if (prepared.measured != nullptr)
+        {
+            // Without the millisecond that OMPL's own clock takes to notice the end.
+            record.time = run.planningTime + run.mapLoadingTime;
+            record.cpuTime = run.cpuTime;
+            record.progress = prepared.measured->record()->improvements();
+        }
+        if (!run.path)
+            return;
+        putPath(record, *run.path);
+        record.distanceToGoal = run.goalDistance;
+        record.hasPath = true;
+        record.path = StoredPath::of(*run.path);
+        if (config_.simplify && record.exact)
+            simplify(record, world, prepared, config_.timeLimit);
+        if (config_.track)
+            track(record, world, *run.path);
     }
 }  // namespace parking

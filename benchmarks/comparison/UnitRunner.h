@@ -37,6 +37,8 @@ namespace parking
         std::string setupText(std::size_t experiment);
 
     private:
+        void measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const;
+
         const BenchmarkConfig &config_;
         const std::vector<Experiment> &experiments_;
         const PlannerRegistry &registry_;

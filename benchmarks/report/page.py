@@ -62,10 +62,10 @@ def sortable(value):
     return f' data-sort="{value:.9g}"' if math.isfinite(value) else ' data-sort="inf"'
 
 
-# Further columns, shown where the runs have such figures: property, heading, factor, unit.
-EXTRA = [('map loading time', 'map loading', 1e3, 'ms'), ('travel time', 'travel time', 1.0, 's'),
-         ('mean acceleration', 'mean acceleration', 1.0, 'm/s²'), ('mean steering angle', 'mean steering', 1.0, '°'),
-         ('simplified path length', 'simplified', 1.0, 'm')]
+# Further columns, shown where the runs have such figures: column, heading, factor, unit. The file is made from the
+# table in benchmarks/comparison/RunColumns.cpp.
+with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
+    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit']) for column in json.load(_columns)]
 
 
 def extra_columns(results):

@@ -8,7 +8,7 @@ import os
 import re
 import sqlite3
 
-FORMAT = 1
+FORMAT = 2  # of the lines in runs.jsonl
 
 
 class ReportError(Exception):
@@ -22,7 +22,7 @@ class Run:
     planner: str
     number: int
     seed: int
-    properties: dict
+    figures: dict       # name of the column -> number
     improvements: list  # (seconds, metres) of solutions, each shorter than the one before
     path: dict = None   # as in the file of runs
 
@@ -33,8 +33,8 @@ class Run:
     length: float = math.inf    # of the last one
 
     def figure(self, name):
-        """A property as a number; NaN when there is none."""
-        return self.properties.get(name, math.nan)
+        """A figure as a number; NaN when there is none."""
+        return self.figures.get(name, math.nan)
 
 
 @dataclasses.dataclass
@@ -78,7 +78,7 @@ def number(text):
 def judge(run):
     """What counts: a solution that the planner calls exact and that is not valid when checked again is a failure."""
     get = run.figure
-    if 'success' in run.properties:
+    if 'success' in run.figures:
         run.solved = get('success') == 1.0
         exact = not math.isnan(get('first solution time'))
         run.invalid = exact and not run.solved
@@ -126,8 +126,8 @@ def _list_names(results):
 
 
 def _plain(name):
-    """'cusps INTEGER' -> 'cusps'; in databases '_' stands for blanks."""
-    return re.sub(r' (BOOLEAN|INTEGER|REAL|ENUM)$', '', name).replace('_', ' ')
+    """In databases '_' stands for blanks."""
+    return name.replace('_', ' ')
 
 
 def _read_runs_file(results, file, known, fingerprints):
@@ -164,9 +164,10 @@ def _read_runs_file(results, file, known, fingerprints):
                 results.time_limit = number(record.get('time_limit'))
                 results.setups.update(record.get('setups', {}))
                 continue
-            key = (str(record['experiment']), str(record['planner']), int(record['run']))
-            run = Run(*key, int(record['seed']),
-                      {_plain(name): number(value) for name, value in record['properties'].items()},
+            names = (str(record['experiment']), str(record['planner']))
+            figures = {name: number(value) for name, value in {**record['reported'], **record['figures']}.items()}
+            key = (*names, int(figures['run']))
+            run = Run(*key, int(figures['seed']), figures,
                       [(float(time), float(cost)) for time, cost in record['progress']], record.get('path'))
             judge(run)
             results.settings.setdefault(run.planner, dict(record['parameters']))

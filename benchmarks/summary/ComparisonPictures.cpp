@@ -21,14 +21,14 @@ namespace parking
         const RunRecord *best = nullptr;
         const auto rank = [](const RunRecord &record)
         {
-            return record.solved() ? 2 : record.exact ? 1 : 0;
+            return record.isSuccess() ? 2 : record.exact ? 1 : 0;
         };
         for (const RunRecord *record : records)
         {
             if (!record->hasPath)
                 continue;
             if (best == nullptr || rank(*record) > rank(*best) ||
-                (rank(*record) == rank(*best) && record->number("path length REAL") < best->number("path length REAL")))
+                (rank(*record) == rank(*best) && record->pathLength < best->pathLength))
                 best = record;
         }
         return best;
@@ -45,7 +45,7 @@ namespace parking
                 continue;
             const SampledPath path = record->path.sample(SAMPLING);
             all.insert(all.end(), path.begin(), path.end());
-            solved += record->solved() ? 1 : 0;
+            solved += record->isSuccess() ? 1 : 0;
         }
         SvgFigure figure(title, "best path of each planner; " + std::to_string(solved) + " of " +
                                     std::to_string(best.size()) + " planners solved it");
@@ -60,17 +60,17 @@ namespace parking
             style.stroke = COLOURS[i % COLOURS.size()];
             style.strokeWidth = 2.0;
             style.strokeOpacity = 0.9;
-            style.dash = record->solved() ? "" : "3 4";
+            style.dash = record->isSuccess() ? "" : "3 4";
             std::vector<Eigen::Vector2d> line;
             for (const PathState &state : record->path.sample(SAMPLING))
                 line.emplace_back(state.pose.x, state.pose.y);
             map.drawLine(SvgLayer::Lines, line, style);
             char length[32];
-            std::snprintf(length, sizeof length, " %.1f m", record->number("path length REAL"));
+            std::snprintf(length, sizeof length, " %.1f m", record->pathLength.value_or(0.0));
             map.addLegend({planner + length +
-                               (record->solved() ? ""
-                                : record->exact  ? " (invalid)"
-                                                 : " (approximate)"),
+                               (record->isSuccess() ? ""
+                                : record->exact     ? " (invalid)"
+                                                    : " (approximate)"),
                            style, true});
         }
         figure.setMap(map);

@@ -1,5 +1,6 @@
 #include "benchmarks/summary/Summary.h"
 
+#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -16,8 +17,18 @@ namespace parking
 
         using Cells = std::vector<std::string>;
 
-        const Cells HEADINGS{"problem",   "planner", "solved", "near",      "first solution",
-                             "quartiles", "length",  "cusps",  "clearance", "valid"};
+        Cells headings()
+        {
+            Cells cells{"problem", "planner", "solved", "near"};
+            for (const RunColumn *column : summaryColumns())
+            {
+                cells.emplace_back(column->summary->heading);
+                if (column->summary->statistic == Statistic::Distribution)
+                    cells.emplace_back("quartiles");
+            }
+            cells.emplace_back("valid");
+            return cells;
+        }
 
         std::string shown(double value, int decimals)
         {
@@ -37,27 +48,155 @@ namespace parking
             return shown(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
         }
 
+        bool isTime(const RunColumn &column)
+        {
+            return column.unit == std::string_view("s");
+        }
+
+        std::string shownFigure(const RunColumn &column, double value)
+        {
+            return isTime(column) ? shownTime(value) : shown(value, column.summary->decimals);
+        }
+
         Cells cellsOf(const SummaryRow &row)
         {
-            return {row.experiment,
-                    row.planner,
-                    std::to_string(row.solved) + "/" + std::to_string(row.runs),
-                    row.approximate > 0 ? std::to_string(row.approximate) : "-",
-                    std::isinf(row.timeMedian) ? "-" : shownTime(row.timeMedian) + " ms",
-                    std::isinf(row.timeLow) ? "-" : shownTime(row.timeLow) + " .. " + shownTime(row.timeHigh),
-                    std::isnan(row.length) ? "-" : shown(row.length, 2) + " m",
-                    shown(row.cusps, 0),
-                    std::isnan(row.clearance) ? "-" : shown(row.clearance, 3) + " m",
-                    row.invalid > 0  ? "NO (" + std::to_string(row.invalid) + ")"
-                    : row.solved > 0 ? "yes"
-                                     : "-"};
+            Cells cells{row.experiment, row.planner, std::to_string(row.solved) + "/" + std::to_string(row.runs),
+                        row.approximate > 0 ? std::to_string(row.approximate) : "-"};
+            const std::vector<const RunColumn *> columns = summaryColumns();
+            for (std::size_t i = 0; i < columns.size(); ++i)
+            {
+                const RunColumn &column = *columns[i];
+                const SummaryFigure &figure = row.figures[i];
+                const bool distribution = column.summary->statistic == Statistic::Distribution;
+                const bool nothing = std::isnan(figure.median) || (distribution && std::isinf(figure.median));
+                const std::string unit = isTime(column) ? "ms" : column.unit;
+                cells.push_back(nothing        ? "-"
+                                : unit.empty() ? shownFigure(column, figure.median)
+                                               : shownFigure(column, figure.median) + " " + unit);
+                if (distribution)
+                    cells.push_back(std::isinf(figure.low)
+                                        ? "-"
+                                        : shownFigure(column, figure.low) + " .. " + shownFigure(column, figure.high));
+            }
+            cells.push_back(row.invalid > 0  ? "NO (" + std::to_string(row.invalid) + ")"
+                            : row.solved > 0 ? "yes"
+                                             : "-");
+            return cells;
         }
 
         std::string csvNumber(double value)
         {
             return std::isfinite(value) ? formatNumber(value) : "";
         }
+
+        /** What the CSV has of a column. */
+        struct CsvFigure
+        {
+            const char *name;
+            bool hasUnit;
+            double (*value)(const SummaryFigure &);
+        };
+
+        std::vector<CsvFigure> csvFigures(Statistic statistic)
+        {
+            const CsvFigure median{"median", true,
+                                   [](const SummaryFigure &each)
+                                   {
+                                       return each.median;
+                                   }},
+                low{"q1", true,
+                    [](const SummaryFigure &each)
+                    {
+                        return each.low;
+                    }},
+                high{"q3", true,
+                     [](const SummaryFigure &each)
+                     {
+                         return each.high;
+                     }},
+                begin{"ci_low", true,
+                      [](const SummaryFigure &each)
+                      {
+                          return each.interval.low;
+                      }},
+                end{"ci_high", true,
+                    [](const SummaryFigure &each)
+                    {
+                        return each.interval.high;
+                    }},
+                level{"ci_level", false,
+                      [](const SummaryFigure &each)
+                      {
+                          return each.interval.level;
+                      }};
+            switch (statistic)
+            {
+                case Statistic::Distribution:
+                    return {median, low, high, begin, end, level};
+                case Statistic::MedianWithInterval:
+                    return {median, begin, end};
+                case Statistic::Median:
+                    break;
+            }
+            return {median};
+        }
+
+        /** For example first_solution_median_s. */
+        std::string csvHeading(const RunColumn &column, const CsvFigure &figure)
+        {
+            std::string text = std::string(column.summary->heading) + "_" + figure.name;
+            std::replace(text.begin(), text.end(), ' ', '_');
+            return figure.hasUnit && column.unit[0] != '\0' ? text + "_" + column.unit : text;
+        }
+
+        SummaryFigure figureOf(const RunColumn &column, const std::vector<const RunRecord *> &records)
+        {
+            std::vector<double> values;
+            for (const RunRecord *record : records)
+                if (record->isSuccess())
+                    values.push_back(column.numberOf(*record));
+                else if (column.summary->statistic == Statistic::Distribution)
+                    values.push_back(INFINITE);
+            return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), medianInterval(values)};
+        }
+
+        /** Of all runs of one planner on one experiment. */
+        SummaryRow summaryOf(const std::vector<const RunRecord *> &records)
+        {
+            SummaryRow row;
+            row.experiment = records.front()->experiment;
+            row.planner = records.front()->planner;
+            row.runs = records.size();
+            for (const RunRecord *record : records)
+                if (record->isSuccess())
+                    ++row.solved;
+                else if (record->exact && record->denselyValid == false)
+                    ++row.invalid;
+                else if (record->hasPath)
+                    ++row.approximate;
+            for (const RunColumn *column : summaryColumns())
+                row.figures.push_back(figureOf(*column, records));
+            return row;
+        }
     }  // namespace
+
+    std::vector<const RunColumn *> summaryColumns()
+    {
+        std::vector<const RunColumn *> columns;
+        for (const RunColumn &column : runColumns())
+            if (column.summary)
+                columns.push_back(&column);
+        return columns;
+    }
+
+    const SummaryFigure &SummaryRow::figure(std::string_view column) const
+    {
+        const std::vector<const RunColumn *> columns = summaryColumns();
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            if (column == columns[i]->name)
+                return figures[i];
+        throw Error("the summary has no column " + inQuotes(column));
+    }
 
     std::vector<SummaryRow> summarize(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                                       const std::vector<RunRecord> &records)
@@ -66,50 +205,22 @@ namespace parking
         for (const Experiment &experiment : experiments)
             for (const std::size_t index : experiment.planners)
             {
-                SummaryRow row{};
-                row.experiment = experiment.name;
-                row.planner = config.planners[index].name;
-                std::vector<double> times, lengths, cusps, clearances;
+                std::vector<const RunRecord *> own;
                 for (const RunRecord &record : records)
-                {
-                    if (record.experiment != row.experiment || record.planner != row.planner)
-                        continue;
-                    ++row.runs;
-                    const bool solved = record.solved();
-                    times.push_back(solved ? record.number("first solution time REAL") : INFINITE);
-                    if (solved)
-                    {
-                        ++row.solved;
-                        lengths.push_back(record.number("path length REAL"));
-                        cusps.push_back(record.number("cusps INTEGER"));
-                        clearances.push_back(record.number("least clearance REAL"));
-                    }
-                    else if (record.number("densely valid BOOLEAN") == 0.0 && record.exact)
-                        ++row.invalid;
-                    else if (record.hasPath)
-                        ++row.approximate;
-                }
-                if (row.runs == 0)
-                    continue;
-                row.timeMedian = quantile(times, 0.5);
-                row.timeLow = quantile(times, 0.25);
-                row.timeHigh = quantile(times, 0.75);
-                row.timeInterval = medianInterval(times);
-                row.length = quantile(lengths, 0.5);
-                row.cusps = quantile(cusps, 0.5);
-                row.clearance = quantile(clearances, 0.5);
-                row.lengthInterval = medianInterval(lengths);
-                rows.push_back(std::move(row));
+                    if (record.experiment == experiment.name && record.planner == config.planners[index].name)
+                        own.push_back(&record);
+                if (!own.empty())
+                    rows.push_back(summaryOf(own));
             }
         return rows;
     }
 
     std::string summaryText(const std::vector<SummaryRow> &rows)
     {
-        std::vector<Cells> table{HEADINGS};
+        std::vector<Cells> table{headings()};
         for (const SummaryRow &row : rows)
             table.push_back(cellsOf(row));
-        std::vector<std::size_t> widths(HEADINGS.size(), 0);
+        std::vector<std::size_t> widths(table.front().size(), 0);
         for (const Cells &cells : table)
             for (std::size_t i = 0; i < cells.size(); ++i)
                 widths[i] = std::max(widths[i], cells[i].size());
@@ -140,10 +251,11 @@ namespace parking
     std::string summaryMarkdown(const std::vector<SummaryRow> &rows)
     {
         std::string text = "|";
-        for (const std::string &heading : HEADINGS)
-            text += " " + heading + " |";
+        const Cells titles = headings();
+        for (const std::string &title : titles)
+            text += " " + title + " |";
         text += "\n| --- | --- |";
-        for (std::size_t i = 2; i < HEADINGS.size(); ++i)
+        for (std::size_t i = 2; i < titles.size(); ++i)
             text += " ---: |";
         text += "\n";
         for (const SummaryRow &row : rows)
@@ -158,20 +270,20 @@ namespace parking
 
     std::string summaryCsv(const std::vector<SummaryRow> &rows)
     {
-        std::string text =
-            "problem,planner,runs,solved,invalid,approximate,first_solution_median_s,first_solution_q1_s,"
-            "first_solution_q3_s,first_solution_ci_low_s,first_solution_ci_high_s,first_solution_ci_level,length_"
-            "median_m,"
-            "length_ci_low_m,length_ci_high_m,cusps_median,clearance_median_m\n";
+        const std::vector<const RunColumn *> columns = summaryColumns();
+        std::string text = "problem,planner,runs,solved,invalid,approximate";
+        for (const RunColumn *column : columns)
+            for (const CsvFigure &each : csvFigures(column->summary->statistic))
+                text += "," + csvHeading(*column, each);
+        text += "\n";
         for (const SummaryRow &row : rows)
         {
             text += row.experiment + "," + row.planner + "," + std::to_string(row.runs) + "," +
                     std::to_string(row.solved) + "," + std::to_string(row.invalid) + "," +
                     std::to_string(row.approximate);
-            for (const double value : {row.timeMedian, row.timeLow, row.timeHigh, row.timeInterval.low,
-                                       row.timeInterval.high, row.timeInterval.level, row.length,
-                                       row.lengthInterval.low, row.lengthInterval.high, row.cusps, row.clearance})
-                text += "," + csvNumber(value);
+            for (std::size_t i = 0; i < columns.size(); ++i)
+                for (const CsvFigure &each : csvFigures(columns[i]->summary->statistic))
+                    text += "," + csvNumber(each.value(row.figures[i]));
             text += "\n";
         }
         return text;

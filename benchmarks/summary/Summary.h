@@ -1,14 +1,27 @@
 #pragma once
 
 #include "benchmarks/comparison/Experiment.h"
+#include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/comparison/RunRecord.h"
 #include "benchmarks/summary/Statistics.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace parking
 {
+    /** \brief A column of the runs summed up over those of one planner on one experiment, as its Statistic says: NaN
+        where no run counts, infinite where too many runs do. */
+    struct SummaryFigure
+    {
+        double median, low, high;     ///< with quartiles
+        ConfidenceInterval interval;  ///< of the median
+    };
+
+    /** \brief The columns that the summary has, in its order. */
+    std::vector<const RunColumn *> summaryColumns();
+
     /** \brief How one planner did on one experiment. Times in seconds, lengths in metres. */
     struct SummaryRow
     {
@@ -18,12 +31,10 @@ namespace parking
         std::size_t solved{0};   ///< exact and densely valid
         std::size_t invalid{0};  ///< exact in the planner's view, but not valid when checked again
         std::size_t approximate{0};
-        // Over all runs; those without a valid exact solution count as infinite.
-        double timeMedian, timeLow, timeHigh;  ///< of the first solution: median and quartiles
-        ConfidenceInterval timeInterval;       ///< of the median
-        // Over solved runs; NaN without one.
-        double length, cusps, clearance;  ///< medians
-        ConfidenceInterval lengthInterval;
+        std::vector<SummaryFigure> figures;  ///< one for each of summaryColumns()
+
+        /** \brief The figure of a column. Throws parking::Error when the summary does not have it. */
+        const SummaryFigure &figure(std::string_view column) const;
     };
 
     /** \brief A row for each planner of each experiment, in their order. */

@@ -21,7 +21,8 @@ namespace
         record.planner = planner;
         record.run = run;
         record.seed = 4000000000U;
-        record.properties = {{"time REAL", "0.25"}, {"success BOOLEAN", "1"}};
+        record.time = 0.25;
+        record.success = true;
         record.parameters = {{"range", "3"}};
         record.progress = {{0.1, 20.0}, {0.2, 15.0}};
         return record;
@@ -46,8 +47,8 @@ namespace
         EXPECT_EQ(records[1].planner, "b");
         EXPECT_EQ(records[1].run, 1U);
         EXPECT_EQ(records[1].seed, 4000000000U);
-        EXPECT_EQ(records[1].number("time REAL"), 0.25);
-        EXPECT_TRUE(records[1].solved());
+        EXPECT_EQ(records[1].time, 0.25);
+        EXPECT_TRUE(records[1].isSuccess());
         EXPECT_EQ(records[1].progress.at(1).cost, 15.0);
     }
 
@@ -89,8 +90,8 @@ namespace
     TEST(ResultStore, RefusesWhatItDidNotWrite)
     {
         const parking_test::TemporaryFolder folder;
-        for (const std::string text : {"not json\n", "{}\n", "{\"parking_benchmark\": 2}\n", "[1]\n", "\n",
-                                       "{\"parking_benchmark\": 1}\n{\"experiment\": 3}\n"})
+        for (const std::string text : {"not json\n", "{}\n", "{\"parking_benchmark\": 1}\n", "[1]\n", "\n",
+                                       "{\"parking_benchmark\": 2}\n{\"experiment\": 3}\n"})
         {
             const std::string file = folder.write("runs.jsonl", text);
             expectError([&] { ResultStore::read(file); }, {"runs.jsonl"});

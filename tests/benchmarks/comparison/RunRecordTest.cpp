@@ -6,9 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace
 {
     using namespace parking;
@@ -74,29 +71,19 @@ namespace
         }
     }
 
-    TEST(RunRecord, NumbersOfProperties)
-    {
-        RunRecord record;
-        record.properties = {{"a REAL", "1.5"}, {"b REAL", "inf"}, {"c REAL", "nan"}, {"success BOOLEAN", "0"}};
-        EXPECT_EQ(record.number("a REAL"), 1.5);
-        EXPECT_EQ(record.number("b REAL"), std::numeric_limits<double>::infinity());
-        EXPECT_TRUE(std::isnan(record.number("c REAL")));
-        EXPECT_TRUE(std::isnan(record.number("d REAL")));
-        EXPECT_FALSE(record.solved());
-    }
-
     TEST(RunRecord, TheBestRunIsTheShortestThatIsSolved)
     {
-        const auto run = [](bool solved, bool exact, const char *length)
+        const auto run = [](bool success, bool exact, double length)
         {
             RunRecord record;
             record.hasPath = true;
             record.exact = exact;
-            record.properties = {{"success BOOLEAN", solved ? "1" : "0"}, {"path length REAL", length}};
+            record.success = success;
+            record.pathLength = length;
             return record;
         };
-        const RunRecord near = run(false, false, "1"), invalid = run(false, true, "2"), longer = run(true, true, "9"),
-                        shorter = run(true, true, "8");
+        const RunRecord near = run(false, false, 1.0), invalid = run(false, true, 2.0), longer = run(true, true, 9.0),
+                        shorter = run(true, true, 8.0);
         RunRecord nothing;
         EXPECT_EQ(bestRun({&near, &longer, &invalid, &nothing, &shorter}), &shorter);
         EXPECT_EQ(bestRun({&near, &invalid}), &invalid);

@@ -10,24 +10,26 @@ namespace
 {
     using namespace parking;
 
-    RunRecord runOf(const std::string &planner, std::size_t run, bool exact, bool valid, const std::string &time,
-                    const std::string &length)
+    const char *const TIME = "first solution time";
+
+    /** \param length of the path; 0 without one */
+    RunRecord runOf(const std::string &planner, std::size_t run, bool exact, bool valid, double time, double length)
     {
         RunRecord record;
         record.experiment = "garage";
         record.planner = planner;
         record.run = run;
-        record.hasPath = !length.empty();
+        record.hasPath = length > 0.0;
         record.exact = exact;
-        record.properties["success BOOLEAN"] = exact && valid ? "1" : "0";
+        record.success = exact && valid;
         if (exact)
-            record.properties["first solution time REAL"] = time;
+            record.firstSolutionTime = time;
         if (record.hasPath)
         {
-            record.properties["path length REAL"] = length;
-            record.properties["cusps INTEGER"] = "3";
-            record.properties["densely valid BOOLEAN"] = valid ? "1" : "0";
-            record.properties["least clearance REAL"] = "0.25";
+            record.pathLength = length;
+            record.cusps = 3;
+            record.denselyValid = valid;
+            record.leastClearance = 0.25;
         }
         return record;
     }
@@ -41,12 +43,11 @@ namespace
                 {"good", "RRT", {}, {}, {}}, {"poor", "RRT", {}, {}, {}}, {"absent", "RRT", {}, {}, {}}};
             experiments_ = {{"garage", "garage.yaml", {}, {0, 1, 2}, "x"}};
             for (std::size_t run = 0; run < 3; ++run)
-                records_.push_back(
-                    runOf("good", run, true, true, "0." + std::to_string(run + 1), std::to_string(10 + run)));
-            records_.push_back(runOf("poor", 0, true, true, "1.5", "20"));
-            records_.push_back(runOf("poor", 1, true, false, "0.1", "5"));  // not valid: worth nothing
-            records_.push_back(runOf("poor", 2, false, false, "", "7"));    // approximate
-            records_.push_back(runOf("poor", 3, false, false, "", ""));     // nothing
+                records_.push_back(runOf("good", run, true, true, 0.1 * (run + 1.0), 10.0 + run));
+            records_.push_back(runOf("poor", 0, true, true, 1.5, 20.0));
+            records_.push_back(runOf("poor", 1, true, false, 0.1, 5.0));   // not valid: worth nothing
+            records_.push_back(runOf("poor", 2, false, false, 0.0, 7.0));  // approximate
+            records_.push_back(runOf("poor", 3, false, false, 0.0, 0.0));  // nothing
         }
 
         BenchmarkConfig config_;
@@ -59,15 +60,15 @@ namespace
         const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);
         ASSERT_EQ(rows.size(), 2U);
         EXPECT_EQ(rows[0].solved, 3U);
-        EXPECT_DOUBLE_EQ(rows[0].timeMedian, 0.2);
-        EXPECT_DOUBLE_EQ(rows[0].timeLow, 0.15);
-        EXPECT_DOUBLE_EQ(rows[0].length, 11.0);
+        EXPECT_DOUBLE_EQ(rows[0].figure(TIME).median, 0.2);
+        EXPECT_DOUBLE_EQ(rows[0].figure(TIME).low, 0.15);
+        EXPECT_DOUBLE_EQ(rows[0].figure("path length").median, 11.0);
         EXPECT_EQ(rows[1].runs, 4U);
         EXPECT_EQ(rows[1].solved, 1U);
         EXPECT_EQ(rows[1].invalid, 1U);
         EXPECT_EQ(rows[1].approximate, 1U);
-        EXPECT_TRUE(std::isinf(rows[1].timeMedian));
-        EXPECT_DOUBLE_EQ(rows[1].length, 20.0);
+        EXPECT_TRUE(std::isinf(rows[1].figure(TIME).median));
+        EXPECT_DOUBLE_EQ(rows[1].figure("path length").median, 20.0);
     }
 
     TEST_F(SummaryTest, TablesSayTheSame)

@@ -54,11 +54,11 @@ class BenchmarkTest(ProgramTest):
                 next(stream)
                 for line in stream:
                     run = json.loads(line)
-                    run['properties'] = {key: value for key, value in run['properties'].items()
-                                         if not depends_on_the_clock(key)}
+                    run['figures'] = {key: value for key, value in run['figures'].items()
+                                      if not depends_on_the_clock(key)}
                     run['progress'] = [cost for _, cost in run['progress']]
                     runs.append(run)
-        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['run']))
+        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['figures']['run']))
 
     def query(self, database, statement):
         with sqlite3.connect(self.path(database)) as connection:
@@ -176,17 +176,17 @@ improved_astar.problem.footprint=circle
         self.assertEqual([(run['experiment'], run['planner']) for run in runs],
                          [('perpendicular', 'improved_astar'), ('underground_garage', 'improved_astar'),
                           ('underground_garage_se2_circle', 'grid16')])
-        self.assertEqual([run['properties']['success BOOLEAN'] for run in runs], ['1', '1', '1'])
+        self.assertEqual([run['figures']['success'] for run in runs], [True, True, True])
 
     def test_simplified_and_driven_paths_are_reported_beside(self):
         self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\n[planner]'))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect')
         for run in self.records('out/runs.jsonl'):
-            for name in ('simplified path length REAL', 'simplified densely valid BOOLEAN',
-                         'driven to the end BOOLEAN', 'mean acceleration REAL', 'mean steering angle REAL'):
-                self.assertIn(name, run['properties'])
-            self.assertLessEqual(float(run['properties']['simplified path length REAL']),
-                                 float(run['properties']['path length REAL']) + 1e-6)
+            for name in ('simplified path length', 'simplified densely valid',
+                         'driven to the end', 'mean acceleration', 'mean steering angle'):
+                self.assertIn(name, run['figures'])
+            self.assertLessEqual(run['figures']['simplified path length'],
+                                 run['figures']['path length'] + 1e-6)
 
     def test_a_folder_of_scenarios(self):
         os.mkdir(self.path('cases'))

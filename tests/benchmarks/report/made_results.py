@@ -11,26 +11,25 @@ import sys
 REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', '..', 'benchmarks', 'report')
 MAKE_REPORT = os.path.join(REPORT, 'make_report')
 
-HEADER = {'parking_benchmark': 1, 'fingerprint': '0123', 'config': 'made.cfg', 'host': 'somewhere',
+HEADER = {'parking_benchmark': 2, 'fingerprint': '0123', 'config': 'made.cfg', 'host': 'somewhere',
           'cpu': 'Model name:  Some Processor\nCPU(s): 2\n', 'machine': 'ompl_improved_astar 0.1.0, OMPL 1.5.2\nLinux',
           'parameters': {'cores INTEGER': '2'}, 'seed': 1, 'time_limit': 2.0, 'started': 1.7e9, 'setups': {}}
 
 
-def record(problem, planner, run, outcome, time=None, length=None, progress=None, **more):
-    """A run as parking_benchmark writes it. outcome: solved, invalid, approximate or none."""
-    properties = {'success BOOLEAN': '1' if outcome == 'solved' else '0', 'time REAL': '2.0',
-                  'planning time REAL': '2.0', 'run INTEGER': str(run)}
+def record(problem, planner, run, outcome, first=None, length=None, progress=None, **more):
+    """A run as parking_benchmark writes it. outcome: solved, invalid, approximate or none; first:
+    seconds until the first solution."""
+    figures = {'run': run, 'seed': 1000 + run, 'success': outcome == 'solved', 'time': 2.0, 'planning time': 2.0}
     if outcome in ('solved', 'invalid'):
-        properties['first solution time REAL'] = repr(time)
+        figures['first solution time'] = first
     if outcome != 'none':
-        properties.update({'path length REAL': repr(length), 'cusps INTEGER': '1', 'least clearance REAL': '0.1',
-                           'densely valid BOOLEAN': '0' if outcome == 'invalid' else '1',
-                           'distance to goal REAL': '0'})
-    properties.update({name: str(value) for name, value in more.items()})
+        figures.update({'path length': length, 'cusps': 1, 'least clearance': 0.1,
+                        'densely valid': outcome != 'invalid', 'distance to goal': 0.0})
+    figures.update(more)
     if progress is None:
-        progress = [[time, length]] if outcome in ('solved', 'invalid') else []
-    made = {'experiment': problem, 'planner': planner, 'run': run, 'seed': 1000 + run, 'properties': properties,
-            'parameters': {'range': '1'}, 'progress': progress}
+        progress = [[first, length]] if outcome in ('solved', 'invalid') else []
+    made = {'experiment': problem, 'planner': planner, 'figures': figures, 'reported': {}, 'parameters': {'range': '1'},
+            'progress': progress}
     if outcome != 'none':
         made['path'] = {'exact': outcome != 'approximate', 'start': [0.0, 0.0, 0.0],
                         'arcs': [[0.0, 2.0], [0.2, -3.0]]}
@@ -60,20 +59,27 @@ def random_records(problems, planners, runs, seed=1):
     return made
 
 
+TYPES = {bool: 'BOOLEAN', int: 'INTEGER', float: 'REAL'}
+
+
+def shown(value):
+    return str(int(value) if isinstance(value, bool) else value)
+
+
 def log_text(problem, records, header):
     """The log that OMPL's benchmark would have written."""
     planners = list(dict.fromkeys(each['planner'] for each in records))
-    runs = max(each['run'] for each in records) + 1
+    runs = max(each['figures']['run'] for each in records) + 1
     lines = ['OMPL version 1.5.2', f'Experiment {problem}', 'Running on somewhere',
              'Starting at 2024-01-01 00:00:00.000000', '<<<|', 'made', '|>>>', '<<<|', 'Some Processor', '|>>>',
              '1 is the random seed', f'{header["time_limit"]} seconds per run', '4096 MB per run', f'{runs} runs per planner',
              '1 seconds spent to collect the data', '0 enum types', f'{len(planners)} planners']
     for planner in planners:
         own = [each for each in records if each['planner'] == planner]
-        names = sorted({name for each in own for name in each['properties']})
-        lines += [f'geometric_{planner}', '1 common properties', 'range = 1', f'{len(names)} properties for each run']
-        lines += names + [f'{len(own)} runs']
-        lines += ['; '.join(each['properties'].get(name, '') for name in names) + '; ' for each in own]
+        types = {name: TYPES[type(value)] for each in own for name, value in each['figures'].items()}
+        lines += [f'geometric_{planner}', '1 common properties', 'range = 1', f'{len(types)} properties for each run']
+        lines += [f'{name} {kind}' for name, kind in types.items()] + [f'{len(own)} runs']
+        lines += ['; '.join(shown(each['figures'].get(name, '')) for name in types) + '; ' for each in own]
         lines += ['2 progress properties for each run', 'best cost REAL', 'time REAL', f'{len(own)} runs']
         lines += [''.join(f'{cost},{time},;' for time, cost in each['progress']) for each in own]
         lines.append('.')

@@ -16,9 +16,9 @@ PAGE = os.path.join(REPORT, 'paper_page')
 
 
 def drive(loading, planning, acceleration=0.4, steering=10.0):
-    return {'map loading time REAL': loading, 'planning time REAL': planning, 'travel time REAL': 40.0,
-            'mean acceleration REAL': acceleration, 'mean steering angle REAL': steering, 'nodes expanded INTEGER': 52,
-            'collisions while driving INTEGER': 0}
+    return {'map loading time': loading, 'planning time': planning, 'travel time': 40.0,
+            'mean acceleration': acceleration, 'mean steering angle': steering, 'nodes expanded': 52,
+            'collisions while driving': 0}
 
 
 class PaperPageTest(unittest.TestCase):
