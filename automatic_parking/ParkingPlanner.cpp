@@ -7,6 +7,7 @@
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/PathSweep.h"
+#include "state_validity/fcl/FclContactTest.h"
 
 #include <algorithm>
 #include <chrono>
@@ -175,9 +176,7 @@ namespace parking
                 FootprintEnvironment environment(checker, scenario_.bounds, SWEEP_TOLERANCE);
                 search::CarPlannerParameters car;
                 car.search.turningRadius = radius;
-                const Vehicle &vehicle = scenario_.vehicle;
-                car.search.inscribedRadius = checker.margin() + std::min({0.5 * vehicle.width, vehicle.rearOverhang,
-                                                                          vehicle.wheelbase + vehicle.frontOverhang});
+                car.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
                 car.search.low = scenario_.bounds.min;
                 car.search.high = scenario_.bounds.max;
                 car.search.cost = costModel(radius);
@@ -271,7 +270,8 @@ namespace parking
     }
 
     ParkingWorld::ParkingWorld(const Scenario &scenario)
-      : footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle))
+      : footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle, 0.0,
+                                                            fclContactTest()))
     {
     }
 
@@ -281,7 +281,8 @@ namespace parking
             return footprint_;
         try
         {
-            return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap);
+            return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap,
+                                                            fclContactTest());
         }
         catch (const Error &)
         {

@@ -59,12 +59,10 @@ namespace parking
         /** Without pieces when nothing was found. */
         Path searchPath(const FootprintChecker &checker, const SearchTask &task)
         {
-            const Vehicle &vehicle = checker.vehicle();
             FootprintEnvironment environment(checker, task.bounds, SWEEP_TOLERANCE);
             search::CarPlannerParameters parameters;
             parameters.search.turningRadius = task.radius;
-            parameters.search.inscribedRadius =
-                std::min({0.5 * vehicle.width, vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang});
+            parameters.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
             parameters.search.bidirectional = task.bothSides;
             parameters.search.searchFromGoal = false;
             parameters.search.cost.gearChangePenalty = task.gearChange;

@@ -171,9 +171,8 @@ namespace ompl::geometric
         parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();
         if (footprint)
         {
-            const parking::Vehicle &vehicle = footprint->footprint().vehicle();
-            car.search.inscribedRadius =
-                std::min({0.5 * vehicle.width, vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang});
+            const parking::FootprintChecker &checker = footprint->footprint();
+            car.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
             // The motion validator has the last word unless it asks the same questions of the same checker.
             const auto *validator =
                 dynamic_cast<const parking::SweptMotionValidator *>(si_->getMotionValidator().get());
@@ -285,7 +284,7 @@ namespace ompl::geometric
 
     std::uint64_t ImprovedAStar::exactChecks() const
     {
-        return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byFcl : 0;
+        return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byContactTest : 0;
     }
 
     const parking::Path *ImprovedAStar::solutionArcs() const

@@ -1,5 +1,8 @@
 #include "parking_geometry/Polygon.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace parking
 {
     double signedArea(const Polygon &polygon)
@@ -15,6 +18,29 @@ namespace parking
             twice += a.x() * b.y() - a.y() * b.x();
         }
         return 0.5 * twice;
+    }
+
+    bool crossesItself(const Polygon &polygon)
+    {
+        const std::size_t count = polygon.size();
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % count];
+            const double left = std::min(a.x(), b.x()), right = std::max(a.x(), b.x());
+            const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
+            for (std::size_t k = i + 2; k < count; ++k)
+            {
+                const Eigen::Vector2d &c = polygon[k], &d = polygon[(k + 1) % count];
+                if (std::max(c.x(), d.x()) < left || std::min(c.x(), d.x()) > right || std::max(c.y(), d.y()) < low ||
+                    std::min(c.y(), d.y()) > high)
+                    continue;
+                const double acd = turn(a, c, d), bcd = turn(b, c, d), abc = turn(a, b, c), abd = turn(a, b, d);
+                if (((acd > 0.0 && bcd < 0.0) || (acd < 0.0 && bcd > 0.0)) &&
+                    ((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)))
+                    return true;
+            }
+        }
+        return false;
     }
 
     bool contains(const Polygon &polygon, const Eigen::Vector2d &point)

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Pose.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -30,6 +31,19 @@ namespace parking
         double length() const
         {
             return rearOverhang + wheelbase + frontOverhang;
+        }
+
+        /** \brief How far the middle of the body lies ahead of the rear axle. */
+        double centreOffset() const
+        {
+            return 0.5 * length() - rearOverhang;
+        }
+
+        /** \brief Radius of the largest circle round the rear axle's midpoint that lies within the body, enlarged by
+            \e margin (metres) on each side: no obstacle can be nearer to the axle than this. */
+        double inscribedRadius(double margin = 0.0) const
+        {
+            return margin + std::min({0.5 * width, rearOverhang, wheelbase + frontOverhang});
         }
 
         /** \brief Of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle). */

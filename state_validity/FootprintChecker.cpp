@@ -43,17 +43,16 @@ namespace parking
         byField += other.byField;
         byCircles += other.byCircles;
         byEdges += other.byEdges;
-        byFcl += other.byFcl;
+        byContactTest += other.byContactTest;
         return *this;
     }
 
     FootprintChecker::FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin,
-                                       double fieldResolution, CheckMode mode)
+                                       ContactTestMaker contact, double fieldResolution)
       : obstacles_(std::move(obstacles)),
         vehicle_(vehicle),
         margin_(checked(vehicle, margin)),
-        mode_(mode),
-        centreOffset_(0.5 * vehicle.length() - vehicle.rearOverhang),
+        centreOffset_(vehicle.centreOffset()),
         halfLength_(0.5 * vehicle.length() + margin),
         halfWidth_(0.5 * vehicle.width + margin),
         circumradius_(circumradiusOf(vehicle, margin) + ROUNDING),
@@ -61,7 +60,8 @@ namespace parking
         farthest_(std::hypot(std::max(std::abs(centreOffset_ + halfLength_), std::abs(centreOffset_ - halfLength_)),
                              halfWidth_)),
         field_(obstacles_, fieldResolution),
-        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH)
+        edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH),
+        makeContactTest_(std::move(contact))
     {
         const Eigen::Vector2d world = obstacles_.bounds().max - obstacles_.bounds().min;
         if (2.0 * halfWidth_ > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
@@ -77,25 +77,20 @@ namespace parking
             // Near the bumpers the nearest side of the body is the bumper.
             inscribed_.push_back({offset, std::min(halfWidth_, halfLength_ - std::abs(offset)) - ROUNDING});
         }
-        if (mode_ == CheckMode::PlainFcl)
-            fcl();
     }
 
     OrientedBox FootprintChecker::boxAt(const Pose &local) const
     {
-        const double c = std::cos(local.yaw), s = std::sin(local.yaw);
-        return {local.x + c * centreOffset_, local.y + s * centreOffset_, c, s, halfLength_, halfWidth_};
+        return bodyAt(local, centreOffset_, halfLength_, halfWidth_);
     }
 
-    const FclWorld &FootprintChecker::fcl() const
+    /** For a body within CONTACT_BAND of contact. */
+    bool FootprintChecker::touches(const OrientedBox &box) const
     {
-        std::call_once(fclOnce_, [this] { fcl_ = std::make_unique<FclWorld>(obstacles_, halfLength_, halfWidth_); });
-        return *fcl_;
-    }
-
-    bool FootprintChecker::isFreeByFcl(const Pose &pose) const
-    {
-        return isFinite(pose) && !fcl().collides(boxAt(obstacles_.toLocal(pose)));
+        if (!makeContactTest_)
+            return true;
+        std::call_once(contactOnce_, [this] { contactTest_ = makeContactTest_(obstacles_, halfLength_, halfWidth_); });
+        return contactTest_(box);
     }
 
     bool FootprintChecker::isFree(const Pose &pose) const
@@ -110,11 +105,6 @@ namespace parking
         if (!isFinite(pose))
             return false;
         const OrientedBox box = boxAt(obstacles_.toLocal(pose));
-        if (mode_ == CheckMode::PlainFcl)
-        {
-            ++counts.byFcl;
-            return !fcl().collides(box);
-        }
         if (field_.lowerBound(box.x, box.y) > circumradius_)
         {
             ++counts.byField;
@@ -147,8 +137,8 @@ namespace parking
             ++counts.byEdges;
             return side > 0 && !isInsideObstacle(box);
         }
-        ++counts.byFcl;
-        return !fcl().collides(box);
+        ++counts.byContactTest;
+        return !touches(box);
     }
 
     /** For a body that no outline crosses: does it lie inside of an obstacle? Then its centre does. */

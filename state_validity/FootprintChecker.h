@@ -2,14 +2,13 @@
 
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
+#include "state_validity/ContactTest.h"
 #include "state_validity/DistanceField.h"
 #include "state_validity/EdgeIndex.h"
-#include "state_validity/fcl/FclWorld.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -18,20 +17,13 @@ namespace parking
     /** \brief Which tier decided how many poses. */
     struct CheckCounts
     {
-        std::uint64_t states{0};     ///< poses asked about
-        std::uint64_t byField{0};    ///< decided by one look at the distance field
-        std::uint64_t byCircles{0};  ///< decided by the covering or inscribed circles
-        std::uint64_t byEdges{0};    ///< decided by the separation from the obstacles' edges
-        std::uint64_t byFcl{0};      ///< decided by FCL
+        std::uint64_t states{0};         ///< poses asked about
+        std::uint64_t byField{0};        ///< decided by one look at the distance field
+        std::uint64_t byCircles{0};      ///< decided by the covering or inscribed circles
+        std::uint64_t byEdges{0};        ///< decided by the separation from the obstacles' edges
+        std::uint64_t byContactTest{0};  ///< within CONTACT_BAND of contact: decided by the contact test
 
         CheckCounts &operator+=(const CheckCounts &other);
-    };
-
-    /** \brief How FootprintChecker answers; the answers are the same but for poses within CONTACT_BAND of contact. */
-    enum class CheckMode
-    {
-        Tiered,   ///< shortcuts first, FCL for what remains
-        PlainFcl  ///< FCL for every pose inside of the world
     };
 
     /** \brief Does the car's rectangle touch an obstacle, and how far is it from them?
@@ -43,22 +35,25 @@ namespace parking
         2. The separation of the body from the edges of the obstacles near it (separating axes). A positive one means
        that no outline is crossed, so that the body lies wholly outside or wholly inside of every obstacle, and the
        field at its centre tells which.
-        3. FCL, for bodies within CONTACT_BAND of touching, where rounding decides, and whatever else is left.
+        3. The contact test that the checker was given, for bodies within CONTACT_BAND of touching, where rounding
+           decides. Without one they count as touching.
 
         Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. This class knows
-        nothing of OMPL; FclFootprintChecker is its face there. */
+        nothing of OMPL and FCL; FclFootprintChecker is its face in OMPL, fclContactTest() a contact test. */
     class FootprintChecker
     {
     public:
-        /** \brief Half width in metres of the band round contact inside of which FCL's answer is final. */
+        /** \brief Half width in metres of the band round contact inside of which the contact test decides. */
         static constexpr double CONTACT_BAND = 1e-9;
 
-        /** \brief \param margin metres by which the body is enlarged on each of its four sides, not negative.
+        /** \brief \param margin metres by which the body is enlarged on each of its four sides, not negative
+            \param contact what makes the contact test, called with the first pose that needs it; may be empty
+            \param fieldResolution side of the distance field's cells in metres; 0 chooses one
 
             Throws parking::Error for an invalid vehicle, margin or field resolution, and when the enlarged body is
            larger than the world. */
         FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
-                         double fieldResolution = 0.0, CheckMode mode = CheckMode::Tiered);
+                         ContactTestMaker contact = {}, double fieldResolution = 0.0);
 
         const Vehicle &vehicle() const
         {
@@ -75,10 +70,6 @@ namespace parking
         const DistanceField &field() const
         {
             return field_;
-        }
-        CheckMode mode() const
-        {
-            return mode_;
         }
 
         /** \brief Is the body free of obstacles? False for poses that are not finite. */
@@ -144,13 +135,10 @@ namespace parking
             return farthest_;
         }
 
-        /** \brief FCL's own answer to whether the body is free, for comparison. */
-        bool isFreeByFcl(const Pose &pose) const;
-
     private:
         OrientedBox boxAt(const Pose &local) const;
         bool isInsideObstacle(const OrientedBox &box) const;
-        const FclWorld &fcl() const;
+        bool touches(const OrientedBox &box) const;
 
         struct Circle
         {
@@ -161,14 +149,14 @@ namespace parking
         ObstacleSet obstacles_;
         Vehicle vehicle_;
         double margin_;
-        CheckMode mode_;
         double centreOffset_;  // of the body's centre ahead of the rear axle
         double halfLength_, halfWidth_;
         double circumradius_, inradius_, farthest_;
         std::vector<Circle> covering_, inscribed_;
         DistanceField field_;
         EdgeIndex edges_;
-        mutable std::once_flag fclOnce_;
-        mutable std::unique_ptr<FclWorld> fcl_;
+        ContactTestMaker makeContactTest_;
+        mutable std::once_flag contactOnce_;
+        mutable ContactTest contactTest_;
     };
 }  // namespace parking

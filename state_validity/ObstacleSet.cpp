@@ -1,7 +1,6 @@
 #include "state_validity/ObstacleSet.h"
 
 #include "parking_geometry/Error.h"
-#include "state_validity/fcl/ConvexDecomposition.h"
 
 #include <algorithm>
 #include <cmath>

@@ -52,7 +52,7 @@ namespace parking
             figures.generated = data.numEdges();
             const CheckCounts counts = problem.checkCounts();
             figures.stateChecks = counts.states;
-            figures.exactChecks = counts.byFcl;
+            figures.exactChecks = counts.byContactTest;
             return figures;
         }
 

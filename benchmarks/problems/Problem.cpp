@@ -5,6 +5,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
+#include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/ompl/CircleValidityChecker.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
@@ -133,7 +134,7 @@ namespace parking
             si_->setStateValidityChecker(checker);
             si_->setMotionValidator(std::make_shared<CircleMotionValidator>(si_, checker));
         }
-        footprint_ = std::make_shared<const FootprintChecker>(*obstacles_, scenario_.vehicle);
+        footprint_ = std::make_shared<const FootprintChecker>(*obstacles_, scenario_.vehicle, 0.0, fclContactTest());
         if (!circle)
         {
             stopClock();

@@ -29,8 +29,8 @@ namespace parking
 
         ValidityWorlds::Place place(const ObstacleSet &obstacles, const Vehicle &vehicle)
         {
-            return {std::make_unique<FootprintChecker>(obstacles, vehicle),
-                    std::make_unique<FootprintChecker>(obstacles, vehicle, 0.0, 0.0, CheckMode::PlainFcl),
+            return {std::make_unique<FootprintChecker>(obstacles, vehicle, 0.0, fclContactTest()),
+                    std::make_unique<PlainFclChecker>(obstacles, vehicle),
                     {}};
         }
 

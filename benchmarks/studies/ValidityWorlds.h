@@ -1,6 +1,7 @@
 #pragma once
 
 #include "state_validity/FootprintChecker.h"
+#include "state_validity/fcl/FclContactTest.h"
 #include "tests/state_validity/RandomWorlds.h"
 
 #include <cstddef>
@@ -25,7 +26,8 @@ namespace parking
     {
         struct Place
         {
-            std::unique_ptr<FootprintChecker> tiered, plain;
+            std::unique_ptr<FootprintChecker> tiered;
+            std::unique_ptr<PlainFclChecker> plain;
             std::vector<Pose> poses;
         };
         std::vector<Place> places;

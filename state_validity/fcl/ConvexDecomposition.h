@@ -6,9 +6,6 @@
 
 namespace parking
 {
-    /** \brief Do two sides of the polygon cross? Sides that merely touch, or run along each other, do not. */
-    bool crossesItself(const Polygon &polygon);
-
     /** \brief Cuts a simple counter-clockwise polygon into convex counter-clockwise pieces that cover it exactly.
 
         Ears are clipped (G. H. Meisters, "Polygons have ears", 1975) and triangles joined again across every diagonal

@@ -1,6 +1,7 @@
 #include "state_validity/ompl/FclFootprintChecker.h"
 
 #include "parking_geometry/Error.h"
+#include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/ompl/OmplPose.h"
 
 #include <utility>
@@ -20,7 +21,7 @@ namespace parking
         {
             try
             {
-                return std::make_shared<const FootprintChecker>(makeObstacles(), vehicle, margin);
+                return std::make_shared<const FootprintChecker>(makeObstacles(), vehicle, margin, fclContactTest());
             }
             catch (const Error &error)
             {

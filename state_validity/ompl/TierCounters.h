@@ -23,7 +23,7 @@ namespace parking
             add(line.byField, counts.byField);
             add(line.byCircles, counts.byCircles);
             add(line.byEdges, counts.byEdges);
-            add(line.byFcl, counts.byFcl);
+            add(line.byContactTest, counts.byContactTest);
         }
 
         CheckCounts sum() const
@@ -33,14 +33,15 @@ namespace parking
                 counts += CheckCounts{
                     line.states.load(std::memory_order_relaxed), line.byField.load(std::memory_order_relaxed),
                     line.byCircles.load(std::memory_order_relaxed), line.byEdges.load(std::memory_order_relaxed),
-                    line.byFcl.load(std::memory_order_relaxed)};
+                    line.byContactTest.load(std::memory_order_relaxed)};
             return counts;
         }
 
         void reset()
         {
             for (Line &line : lines_)
-                for (Counter *counter : {&line.states, &line.byField, &line.byCircles, &line.byEdges, &line.byFcl})
+                for (Counter *counter :
+                     {&line.states, &line.byField, &line.byCircles, &line.byEdges, &line.byContactTest})
                     counter->store(0, std::memory_order_relaxed);
         }
 
@@ -49,7 +50,7 @@ namespace parking
 
         struct alignas(64) Line
         {
-            Counter states{0}, byField{0}, byCircles{0}, byEdges{0}, byFcl{0};
+            Counter states{0}, byField{0}, byCircles{0}, byEdges{0}, byContactTest{0};
         };
 
         static constexpr std::size_t LINES = 16;

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "state_validity/fcl/FclContactTest.h"
 #include "tests/state_validity/RandomWorlds.h"
 
 #include <filesystem>
@@ -89,7 +90,7 @@ TEST(FootprintChecker, CirclesRoundTheBodyAreNotTooSmall)
     const double side = 0.05;
     Vehicle vehicle;
     const double half = vehicle.length() / 12.0;  // of the stretch that each of the six circles covers
-    const double middle = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    const double middle = vehicle.centreOffset();
     int checked = 0;
     for (const double reach : {0.0, 1.0})
         for (int circle = 0; circle < 6; ++circle)
@@ -130,7 +131,7 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
 {
     const double side = 0.05;
     const Vehicle vehicle;
-    const double middle = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    const double middle = vehicle.centreOffset();
     const double half = vehicle.length() / 12.0;
     const Bounds bounds{{0.0, 0.0}, {30.0, 30.0}};
     int checked = 0;
@@ -159,7 +160,7 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
             scaled.rearOverhang *= scale;
             scaled.width *= scale;
             const Pose pose = compose({at, at, yaw}, {-(middle + offset) * scale, 0.0, 0.0});
-            const FootprintChecker checker(ObstacleSet::fromPolygons({post}, bounds), scaled, 0.0, side);
+            const FootprintChecker checker(ObstacleSet::fromPolygons({post}, bounds), scaled, 0.0, {}, side);
             ASSERT_TRUE(PolygonOracle({post}, bounds).isFree(pose, scaled)) << circle << " " << cells;
             EXPECT_TRUE(checker.isFree(pose)) << circle << " " << cells;
             ++checked;
@@ -182,7 +183,7 @@ TEST(FootprintChecker, SeesEveryThinObstacle)
         for (const Polygon &obstacle : {line, post})
         {
             EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle).isFree(pose));
-            EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle, 0.0, 0.0, CheckMode::PlainFcl).isFree(pose));
+            EXPECT_FALSE(PlainFclChecker(box({obstacle}), vehicle).isFree(pose));
         }
         OccupancyGrid grid(400, 400, 0.1, {-20.0, -20.0, 0.0});
         grid.set(static_cast<std::size_t>((under.x + 20.0) / 0.1), static_cast<std::size_t>((under.y + 20.0) / 0.1),
@@ -203,30 +204,50 @@ TEST(FootprintChecker, KnowsTheInsideOfLargeObstacles)
     EXPECT_EQ(checker.freeLength({100.0, 0.0, 1.0}, 0.0, 1.0), 0.0);
 }
 
-TEST(FootprintChecker, PlainFclModeAsksFclOnly)
+TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)
 {
-    const World world = randomPolygonWorld(7);
-    const FootprintChecker plain(world.obstacles, {}, 0.0, 0.0, CheckMode::PlainFcl);
-    EXPECT_EQ(plain.mode(), CheckMode::PlainFcl);
-    CheckCounts counts;
-    Random random(7);
-    for (int i = 0; i < 1000; ++i)
-    {
-        const Pose pose = world.anywhere(random);
-        ASSERT_EQ(plain.isFree(pose, counts), plain.isFreeByFcl(pose));
-    }
-    EXPECT_EQ(counts.states, 1000u);
-    EXPECT_EQ(counts.byFcl, 1000u);
+    // A wall whose side lies as far from the front bumper as said.
+    const Vehicle vehicle;
+    const double front = vehicle.wheelbase + vehicle.frontOverhang;
+    for (const bool answer : {false, true})
+        for (const double gap : {-1e-7, -1e-10, 0.0, 1e-10, 1e-7})
+        {
+            int made = 0, asked = 0;
+            const ContactTestMaker maker = [&](const ObstacleSet &, double halfLength, double halfWidth)
+            {
+                ++made;
+                EXPECT_DOUBLE_EQ(halfLength, 0.5 * vehicle.length());
+                EXPECT_DOUBLE_EQ(halfWidth, 0.5 * vehicle.width);
+                return [&](const OrientedBox &body)
+                {
+                    ++asked;
+                    EXPECT_DOUBLE_EQ(body.halfLength, 0.5 * vehicle.length());
+                    return answer;
+                };
+            };
+            const ObstacleSet obstacles = box({rectangle(0.2, 6.0, {front + 0.1 + gap, 0.0, 0.0})});
+            const FootprintChecker checker(obstacles, vehicle, 0.0, maker), careful(obstacles, vehicle);
+            EXPECT_EQ(made, 0) << "made before a pose needed it";
+            const bool near = std::abs(gap) < FootprintChecker::CONTACT_BAND;
+            CheckCounts counts;
+            for (int i = 0; i < 3; ++i)
+                EXPECT_EQ(checker.isFree({}, counts), near ? !answer : gap > 0.0) << gap;
+            EXPECT_EQ(made, near ? 1 : 0) << gap;
+            EXPECT_EQ(asked, near ? 3 : 0) << gap;
+            EXPECT_EQ(counts.byContactTest, near ? 3u : 0u) << gap;
+            EXPECT_EQ(careful.isFree({}), !near && gap > 0.0) << "touches when nothing decides, " << gap;
+        }
 }
 
 TEST(FootprintChecker, PosesThatAreNotFiniteAreNotFree)
 {
     const FootprintChecker checker(box(), {});
+    const PlainFclChecker fcl(box(), {});
     for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE})
         for (const Pose &pose : {Pose{bad, 0.0, 0.0}, Pose{0.0, bad, 0.0}, Pose{0.0, 0.0, bad}})
         {
             EXPECT_FALSE(checker.isFree(pose));
-            EXPECT_FALSE(checker.isFreeByFcl(pose));
+            EXPECT_FALSE(fcl.isFree(pose));
             EXPECT_EQ(checker.clearance(pose), 0.0);
             EXPECT_EQ(checker.exactClearance(pose), 0.0);
             EXPECT_EQ(checker.freeLength(pose, 0.1, 1.0), 0.0);
@@ -259,7 +280,7 @@ TEST(FootprintChecker, RefusesBadInput)
     expect([] { FootprintChecker(box(), {}, -0.1); }, "-0.1");
     expect([] { FootprintChecker(box(), {}, NOT_A_NUMBER); }, "margin");
     expect([] { FootprintChecker(box(), {}, INFINITE); }, "margin");
-    expect([] { FootprintChecker(box(), {}, 0.0, -1.0); }, "resolution");
+    expect([] { FootprintChecker(box(), {}, 0.0, {}, -1.0); }, "resolution");
     Vehicle vehicle;
     vehicle.width = 0.0;
     expect([&vehicle] { FootprintChecker(box(), vehicle); }, "width");
@@ -298,9 +319,10 @@ TEST(FootprintChecker, HoldsTheCompetitionsCases)
             continue;
         const Scenario scenario = readTpcapCase(entry.path().string());
         const FootprintChecker checker(ObstacleSet::fromScenario(scenario), scenario.vehicle);
+        const PlainFclChecker fcl(ObstacleSet::fromScenario(scenario), scenario.vehicle);
         const PolygonOracle oracle(scenario);
         EXPECT_TRUE(checker.isFree(scenario.start)) << entry.path();
-        EXPECT_TRUE(checker.isFreeByFcl(scenario.start)) << entry.path();
+        EXPECT_TRUE(fcl.isFree(scenario.start)) << entry.path();
         EXPECT_NEAR(checker.exactClearance(scenario.start), oracle.clearance(scenario.start, scenario.vehicle), 1e-9);
         Random random(1);
         for (int i = 0; i < 3000; ++i)
@@ -310,7 +332,7 @@ TEST(FootprintChecker, HoldsTheCompetitionsCases)
             if (oracle.isFree(around, scenario.vehicle, 1e-9) != oracle.isFree(around, scenario.vehicle, -1e-9))
                 continue;
             ASSERT_EQ(checker.isFree(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
-            ASSERT_EQ(checker.isFreeByFcl(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
+            ASSERT_EQ(fcl.isFree(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
         }
     }
 }

@@ -2,6 +2,7 @@
 // agree for every pose that is not within a nanometre of contact.
 #include "state_validity/FootprintChecker.h"
 
+#include "state_validity/fcl/FclContactTest.h"
 #include "tests/state_validity/RandomWorlds.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,9 @@ namespace
     void compare(const World &world, const Vehicle &vehicle, double margin, long poses, std::uint64_t seed,
                  Tally &tally)
     {
-        const FootprintChecker checker(world.obstacles, vehicle, margin);
+        const FootprintChecker checker(world.obstacles, vehicle, margin, fclContactTest());
+        const FootprintChecker careful(world.obstacles, vehicle, margin);
+        const PlainFclChecker fcl(world.obstacles, vehicle, margin);
         const double band = FootprintChecker::CONTACT_BAND;
         Random random(seed);
         Vehicle enlarged = vehicle;
@@ -40,6 +43,7 @@ namespace
             const bool free = checker.isFree(pose, tally.counts);
             const bool surelyFree = world.oracle.isFree(pose, vehicle, margin + band);
             const bool surelyNot = !surelyFree && !world.oracle.isFree(pose, vehicle, margin - band);
+            ASSERT_TRUE(free || !careful.isFree(pose)) << "without a contact test no further pose is free";
             ++tally.poses;
             tally.free += surelyFree;
             if (!surelyFree && !surelyNot)
@@ -49,7 +53,8 @@ namespace
             }
             ASSERT_EQ(free, surelyFree) << world.name << std::setprecision(17) << ": " << pose.x << " " << pose.y << " "
                                         << pose.yaw;
-            ASSERT_EQ(checker.isFreeByFcl(pose), surelyFree)
+            ASSERT_EQ(careful.isFree(pose), surelyFree) << "without a contact test";
+            ASSERT_EQ(fcl.isFree(pose), surelyFree)
                 << "FCL, " << world.name << std::setprecision(17) << ": " << pose.x << " " << pose.y << " " << pose.yaw;
         }
     }
@@ -63,9 +68,9 @@ namespace
         EXPECT_EQ(tally.counts.states, static_cast<std::uint64_t>(tally.poses));
         for (const std::uint64_t count : {tally.counts.byField, tally.counts.byCircles, tally.counts.byEdges})
             EXPECT_GT(count, tally.counts.states / 20);
-        EXPECT_GT(tally.counts.byFcl, 0u);
+        EXPECT_GT(tally.counts.byContactTest, 0u);
         EXPECT_EQ(tally.counts.states,
-                  tally.counts.byField + tally.counts.byCircles + tally.counts.byEdges + tally.counts.byFcl);
+                  tally.counts.byField + tally.counts.byCircles + tally.counts.byEdges + tally.counts.byContactTest);
     }
 
     constexpr long POSES = 25000;
@@ -147,7 +152,7 @@ TEST(FootprintProperty, AgreesWhenTheFieldIsCoarserThanTheBody)
     for (std::uint64_t seed = 600; seed < 604; ++seed)
     {
         const World world = randomPolygonWorld(seed);
-        const FootprintChecker checker(world.obstacles, small, 0.0, 3.0);
+        const FootprintChecker checker(world.obstacles, small, 0.0, fclContactTest(), 3.0);
         Random random(seed);
         for (int i = 0; i < 20000; ++i)
         {

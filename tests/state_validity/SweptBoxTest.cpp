@@ -225,7 +225,7 @@ TEST(EdgeIndex, SeparationAndDistanceAreTheOracles)
         }
         const PolygonOracle oracle(lines, {{-1e3, -1e3}, {1e3, 1e3}});
         const Vehicle vehicle;
-        const double middle = 0.5 * vehicle.length() - vehicle.rearOverhang;
+        const double middle = vehicle.centreOffset();
         const double halfLength = 0.5 * vehicle.length(), halfWidth = 0.5 * vehicle.width;
         const double reach = 1.0;
         const EdgeIndex index(edges, bounds, std::hypot(halfLength, halfWidth) + reach);

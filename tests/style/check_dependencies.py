@@ -17,6 +17,8 @@ LIBRARIES = [GEOMETRY, VALIDITY, PLANNER, TRACKING, PIPELINE]
 MAY_INCLUDE = {
     GEOMETRY: [],
     VALIDITY: [GEOMETRY],
+    f'{VALIDITY}/fcl': [VALIDITY, GEOMETRY],
+    f'{VALIDITY}/ompl': [VALIDITY, GEOMETRY],
     PLANNER: [VALIDITY, GEOMETRY],
     f'{PLANNER}/search': [VALIDITY, GEOMETRY],
     TRACKING: [GEOMETRY],
@@ -29,13 +31,22 @@ MAY_INCLUDE = {
 ROOMS = [f'benchmarks/{room}' for room in ('system', 'planners', 'problems', 'comparison', 'summary', 'programs')]
 MAY_INCLUDE.update({room: LIBRARIES + ROOMS[:k] for k, room in enumerate(ROOMS)})
 
+# What the core does without: other libraries than Eigen, and the folders that are there to know them.
+READERS = [f'{GEOMETRY}/io/', f'{GEOMETRY}/drawing/']
+ADAPTERS = READERS + [f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/']
+OUTSIDE = ['ompl/', 'fcl/', 'ceres/', 'yaml-cpp/', 'png.h', 'boost/', 'nlohmann/', 'sqlite3.h']
+
 # folder -> what it must not include although it may include what is round it.
 NEVER = {
-    GEOMETRY: ['ompl/', 'fcl/', 'ceres/'],
-    VALIDITY: ['ompl/geometric/', 'ompl/control/', 'ompl/tools/', 'ceres/'],
-    PLANNER: ['fcl/', 'ceres/', 'ompl/tools/'],
-    f'{PLANNER}/search': ['ompl/', 'fcl/', 'ceres/', f'{GEOMETRY}/io/', f'{VALIDITY}/ompl/', f'{VALIDITY}/fcl/'],
-    TRACKING: ['ompl/', 'fcl/'],
+    GEOMETRY: OUTSIDE + ADAPTERS,
+    f'{GEOMETRY}/io': ['ompl/', 'fcl/', 'ceres/', f'{GEOMETRY}/drawing/'],
+    f'{GEOMETRY}/drawing': OUTSIDE + [f'{GEOMETRY}/io/'],
+    VALIDITY: OUTSIDE + ADAPTERS,
+    f'{VALIDITY}/fcl': [other for other in OUTSIDE + ADAPTERS if other not in ('fcl/', f'{VALIDITY}/fcl/')],
+    f'{VALIDITY}/ompl': ['ompl/geometric/', 'ompl/control/', 'ompl/tools/', 'fcl/', 'ceres/'] + READERS,
+    PLANNER: ['fcl/', 'ceres/', 'ompl/tools/'] + READERS,
+    f'{PLANNER}/search': OUTSIDE + ADAPTERS,
+    TRACKING: ['ompl/', 'fcl/'] + READERS,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

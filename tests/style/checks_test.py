@@ -21,6 +21,9 @@ class ChecksTest(unittest.TestCase):
         shutil.copy(os.path.join(ROOT, '.clang-format'), self.root)
         self.write('parking_geometry/Pose.h', '#pragma once\n')
         self.write('state_validity/Checker.h', GOOD_SOURCE)
+        self.write('state_validity/fcl/World.cpp', '#include <fcl/fcl.h>\n#include "state_validity/Checker.h"\n')
+        self.write('state_validity/ompl/Validator.cpp',
+                   '#include <ompl/base/State.h>\n#include "state_validity/fcl/World.h"\n')
         self.write('ompl_improved_astar/search/Search.h', GOOD_SOURCE)
         self.write('examples/readme_example.cpp', EXAMPLE)
         self.write('README.md', README)
@@ -76,9 +79,30 @@ class ChecksTest(unittest.TestCase):
                 ('parking_geometry/Bad.cpp', '<ompl/base/State.h>'),
                 ('state_validity/Bad.h', '"ompl_improved_astar/ImprovedAStar.h"'),
                 ('state_validity/Bad.cpp', '"tests/Oracle.h"'),
+                ('parking_geometry/Bad.cpp', '"parking_geometry/io/ScenarioReader.h"'),
+                ('parking_geometry/curves/Bad.cpp', '"parking_geometry/drawing/Svg.h"'),
+                ('parking_geometry/text/Bad.cpp', '<yaml-cpp/yaml.h>'),
+                ('parking_geometry/io/Bad.cpp', '"parking_geometry/drawing/Svg.h"'),
+                ('parking_geometry/drawing/Bad.cpp', '"parking_geometry/io/ScenarioReader.h"'),
+                ('parking_geometry/drawing/Bad.cpp', '<png.h>'),
+                ('state_validity/Bad.cpp', '<ompl/base/State.h>'),
+                ('state_validity/Bad.cpp', '<fcl/fcl.h>'),
+                ('state_validity/Bad.h', '"state_validity/fcl/FclContactTest.h"'),
+                ('state_validity/Bad.h', '"state_validity/ompl/FclFootprintChecker.h"'),
+                ('state_validity/fcl/Bad.cpp', '<ompl/base/State.h>'),
+                ('state_validity/fcl/Bad.cpp', '"state_validity/ompl/FclFootprintChecker.h"'),
+                ('state_validity/ompl/Bad.cpp', '<fcl/fcl.h>'),
+                ('state_validity/ompl/Bad.cpp', '<ompl/geometric/PathGeometric.h>'),
+                ('state_validity/ompl/Bad.cpp', '"parking_geometry/io/ScenarioReader.h"'),
+                ('ompl_improved_astar/Bad.cpp', '<fcl/fcl.h>'),
+                ('ompl_improved_astar/Bad.cpp', '"parking_geometry/drawing/Svg.h"'),
                 ('path_tracking/Bad.cpp', '"state_validity/Checker.h"'),
+                ('path_tracking/Bad.cpp', '<ompl/base/State.h>'),
+                ('path_tracking/Bad.cpp', '"parking_geometry/io/ScenarioReader.h"'),
                 ('ompl_improved_astar/Bad.cpp', '"path_tracking/control/Mpc.h"'),
                 ('ompl_improved_astar/search/Bad.h', '"state_validity/ompl/Checker.h"'),
+                ('ompl_improved_astar/search/Bad.h', '"state_validity/fcl/FclContactTest.h"'),
+                ('ompl_improved_astar/search/Bad.h', '<ceres/ceres.h>'),
                 ('ompl_improved_astar/search/Bad.h', '"parking_geometry/io/ScenarioReader.h"'),
                 ('ompl_improved_astar/search/Bad.h', '"ompl_improved_astar/ImprovedAStar.h"'),
                 ('ompl_improved_astar/search/Bad.h', '<ompl/base/Planner.h>'),

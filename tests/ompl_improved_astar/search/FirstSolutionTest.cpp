@@ -40,8 +40,7 @@ namespace
         const Vehicle &vehicle = scenario.vehicle;
         CarPlannerParameters parameters;
         parameters.search.turningRadius = vehicle.minTurningRadius();
-        parameters.search.inscribedRadius =
-            std::min({0.5 * vehicle.width, vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang});
+        parameters.search.inscribedRadius = vehicle.inscribedRadius();
         parameters.search.cost.gearChangePenalty = usual.gearChangePenalty;
         parameters.search.cost.steeringChangePenalty = usual.steeringChangePenalty;
         parameters.anytime = true;

@@ -91,7 +91,7 @@ TEST(SlotExit, LaneOfParallelExitsIsExactForAllRadii)
         const double second = car.minTurningRadius() * std::exp(random.uniform(0.0, 2.8));
         kerb.front = frontNeeded(kerb, body, first) + 1e-3;
         EXPECT_NEAR(cornerRadius({frontNeeded(kerb, body, first), kerb.aisleSide, kerb.kerbGap}, body), first, 1e-6);
-        const double rear = 0.5 * car.length() - car.rearOverhang;
+        const double rear = car.centreOffset();
         slot.length = 2.0 * (kerb.front - rear);
         const Pose goal = slot.goals(car).front();
         ASSERT_NEAR(0.5 * slot.length - goal.x, kerb.front, 1e-9);

@@ -125,7 +125,7 @@ TEST(CircleValidityChecker, TheCircleRoundTheCarHoldsTheCarAndItsDoors)
     // A car whose middle is at a valid position is free at every heading.
     const World world = randomPolygonWorld(8);
     const CircleValidityChecker checker(spaceOf(world.bounds), world.obstacles, radius);
-    const double ahead = 0.5 * vehicle.length() - vehicle.rearOverhang;
+    const double ahead = vehicle.centreOffset();
     Random random(8);
     int free = 0;
     for (int i = 0; i < 3000; ++i)

@@ -86,7 +86,7 @@ TEST(FclFootprintChecker, AnswersAsTheOracleWithinTheBoundsInEverySpace)
         EXPECT_GT(valid, 500u);
         const CheckCounts counts = checker->counts();
         EXPECT_EQ(counts.states, 2 * inBounds);
-        EXPECT_EQ(counts.states, counts.byField + counts.byCircles + counts.byEdges + counts.byFcl);
+        EXPECT_EQ(counts.states, counts.byField + counts.byCircles + counts.byEdges + counts.byContactTest);
         checker->resetCounts();
         EXPECT_EQ(checker->counts().states, 0u);
     }

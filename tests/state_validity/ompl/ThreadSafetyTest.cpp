@@ -1,5 +1,6 @@
 // Const calls from several threads at once give what one thread gets; with the thread sanitizer this shows that they do
 // not race. The lists of edges are gathered and FCL's world is built while others ask for them.
+#include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/ompl/CircleValidityChecker.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
@@ -52,6 +53,7 @@ namespace
             space->setBounds(bounds);
             si = std::make_shared<ob::SpaceInformation>(space);
             footprint = std::make_shared<FclFootprintChecker>(si, world.obstacles, Vehicle());
+            fcl = std::make_shared<PlainFclChecker>(world.obstacles, Vehicle());
             si->setStateValidityChecker(footprint);
             motion = std::make_shared<SweptMotionValidator>(si);
             si->setMotionValidator(motion);
@@ -65,7 +67,7 @@ namespace
             setPose(b, next);
             const FootprintChecker &checker = footprint->footprint();
             return {checker.isFree(pose),
-                    checker.isFreeByFcl(pose),
+                    fcl->isFree(pose),
                     footprint->isValid(a),
                     motion->checkMotion(a, b),
                     circle->isFree(pose.x, pose.y),
@@ -75,6 +77,7 @@ namespace
 
         ob::SpaceInformationPtr si;
         std::shared_ptr<FclFootprintChecker> footprint;
+        std::shared_ptr<PlainFclChecker> fcl;
         std::shared_ptr<SweptMotionValidator> motion;
         std::shared_ptr<CircleValidityChecker> circle;
     };
@@ -84,7 +87,7 @@ namespace
         Random random(1);
         std::vector<Pose> poses;
         for (std::size_t i = 0; i <= POSES; ++i)
-            poses.push_back(world.anywhere(random));
+            poses.push_back(i % 4 == 0 ? world.touching(random, Vehicle(), 0.0) : world.anywhere(random));
 
         const Checkers alone(world), shared(world);
         std::vector<Answer> expected;
