@@ -25,7 +25,7 @@ int main()
     objective->setCostThreshold(ob::Cost(20.0));  // metres: never reached here, so that the time runs out
     setup.setOptimizationObjective(objective);
     const auto planner = std::make_shared<ompl::geometric::ImprovedAStar>(si);
-    planner->setAnytime(true);
+    planner->params()["anytime"] = true;
     setup.setPlanner(planner);
 
     const ompl::time::point begin = ompl::time::now();

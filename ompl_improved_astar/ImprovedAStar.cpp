@@ -21,7 +21,6 @@ namespace ompl::geometric
 {
     namespace
     {
-        using parking::MotionModel;
         using parking::Pose;
 
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
@@ -82,8 +81,8 @@ namespace ompl::geometric
 
     void ImprovedAStar::requireFittingModel() const
     {
-        if (parameters_.motionModel != MotionModel::Car && query_->space->kind() != parking::SpaceKind::SE2)
-            throw Exception(getName(), "motion_model " + getMotionModel() +
+        if (parameters_.motionModel != "car" && query_->space->kind() != parking::SpaceKind::SE2)
+            throw Exception(getName(), "motion_model " + parameters_.motionModel +
                                            " needs a plain SE2StateSpace: a Reeds-Shepp or Dubins space would turn its "
                                            "path into loops. Use motion_model car there");
     }
@@ -128,18 +127,20 @@ namespace ompl::geometric
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
         query_->footprintEnvironment.reset();
+        const auto openList = parameters_.openList == "linear" ? parking::search::OpenListKind::Linear
+                                                               : parking::search::OpenListKind::BinaryHeap;
 
-        if (parameters_.motionModel != MotionModel::Car)
+        if (parameters_.motionModel != "car")
         {
             parking::search::GridParameters grid;
             grid.resolution = parameters_.xyResolution > 0.0 ? parameters_.xyResolution : GRID_RESOLUTION;
-            grid.sixteenNeighbours = parameters_.motionModel == MotionModel::Grid16;
+            grid.sixteenNeighbours = parameters_.motionModel == "grid16";
             grid.low = bounds.min;
             grid.high = bounds.max;
-            grid.weights = parameters_.weights;
-            grid.openList = parameters_.openList;
+            grid.weights = parameters_.weights();
+            grid.openList = openList;
             grid.bidirectional = parameters_.bidirectional;
-            grid.eagerObstacles = parameters_.eagerObstacles;
+            grid.eagerObstacles = parameters_.obstacleLoading == "eager";
             query_->grid.begin(*query_->stateEnvironment, grid);
             return;
         }
@@ -152,14 +153,14 @@ namespace ompl::geometric
         car.search.steeringAngles = parameters_.steeringAngles;
         car.search.xyResolution = parameters_.xyResolution;
         car.search.headingBins = parameters_.headingBins;
-        car.search.weights = parameters_.weights;
-        car.search.openList = parameters_.openList;
+        car.search.weights = parameters_.weights();
+        car.search.openList = openList;
         car.search.bidirectional = parameters_.bidirectional;
-        car.search.searchFromGoal = parameters_.searchFromGoal;
+        car.search.searchFromGoal = parameters_.searchFrom == "goal";
         car.search.adaptiveResolution = parameters_.adaptiveResolution;
         car.search.analyticExpansion = parameters_.analyticExpansion;
         car.search.obstacleHeuristic = parameters_.obstacleHeuristic;
-        car.search.eagerObstacles = parameters_.eagerObstacles;
+        car.search.eagerObstacles = parameters_.obstacleLoading == "eager";
         car.search.low = bounds.min;
         car.search.high = bounds.max;
         car.search.cost = {parameters_.reversePenalty,

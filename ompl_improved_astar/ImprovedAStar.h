@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/Parameters.h"
+#include "ompl_improved_astar/search/Parameters.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
@@ -79,120 +79,16 @@ namespace ompl::geometric
             states stay valid until the query ends. */
         void getPlannerData(base::PlannerData &data) const override;
 
-        /** \brief All parameters at once; throws as the setters below do, and then changes nothing. */
+        /** \brief What the planner goes by; by name in params() too. parking::parameterTable() tells what each means.
+         */
         const parking::PlannerParameters &parameters() const
         {
             return parameters_;
         }
+
+        /** \brief Sets all parameters. Throws ompl::Exception, naming parameter, value and what is right, when one is
+            out of its range, and then changes nothing. */
         void setParameters(const parking::PlannerParameters &parameters);
-
-        /** \name Parameters
-            Each is also in params() under the name in brackets. Setters throw ompl::Exception for values out of range.
-            @{ */
-
-        /** \brief [motion_model] `car` drivable motions; `grid8`, `grid16` the paper's moves between grid cells. */
-        void setMotionModel(const std::string &model);
-        std::string getMotionModel() const;
-
-        /** \brief [turning_radius] metres, on a plain SE2StateSpace only; curve spaces bring their own. */
-        void setTurningRadius(double radius);
-        double getTurningRadius() const;
-
-        /** \brief [xy_resolution] side of a cell in metres: for the grid models of the grid, for the car model of cells
-            at steps of a metre; 0 chooses (0.5 m on grids, a tenth of the turning radius for the car). */
-        void setXyResolution(double resolution);
-        double getXyResolution() const;
-
-        /** \brief [heading_bins] cells of heading round the circle at steps of a metre. */
-        void setHeadingBins(unsigned int bins);
-        unsigned int getHeadingBins() const;
-
-        /** \brief [steering_angles] odd number of steering angles of the car model, straight included. */
-        void setSteeringAngles(unsigned int count);
-        unsigned int getSteeringAngles() const;
-
-        /** \brief [heuristic_weight_far] w of f = g + (w + p) h farther from the target than near_goal_distance. */
-        void setHeuristicWeightFar(double weight);
-        double getHeuristicWeightFar() const;
-
-        /** \brief [heuristic_weight_near] w nearer to the target than near_goal_distance. */
-        void setHeuristicWeightNear(double weight);
-        double getHeuristicWeightNear() const;
-
-        /** \brief [near_goal_distance] metres. */
-        void setNearGoalDistance(double distance);
-        double getNearGoalDistance() const;
-
-        /** \brief [tie_break] p of f = g + (w + p) h. */
-        void setTieBreak(double offset);
-        double getTieBreak() const;
-
-        /** \brief [open_list] `binary_heap` or `linear`. */
-        void setOpenList(const std::string &kind);
-        std::string getOpenList() const;
-
-        /** \brief [bidirectional] search from both ends. */
-        void setBidirectional(bool enable);
-        bool getBidirectional() const;
-
-        /** \brief [search_from] `goal` or `start`: the side of a search that is not bidirectional. */
-        void setSearchFrom(const std::string &side);
-        std::string getSearchFrom() const;
-
-        /** \brief [adaptive_resolution] refine where coarse steps do not get through (car model). */
-        void setAdaptiveResolution(bool enable);
-        bool getAdaptiveResolution() const;
-
-        /** \brief [obstacle_heuristic] guide the search round obstacles (car model). */
-        void setObstacleHeuristic(bool enable);
-        bool getObstacleHeuristic() const;
-
-        /** \brief [obstacle_loading] `lazy`: cells are found free or blocked when the search asks; `eager`: all of them
-            beforehand, reported by mapLoadingTime(). */
-        void setObstacleLoading(const std::string &loading);
-        std::string getObstacleLoading() const;
-
-        /** \brief [smoothing] `bspline` or `none` (grid models). */
-        void setSmoothing(const std::string &smoothing);
-        std::string getSmoothing() const;
-
-        /** \brief [shortening] replace parts of solutions by shorter curves (car model). */
-        void setShortening(bool enable);
-        bool getShortening() const;
-
-        /** \brief [approximate] end as near to the goal as possible when it cannot be reached. */
-        void setApproximate(bool enable);
-        bool getApproximate() const;
-
-        /** \brief [reverse_penalty] extra cost per metre in reverse. */
-        void setReversePenalty(double penalty);
-        double getReversePenalty() const;
-
-        /** \brief [gear_change_penalty] cost of a change of direction, in metres. */
-        void setGearChangePenalty(double penalty);
-        double getGearChangePenalty() const;
-
-        /** \brief [steering_change_penalty] cost of turning the wheels from straight to full lock, in metres. */
-        void setSteeringChangePenalty(double penalty);
-        double getSteeringChangePenalty() const;
-
-        /** \brief [clearance_weight] extra cost per metre driven in touch with an obstacle, falling to none at a metre
-           of clearance. Needs a checker that knows clearances. */
-        void setClearanceWeight(double weight);
-        double getClearanceWeight() const;
-
-        /** \brief [analytic_expansion] join the trees by curves (car model). Without it nothing ends exactly. */
-        void setAnalyticExpansion(bool enable);
-        bool getAnalyticExpansion() const;
-
-        /** \brief [anytime] go on improving until terminated. */
-        void setAnytime(bool enable);
-        bool getAnytime() const;
-
-        /** \brief [parameter_set] sets all of the above to a named set, see parking::parameterSetNames(). */
-        void setParameterSet(const std::string &name);
-        std::string getParameterSet() const;
-        /** @} */
 
         /** \brief Seconds that solve() spent on finding out which cells are free before searching. */
         double mapLoadingTime() const;
@@ -226,7 +122,6 @@ namespace ompl::geometric
         base::Cost costOf(const base::PathPtr &path) const;
 
         parking::PlannerParameters parameters_;
-        std::string parameterSet_{"default"};
         std::unique_ptr<Query> query_;
         std::atomic<double> bestCost_;
         std::atomic<std::uint64_t> expanded_{0};

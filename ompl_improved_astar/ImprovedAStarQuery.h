@@ -61,7 +61,7 @@ namespace ompl::geometric
 
         bool isCar() const
         {
-            return parameters.motionModel == parking::MotionModel::Car;
+            return parameters.motionModel == "car";
         }
 
         bool hasSolution() const

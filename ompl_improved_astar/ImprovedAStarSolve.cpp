@@ -126,7 +126,7 @@ namespace ompl::geometric
     std::vector<Pose> ImprovedAStar::smoothed(const std::vector<Pose> &poses,
                                               const ob::PlannerTerminationCondition &ptc) const
     {
-        if (!parameters_.bsplineSmoothing || ptc)
+        if (parameters_.smoothing == "none" || ptc)
             return poses;
         std::vector<Eigen::Vector2d> points;
         for (const Pose &pose : poses)

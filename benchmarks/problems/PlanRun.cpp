@@ -59,8 +59,8 @@ namespace parking
         double boundOf(ob::Planner &planner)
         {
             auto *improved = dynamic_cast<ompl::geometric::ImprovedAStar *>(&planner);
-            const bool holds = improved != nullptr && improved->getHeuristicWeightFar() == 1.0 &&
-                               improved->getHeuristicWeightNear() == 1.0;
+            const bool holds = improved != nullptr && improved->parameters().heuristicWeightFar == 1.0 &&
+                               improved->parameters().heuristicWeightNear == 1.0;
             return holds ? improved->suboptimalityBound() : std::numeric_limits<double>::infinity();
         }
 

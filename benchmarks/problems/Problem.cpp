@@ -245,7 +245,7 @@ namespace parking
             return suitable;
         planner->setName(entry.name);
         applySettings(*planner, allSettings(entry, settings));
-        if (improved->parameters().motionModel != MotionModel::Car)
+        if (improved->parameters().motionModel != "car")
             suitable = {SpaceKind::SE2, FootprintKind::Circle, 0.0, 0.0};
         return suitable;
     }

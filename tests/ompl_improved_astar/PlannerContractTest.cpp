@@ -50,7 +50,7 @@ namespace
     TEST_F(PlannerContract, SolvesAgainOnGrids)
     {
         PlanningProblem problem(Space::SE2, openSite(15.0));
-        problem.planner->setMotionModel("grid8");
+        problem.set("motion_model", "grid8");
         problem.from(AISLE).to({{8.0, 5.0, 0.0}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         const std::vector<Pose> first = problem.poses();
@@ -65,7 +65,7 @@ namespace
         ASSERT_EQ(whole.solve(), Status::EXACT_SOLUTION);
 
         PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.planner->setApproximate(false);
+        problem.set("approximate", false);
         problem.from(AISLE).to({SLOT});
         int calls = 0;
         Status status = Status::TIMEOUT;
@@ -86,7 +86,7 @@ namespace
     TEST_F(PlannerContract, GoesOnAfterATimeoutWithinAMotion)
     {
         PlanningProblem problem(Space::ReedsShepp, openSite(12.0).bounds, isClearOfPost);
-        problem.planner->setApproximate(false);
+        problem.set("approximate", false);
         problem.from({-9.0, 0.5, 0.0}).to({{9.0, 0.5, 0.0}});
         Status status = Status::TIMEOUT;
         unsigned int calls = 0;
@@ -103,9 +103,9 @@ namespace
         for (const char *loading : {"lazy", "eager"})
         {
             PlanningProblem problem(Space::SE2, openSite(15.0));
-            problem.planner->setMotionModel("grid16");
-            problem.planner->setObstacleLoading(loading);
-            problem.planner->setApproximate(false);
+            problem.set("motion_model", "grid16");
+            problem.set("obstacle_loading", loading);
+            problem.set("approximate", false);
             problem.from(AISLE).to({{8.0, 5.0, 0.0}});
             Status status = Status::TIMEOUT;
             int calls = 0;
@@ -141,7 +141,7 @@ namespace
             const std::vector<std::pair<Pose, Pose>> queries{
                 {AISLE, {8.0, -6.0, 1.0}}, {{8.0, -8.0, 2.0}, {-9.0, 8.0, 0.0}}, {AISLE, {8.0, -6.0, 1.0}}};
             PlanningProblem kept(Space::SE2, site);
-            kept.planner->setMotionModel(model);
+            kept.set("motion_model", model);
             for (const auto &[start, goal] : queries)
             {
                 kept.planner->clearQuery();
@@ -151,7 +151,7 @@ namespace
                 kept.from(start).to({goal});
                 ASSERT_EQ(kept.solve(), Status::EXACT_SOLUTION) << model;
                 PlanningProblem fresh(Space::SE2, site);
-                fresh.planner->setMotionModel(model);
+                fresh.set("motion_model", model);
                 fresh.from(start).to({goal});
                 ASSERT_EQ(fresh.solve(), Status::EXACT_SOLUTION);
                 EXPECT_TRUE(areSame(kept.poses(), fresh.poses())) << model;
@@ -225,7 +225,7 @@ namespace
         problem.from(AISLE).to({{8.0, 5.0, 0.0}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         EXPECT_NE(problem.planner->solutionArcs(), nullptr);
-        problem.planner->setMotionModel("grid8");
+        problem.set("motion_model", "grid8");
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         EXPECT_EQ(problem.planner->solutionArcs(), nullptr);
         EXPECT_GT(problem.planner->statistics().expanded, 0u);
@@ -236,7 +236,7 @@ namespace
         for (const char *model : {"car", "grid8"})
         {
             PlanningProblem problem(Space::SE2, slotSite());
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from(AISLE).to({SLOT});
             EXPECT_EQ(problem.solve(0.0), Status::TIMEOUT);
             EXPECT_EQ(problem.planner->statistics().expanded, 0u);
@@ -254,14 +254,14 @@ namespace
             for (const Pose &bad : {inObstacle, outside})
             {
                 PlanningProblem badStart(Space::SE2, slotSite());
-                badStart.planner->setMotionModel(model);
+                badStart.set("motion_model", model);
                 badStart.from(bad).to({SLOT});
                 EXPECT_EQ(badStart.solve(), Status::INVALID_START) << model;
                 EXPECT_FALSE(badStart.pdef->hasSolution());
 
                 PlanningProblem badGoal(Space::SE2, slotSite());
-                badGoal.planner->setMotionModel(model);
-                badGoal.planner->setApproximate(false);
+                badGoal.set("motion_model", model);
+                badGoal.set("approximate", false);
                 badGoal.from(AISLE).to({bad});
                 EXPECT_EQ(badGoal.solve(), Status::INVALID_GOAL) << model;
                 EXPECT_FALSE(badGoal.pdef->hasSolution());
@@ -310,7 +310,7 @@ namespace
               Case{"car", blocked, {7.0, 0.0, 0.0}}, Case{"grid8", blocked, {7.0, 0.0, 0.0}}})
         {
             PlanningProblem problem(Space::SE2, each.site);
-            problem.planner->setMotionModel(each.model);
+            problem.set("motion_model", each.model);
             problem.from({-8.0, 1.0, 0.0}).to({each.goal});
             ASSERT_EQ(problem.solve(), Status::APPROXIMATE_SOLUTION) << each.model;
             EXPECT_TRUE(problem.pdef->hasApproximateSolution());
@@ -327,7 +327,7 @@ namespace
                 << each.model;
 
             problem.pdef->clearSolutionPaths();
-            problem.planner->setApproximate(false);
+            problem.set("approximate", false);
             const Status without = problem.solve();
             EXPECT_TRUE(without == Status::TIMEOUT || without == Status::INVALID_GOAL);
             EXPECT_FALSE(problem.pdef->hasSolution());
@@ -339,7 +339,7 @@ namespace
         for (const char *model : {"car", "grid8"})
         {
             PlanningProblem problem(Space::SE2, slotSite());
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from(AISLE).to({AISLE});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             EXPECT_EQ(problem.path().length(), 0.0);

@@ -38,7 +38,7 @@ namespace
             for (const std::vector<Pose> &goals : {std::vector<Pose>{NEAR, FAR}, {FAR, NEAR}, {FAR, NEAR, FAR}})
             {
                 PlanningProblem problem(Space::SE2, slotSite());
-                problem.planner->setMotionModel(model);
+                problem.set("motion_model", model);
                 problem.from(HERE).to(goals);
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
                 EXPECT_TRUE(isAt(problem.poses().back(), NEAR)) << model;
@@ -51,7 +51,7 @@ namespace
             for (const std::vector<Pose> &starts : {std::vector<Pose>{FAR, HERE}, {HERE, FAR}})
             {
                 PlanningProblem problem(Space::SE2, slotSite());
-                problem.planner->setMotionModel(model);
+                problem.set("motion_model", model);
                 for (const Pose &start : starts)
                     problem.from(start);
                 problem.to({NEAR});
@@ -132,7 +132,7 @@ namespace
         for (const char *model : {"car", "grid8"})
         {
             PlanningProblem problem(Space::SE2, slotSite());
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from(HERE);
             const auto disc = std::make_shared<Disc>(problem.si, 6.0, -6.0);
             problem.pdef->setGoal(disc);
@@ -161,7 +161,7 @@ namespace
         EXPECT_EQ(problem.solve(), Status::APPROXIMATE_SOLUTION);
         EXPECT_LT(problem.pdef->getSolutionDifference(), 5.0);
         problem.pdef->clearSolutionPaths();
-        problem.planner->setApproximate(false);
+        problem.set("approximate", false);
         EXPECT_EQ(problem.solve(), Status::INVALID_GOAL);
     }
 

@@ -49,7 +49,7 @@ namespace
         for (const char *model : {"car", "grid8"})
         {
             PlanningProblem problem(Space::SE2, gapsSite());
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from(LEFT).to({RIGHT});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             ob::PlannerData data(problem.si);
@@ -96,8 +96,8 @@ namespace
         for (int i = 0; i < 20; ++i)
         {
             PlanningProblem problem(Space::ReedsShepp, gapsSite());
-            problem.planner->setObstacleHeuristic(i % 2 == 0);
-            problem.planner->setReversePenalty(0.1 * i);
+            problem.set("obstacle_heuristic", i % 2 == 0);
+            problem.set("reverse_penalty", 0.1 * i);
             problem.from({-9.0, -5.0 + 0.5 * i, 0.3 * i}).to({{9.0, 8.0 - 0.5 * i, 0.2 * i}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             ob::PlannerData data(problem.si);
@@ -120,7 +120,7 @@ namespace
         EXPECT_EQ(progress(*problem.planner, "best cost REAL"), "inf");
 
         PlanningProblem grid(Space::SE2, gapsSite());
-        grid.planner->setMotionModel("grid8");
+        grid.set("motion_model", "grid8");
         grid.from(LEFT).to({RIGHT});
         ASSERT_EQ(grid.solve(), Status::EXACT_SOLUTION);
         EXPECT_NEAR(std::stod(progress(*grid.planner, "best cost REAL")), grid.path().length(), 1e-5);
@@ -129,7 +129,7 @@ namespace
     TEST_F(PlannerReporting, ProgressIsReadWhilePlanning)
     {
         PlanningProblem problem(Space::ReedsShepp, gapsSite());
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         problem.from(LEFT).to({RIGHT});
         std::atomic<bool> done{false};
         std::thread reader(
@@ -151,7 +151,7 @@ namespace
         ASSERT_EQ(first.solve(), Status::EXACT_SOLUTION);
 
         PlanningProblem problem(Space::ReedsShepp, gapsSite());
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         problem.from(LEFT).to({RIGHT});
         std::vector<double> costs;
         problem.pdef->setIntermediateSolutionCallback(
@@ -183,7 +183,7 @@ namespace
     TEST_F(PlannerReporting, AThresholdEndsAnytime)
     {
         PlanningProblem problem(Space::ReedsShepp, gapsSite());
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         problem.from(LEFT).to({RIGHT});
         const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(problem.si);
         objective->setCostThreshold(ob::Cost(1000.0));
@@ -197,7 +197,7 @@ namespace
 
         // One that cannot be met does not end it, and is not said to be.
         PlanningProblem other(Space::ReedsShepp, gapsSite());
-        other.planner->setAnytime(true);
+        other.set("anytime", true);
         other.from(LEFT).to({RIGHT});
         objective->setCostThreshold(ob::Cost(1.0));
         other.pdef->setOptimizationObjective(objective);
@@ -236,7 +236,7 @@ namespace
         EXPECT_NEAR(open.planner->suboptimalityBound(), 1.0, 1e-9);
 
         PlanningProblem problem(Space::ReedsShepp, gapsSite());
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         EXPECT_EQ(problem.planner->suboptimalityBound(), std::numeric_limits<double>::infinity());
         problem.from(LEFT).to({RIGHT});
         ASSERT_EQ(problem.solveForQuestions(500), Status::EXACT_SOLUTION);
@@ -277,7 +277,7 @@ namespace
         const auto once = std::make_shared<og::ImprovedAStar>(problem.si);
         const auto anytime = std::make_shared<og::ImprovedAStar>(problem.si);
         anytime->setName("anytime");
-        anytime->setAnytime(true);
+        anytime->params().setParam("anytime", "1");
         benchmark.addPlanner(once);
         benchmark.addPlanner(anytime);
         ompl::tools::Benchmark::Request request(0.3, 1000.0, 3);

@@ -148,7 +148,7 @@ namespace
             for (const char *model : {"grid8", "grid16"})
             {
                 PlanningProblem problem(kind, openSite(15.0));
-                problem.planner->setMotionModel(model);
+                problem.set("motion_model", model);
                 const std::string text = refusal(*problem.planner);
                 EXPECT_NE(text.find(model), std::string::npos) << text;
                 EXPECT_NE(text.find("SE2StateSpace"), std::string::npos) << text;
@@ -156,7 +156,7 @@ namespace
                 // Also when the model is changed after the setup.
                 PlanningProblem later(kind, openSite(15.0));
                 later.planner->setup();
-                later.planner->setMotionModel(model);
+                later.set("motion_model", model);
                 later.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
                 EXPECT_THROW(later.solve(), ompl::Exception);
             }
@@ -176,7 +176,7 @@ namespace
                                           {Space::SE2, "grid16"}})
         {
             PlanningProblem problem(kind, openSite(15.0).bounds, isFree);
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from({-9.0, 0.0, 0.0}).to({{9.0, 0.0, 0.0}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << model;
             EXPECT_TRUE(problem.path().check());
@@ -213,7 +213,7 @@ namespace
             PlanningProblem problem(Space::SE2, openSite(12.0).bounds, [](const Pose &) { return true; });
             problem.si->setMotionValidator(std::make_shared<Gate>(problem.si));
             problem.si->setup();
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from({-4.0, 1.0, 0.0}).to({{4.0, 2.5, 0.0}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << model;
             EXPECT_TRUE(problem.path().check()) << model;

@@ -236,7 +236,7 @@ namespace
     TEST_F(PlannerSwitches, WithoutCurvesNothingEndsExactly)
     {
         PlanningProblem problem(Space::ReedsShepp, openSite(12.0));
-        problem.planner->setAnalyticExpansion(false);
+        problem.set("analytic_expansion", false);
         problem.from(AISLE).to({{4.0, 2.0, 0.0}});
         EXPECT_EQ(problem.solve(0.3), Status::APPROXIMATE_SOLUTION);
         EXPECT_EQ(problem.planner->statistics().connections, 0u);
@@ -310,10 +310,10 @@ namespace
         {
             PlanningProblem problem(Space::ReedsShepp, closedSite());
             problem.planner->params().setParams(parameters);
-            problem.planner->setAdaptiveResolution(false);
-            problem.planner->setObstacleHeuristic(false);
-            problem.planner->setApproximate(false);
-            problem.planner->setBidirectional(false);
+            problem.set("adaptive_resolution", false);
+            problem.set("obstacle_heuristic", false);
+            problem.set("approximate", false);
+            problem.set("bidirectional", false);
             problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
             EXPECT_EQ(problem.solve(20.0), Status::TIMEOUT);
             return problem.planner->statistics().expanded;
@@ -342,7 +342,7 @@ namespace
         for (const double radius : {2.0, 3.5, 6.0})
         {
             PlanningProblem problem(Space::SE2, openSite(25.0));
-            problem.planner->setTurningRadius(radius);
+            problem.set("turning_radius", radius);
             problem.from({0.0, 0.0, 0.0}).to({{0.0, 3.0, parking::PI}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             double sharpest = 0.0;

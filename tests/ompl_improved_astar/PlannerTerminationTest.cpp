@@ -60,8 +60,8 @@ namespace
     TEST_F(PlannerTermination, InTheOpen)
     {
         PlanningProblem problem(Space::ReedsShepp, openSite(500.0));
-        problem.planner->setAnytime(true);
-        problem.planner->setAnalyticExpansion(false);
+        problem.set("anytime", true);
+        problem.set("analytic_expansion", false);
         problem.from({-450.0, -450.0, 0.0}).to({{450.0, 450.0, 1.0}});
         expectPrompt(problem, 40.0);
     }
@@ -71,7 +71,7 @@ namespace
         Site site = openSite(400.0);
         site.obstacles.push_back(box(-1.0, -400.0, 1.0, 390.0));
         PlanningProblem problem(Space::ReedsShepp, site);
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         problem.from({-300.0, -300.0, 0.0}).to({{300.0, -300.0, 1.0}});
         expectPrompt(problem, 40.0);
     }
@@ -83,7 +83,7 @@ namespace
         site.obstacles = {box(-4.0, -1.5, -3.0, 1.5), box(6.0, -1.5, 7.0, 1.5), box(-4.0, -2.5, 7.0, -1.5),
                           box(-4.0, 1.5, 7.0, 2.5)};
         PlanningProblem problem(Space::ReedsShepp, site);
-        problem.planner->setObstacleHeuristic(false);
+        problem.set("obstacle_heuristic", false);
         problem.from({0.0, 0.0, 0.0}).to({{-10.0, 8.0, 0.0}});
         expectPrompt(problem, 20.0);
     }
@@ -91,7 +91,7 @@ namespace
     TEST_F(PlannerTermination, WhileImproving)
     {
         PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.planner->setAnytime(true);
+        problem.set("anytime", true);
         problem.from(AISLE).to({SLOT});
         expectPrompt(problem, 60.0);
     }
@@ -102,9 +102,9 @@ namespace
         {
             SCOPED_TRACE(model);
             PlanningProblem problem(Space::SE2, openSite(300.0));
-            problem.planner->setMotionModel(model);
-            problem.planner->setObstacleLoading("eager");
-            problem.planner->setXyResolution(0.1);
+            problem.set("motion_model", model);
+            problem.set("obstacle_loading", "eager");
+            problem.set("xy_resolution", 0.1);
             problem.from({-250.0, -250.0, 0.0}).to({{250.0, 250.0, 0.0}});
             expectPrompt(problem, std::string(model) == "car" ? 8.0 : 40.0);
         }
@@ -118,8 +118,8 @@ namespace
         {
             SCOPED_TRACE(set);
             PlanningProblem problem(Space::SE2, site);
-            problem.planner->setParameterSet(set);
-            problem.planner->setObstacleLoading("lazy");
+            problem.set("parameter_set", set);
+            problem.set("obstacle_loading", "lazy");
             problem.from({-250.0, -250.0, 0.0}).to({{250.0, -250.0, 0.0}});
             expectPrompt(problem, 40.0);
         }
@@ -141,7 +141,7 @@ namespace
                                     });
             problem.si->setStateValidityCheckingResolution(0.01);
             problem.si->setup();
-            problem.planner->setMotionModel(model);
+            problem.set("motion_model", model);
             problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
             expectPrompt(problem, 60.0);
         }

@@ -4,13 +4,18 @@
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -123,8 +128,20 @@ namespace parking_test
         void makePlanner()
         {
             planner = std::make_shared<og::ImprovedAStar>(si);
-            planner->setTurningRadius(vehicle.minTurningRadius());
+            parking::PlannerParameters parameters;
+            parameters.turningRadius = vehicle.minTurningRadius();
+            planner->setParameters(parameters);
             planner->setProblemDefinition(pdef);
+        }
+
+        /** \brief Sets a parameter of the planner by its name. */
+        template <class Value>
+        void set(const std::string &name, const Value &value)
+        {
+            if constexpr (std::is_arithmetic_v<Value>)
+                EXPECT_TRUE(planner->params().setParam(name, parking::formatNumber(value))) << name;
+            else
+                EXPECT_TRUE(planner->params().setParam(name, value)) << name;
         }
 
         ob::ScopedState<> state(const parking::Pose &pose) const

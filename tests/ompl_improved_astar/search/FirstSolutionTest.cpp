@@ -2,9 +2,9 @@
 //
 // Effort is counted in expansions, not in time, so that the outcome does not depend on the machine.
 
-#include "ompl_improved_astar/Parameters.h"
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "ompl_improved_astar/search/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/Parameters.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/support/ProblemFiles.h"
 
