@@ -1,6 +1,7 @@
 #include "automatic_parking/AutomaticParking.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/reference/PathSections.h"
 
@@ -15,13 +16,6 @@ namespace parking
     {
         constexpr double SAME_PLACE = 1e-6;  // metres
         constexpr double LOOK_BACK = 0.1;    // metres of path behind the car that still count as being before it
-
-        void checkPositive(const char *field, double value)
-        {
-            if (!(std::isfinite(value) && value > 0.0))
-                throw Error(std::string("parking: ") + field + " is " + formatNumber(value) +
-                            "; it must be a positive number");
-        }
 
         std::string rounded(double value, double unit)
         {
@@ -51,10 +45,11 @@ namespace parking
     {
         planning.validate();
         drive.validate();
-        checkPositive("replanCrossTrack", replanCrossTrack);
-        checkPositive("replanHeadingError", replanHeadingError);
-        checkPositive("goalTolerance", goalTolerance);
-        checkPositive("goalYawTolerance", goalYawTolerance);
+        const Require require("parking");
+        require.positive("replanCrossTrack", replanCrossTrack);
+        require.positive("replanHeadingError", replanHeadingError);
+        require.positive("goalTolerance", goalTolerance);
+        require.positive("goalYawTolerance", goalYawTolerance);
     }
 
     /** One call of park(): the world as it is now, and what has been driven so far. */

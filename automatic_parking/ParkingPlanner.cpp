@@ -5,6 +5,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/PathSweep.h"
 #include "state_validity/fcl/FclContactTest.h"
@@ -38,17 +39,6 @@ namespace parking
         double secondsSince(Clock::time_point begin)
         {
             return std::chrono::duration<double>(Clock::now() - begin).count();
-        }
-
-        void check(const char *field, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("planning: ") + field + " is " + formatNumber(value) + "; it must be " + right);
-        }
-
-        void checkNotNegative(const char *field, double value)
-        {
-            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
         }
 
         std::string centimetres(double metres)
@@ -258,15 +248,16 @@ namespace parking
 
     void PlanningParameters::validate() const
     {
-        check("timeLimit", timeLimit, std::isfinite(timeLimit) && timeLimit > 0.0, "a positive number of seconds");
-        check("gaps", static_cast<double>(gaps.size()), !gaps.empty(), "a list with at least one gap");
+        const Require require("planning");
+        require.positive("timeLimit", timeLimit, "seconds");
+        require.that(!gaps.empty(), "gaps", static_cast<double>(gaps.size()), "a list with at least one gap");
         for (const double gap : gaps)
-            checkNotNegative("a gap", gap);
-        check("radiusFactor", radiusFactor, std::isfinite(radiusFactor) && radiusFactor >= 1.0, "1 or more");
-        checkNotNegative("gapWorth", gapWorth);
-        checkNotNegative("gearChangePenalty", gearChangePenalty);
-        checkNotNegative("steeringChangePenalty", steeringChangePenalty);
-        checkNotNegative("clearanceWeight", clearanceWeight);
+            require.notNegative("a gap", gap);
+        require.that(std::isfinite(radiusFactor) && radiusFactor >= 1.0, "radiusFactor", radiusFactor, "1 or more");
+        require.notNegative("gapWorth", gapWorth);
+        require.notNegative("gearChangePenalty", gearChangePenalty);
+        require.notNegative("steeringChangePenalty", steeringChangePenalty);
+        require.notNegative("clearanceWeight", clearanceWeight);
     }
 
     ParkingWorld::ParkingWorld(const Scenario &scenario)

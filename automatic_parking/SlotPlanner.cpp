@@ -2,9 +2,9 @@
 
 #include "ompl_improved_astar/search/CarPlanner.h"
 #include "ompl_improved_astar/search/FootprintEnvironment.h"
-#include "parking_geometry/Error.h"
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/PathSweep.h"
@@ -149,13 +149,6 @@ namespace parking
             }
             return needed;
         }
-
-        void check(const char *option, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("slot planner: ") + option + " is " + formatNumber(value) + "; it must be " +
-                            right);
-        }
     }  // namespace
 
     SlotPlanner::SlotPlanner(const Vehicle &vehicle, const SlotPlannerOptions &options)
@@ -164,12 +157,13 @@ namespace parking
     {
         ReverseParking(vehicle, options.sweep);  // checks the car and these options
         PathSmoother(vehicle, options.smoothing);
-        check("radius factor", options.radiusFactor, options.radiusFactor >= 1.0 && std::isfinite(options.radiusFactor),
-              "at least 1");
-        check("least clearance", options.leastClearance,
-              options.leastClearance >= 4.0 * SWEEP_TOLERANCE && std::isfinite(options.leastClearance),
-              "at least 0.004 m");
-        check("effort", static_cast<double>(options.effort), options.effort > 0, "a positive number of expansions");
+        const Require require("slot planner");
+        require.that(options.radiusFactor >= 1.0 && std::isfinite(options.radiusFactor), "radius factor",
+                     options.radiusFactor, "at least 1");
+        require.that(options.leastClearance >= 4.0 * SWEEP_TOLERANCE && std::isfinite(options.leastClearance),
+                     "least clearance", options.leastClearance, "at least 0.004 m");
+        require.that(options.effort > 0, "effort", static_cast<double>(options.effort),
+                     "a positive number of expansions");
     }
 
     SlotPlanner::Found SlotPlanner::find(const ParkingSlot &slot, const ObstacleSet &world, bool regular) const

@@ -1,6 +1,7 @@
 #include "parking_geometry/ParkingSlot.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
@@ -15,12 +16,6 @@ namespace parking
         std::string inCentimetres(double metres)
         {
             return formatNumber(std::ceil(metres * 1000.0 - 1e-6) / 10.0) + " cm";
-        }
-
-        void check(const char *field, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("slot: ") + field + " is " + formatNumber(value) + "; it must be " + right);
         }
 
         void checkFits(const char *dimension, double car, double slot)
@@ -75,17 +70,18 @@ namespace parking
 
     void ParkingSlot::validate() const
     {
-        check("pose x", pose.x, std::isfinite(pose.x), "a finite number of metres");
-        check("pose y", pose.y, std::isfinite(pose.y), "a finite number of metres");
-        check("pose yaw", pose.yaw, std::isfinite(pose.yaw), "a finite number of radians");
-        check("length", length, std::isfinite(length) && length > 0.0, "a positive number of metres");
-        check("width", width, std::isfinite(width) && width > 0.0, "a positive number of metres");
+        const Require require("slot");
+        require.finite("pose x", pose.x, "metres");
+        require.finite("pose y", pose.y, "metres");
+        require.finite("pose yaw", pose.yaw, "radians");
+        require.positive("length", length, "metres");
+        require.positive("width", width, "metres");
         if (kind == SlotKind::Angled)
-            check("angle", angle, angle > 0.0 && angle <= 0.5 * PI + TOLERANCE,
-                  "in (0, 1.5708] radians, above 0 and up to 90 degrees");
+            require.that(angle > 0.0 && angle <= 0.5 * PI + TOLERANCE, "angle", angle,
+                         "in (0, 1.5708] radians, above 0 and up to 90 degrees");
         if (depth)
-            check("depth", *depth, std::isfinite(*depth), "a finite number of metres");
-        check("lateral offset", lateralOffset, std::isfinite(lateralOffset), "a finite number of metres");
+            require.finite("depth", *depth, "metres");
+        require.finite("lateral offset", lateralOffset, "metres");
     }
 
     double ParkingSlot::aisleAngle() const

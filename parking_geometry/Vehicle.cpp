@@ -1,6 +1,6 @@
 #include "parking_geometry/Vehicle.h"
 
-#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
@@ -13,24 +13,11 @@ namespace parking
             that reports "infeasible". */
         constexpr double LONGEST = 50.0;
 
-        void check(const Vehicle &vehicle, const char *field, double value, bool ok, const std::string &right)
-        {
-            if (!ok)
-                throw Error("vehicle " + inQuotes(vehicle.name) + ": " + field + " is " + formatNumber(value) +
-                            "; it must be " + right);
-        }
-
-        void checkLength(const Vehicle &vehicle, const char *field, double value, bool zeroAllowed)
+        void checkLength(const Require &require, const char *field, double value, bool zeroAllowed)
         {
             const bool ok = std::isfinite(value) && (zeroAllowed ? value >= 0.0 : value > 0.0) && value <= LONGEST;
-            check(vehicle, field, value, ok,
-                  zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres above 0 and up to 50");
-        }
-
-        void checkLimit(const Vehicle &vehicle, const char *field, double value, const char *unit)
-        {
-            check(vehicle, field, value, std::isfinite(value) && value > 0.0,
-                  std::string("a positive number of ") + unit);
+            require.that(ok, field, value,
+                         zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres above 0 and up to 50");
         }
     }  // namespace
 
@@ -61,15 +48,16 @@ namespace parking
 
     void Vehicle::validate() const
     {
-        checkLength(*this, "wheelbase", wheelbase, false);
-        checkLength(*this, "front_overhang", frontOverhang, true);
-        checkLength(*this, "rear_overhang", rearOverhang, true);
-        checkLength(*this, "width", width, false);
-        check(*this, "max_steering_angle", maxSteeringAngle,
-              std::isfinite(maxSteeringAngle) && maxSteeringAngle > 0.0 && maxSteeringAngle < 0.5 * PI,
-              "a number of radians above 0 and below 1.5708 (90 degrees)");
-        checkLimit(*this, "max_speed", maxSpeed, "m/s");
-        checkLimit(*this, "max_acceleration", maxAcceleration, "m/s^2");
-        checkLimit(*this, "max_steering_rate", maxSteeringRate, "rad/s");
+        const Require require("vehicle " + inQuotes(name));
+        checkLength(require, "wheelbase", wheelbase, false);
+        checkLength(require, "front_overhang", frontOverhang, true);
+        checkLength(require, "rear_overhang", rearOverhang, true);
+        checkLength(require, "width", width, false);
+        require.that(std::isfinite(maxSteeringAngle) && maxSteeringAngle > 0.0 && maxSteeringAngle < 0.5 * PI,
+                     "max_steering_angle", maxSteeringAngle,
+                     "a number of radians above 0 and below 1.5708 (90 degrees)");
+        require.positive("max_speed", maxSpeed, "m/s");
+        require.positive("max_acceleration", maxAcceleration, "m/s^2");
+        require.positive("max_steering_rate", maxSteeringRate, "rad/s");
     }
 }  // namespace parking

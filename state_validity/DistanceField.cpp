@@ -1,6 +1,7 @@
 #include "state_validity/DistanceField.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,6 @@ namespace parking
         constexpr double FINEST_CHOSEN_RESOLUTION = 0.1;  // metres
 
         constexpr std::uint8_t FREE = 0, TOUCHED = 1, INSIDE = 2;
-
-        void checkResolution(double resolution)
-        {
-            if (!(resolution > 0.0) || !std::isfinite(resolution))
-                throw Error("resolution of the distance field must be a positive number of metres, not " +
-                            std::to_string(resolution));
-        }
 
         /** Marks the cells of a grid that edges touch and those inside of polygons. */
         class Rasteriser
@@ -142,7 +136,7 @@ namespace parking
         {
             if (resolution == 0.0)
                 resolution = std::max(FINEST_CHOSEN_RESOLUTION, std::sqrt(size.x() * size.y() / CHOSEN_CELLS));
-            checkResolution(resolution);
+            Require("distance field").positive("resolution", resolution, "metres");
             if (size.x() / resolution * (size.y() / resolution) > MAX_CELLS)
                 throw Error(
                     "resolution of " + std::to_string(resolution) +
@@ -177,7 +171,7 @@ namespace parking
         rows_(rows),
         resolution_(resolution)
     {
-        checkResolution(resolution);
+        Require("distance field").positive("resolution", resolution, "metres");
         if (columns == 0 || rows == 0 || blocked.size() != columns * rows)
             throw Error("a distance field of " + std::to_string(columns) + " x " + std::to_string(rows) +
                         " cells cannot be made of " + std::to_string(blocked.size()) + " cells");

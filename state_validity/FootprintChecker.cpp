@@ -1,6 +1,7 @@
 #include "state_validity/FootprintChecker.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,7 @@ namespace parking
         double checked(const Vehicle &vehicle, double margin)
         {
             vehicle.validate();
-            if (!(margin >= 0.0) || !std::isfinite(margin))
-                throw Error("safety margin must be a number of metres of at least 0, not " + std::to_string(margin));
+            Require("footprint checker").notNegative("safety margin", margin, "metres");
             return margin;
         }
     }  // namespace

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/manoeuvres/SlotExit.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -33,13 +34,6 @@ namespace parking
         std::string inCentimetres(double metres)
         {
             return formatNumber(std::ceil(metres * 1000.0 - 1e-6) / 10.0) + " cm";
-        }
-
-        void check(const char *option, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("reverse parking: ") + option + " is " + formatNumber(value) + "; it must be " +
-                            right);
         }
 
         /** One slot as one car leaves it: the leaving body, how it is oriented, and the verdict being filled in. */
@@ -261,14 +255,11 @@ namespace parking
         options_(options)
     {
         vehicle.validate();
-        check("aisle width", options.aisleWidth, options.aisleWidth > 0.0, "a positive number of metres");
-        check("clearance", options.clearance, std::isfinite(options.clearance) && options.clearance >= 0.0,
-              "a number of metres that is not negative");
-        check("guard length", options.guardLength, std::isfinite(options.guardLength) && options.guardLength >= 0.0,
-              "a number of metres that is not negative");
-        check("preferred radius", options.preferredRadius,
-              std::isfinite(options.preferredRadius) && options.preferredRadius >= 0.0,
-              "a number of metres that is not negative");
+        const Require require("reverse parking");
+        require.that(options.aisleWidth > 0.0, "aisle width", options.aisleWidth, "a positive number of metres");
+        require.notNegative("clearance", options.clearance, "metres");
+        require.notNegative("guard length", options.guardLength, "metres");
+        require.notNegative("preferred radius", options.preferredRadius, "metres");
     }
 
     ReverseParkingResult ReverseParking::planOne(const ParkingSlot &slot, SlotEntry entry, SlotSide side,

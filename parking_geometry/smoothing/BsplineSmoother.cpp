@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/Kinematics.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -45,13 +46,11 @@ namespace parking
 
         void check(const BsplineOptions &options)
         {
-            if (options.degree < MIN_DEGREE || options.degree > MAX_DEGREE)
-                throw Error("B-spline: degree is " + std::to_string(options.degree) + "; it must be from 2 to 5");
-            if (options.sampling < 1)
-                throw Error("B-spline: sampling is 0; it must be at least 1");
-            if (!(std::isfinite(options.step) && options.step > 0.0))
-                throw Error("B-spline: step is " + formatNumber(options.step) +
-                            "; it must be a positive number of metres");
+            const Require require("B-spline");
+            require.that(options.degree >= MIN_DEGREE && options.degree <= MAX_DEGREE, "degree",
+                         static_cast<double>(options.degree), "from 2 to 5");
+            require.that(options.sampling >= 1, "sampling", static_cast<double>(options.sampling), "at least 1");
+            require.positive("step", options.step, "metres");
             if (!(options.maxCurvature > 0.0))
                 throw Error("B-spline: maximum curvature is " + formatNumber(options.maxCurvature) +
                             "; it must be a positive number of 1/m");

@@ -4,7 +4,7 @@
 #include "parking_geometry/curves/Kinematics.h"
 #include "parking_geometry/smoothing/StretchPart.h"
 #include "parking_geometry/smoothing/StretchSmoother.h"
-#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/Require.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,6 @@ namespace parking
 {
     namespace
     {
-        void check(const char *option, double value, const char *right)
-        {
-            if (!(std::isfinite(value) && value > 0.0))
-                throw Error(std::string("smoothing: ") + option + " is " + formatNumber(value) + "; it must be " +
-                            right);
-        }
-
         /** Share of its length by which smoothing may lengthen or shorten a stretch. */
         constexpr double LARGEST_CHANGE_OF_LENGTH = 0.03;
 
@@ -246,9 +239,10 @@ namespace parking
         options_(options)
     {
         vehicle.validate();
-        check("speed", options.speed, "a positive number of m/s");
-        check("min speed", options.minSpeed, "a positive number of m/s");
-        check("tolerance", options.tolerance, "a positive number of metres");
+        const Require require("smoothing");
+        require.positive("speed", options.speed, "m/s");
+        require.positive("min speed", options.minSpeed, "m/s");
+        require.positive("tolerance", options.tolerance, "metres");
     }
 
     SmoothPath PathSmoother::smooth(const Path &path, const FootprintQueries &world) const

@@ -1,10 +1,10 @@
 #include "path_tracking/control/Mpc.h"
 
-#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/simulation/BicycleModel.h"
 #include "path_tracking/control/MpcCost.h"
 #include "path_tracking/control/MpcWorkingSet.h"
+#include "path_tracking/simulation/BicycleModel.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,17 +28,6 @@ namespace parking
         constexpr double FIRST_RADIUS = 1e4;
         constexpr double LARGEST_COST = 1e30;
         constexpr double LEAST_RADIUS = 1.0;
-
-        void check(const char *field, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("mpc: ") + field + " is " + formatNumber(value) + "; it must be " + right);
-        }
-
-        void checkWeight(const char *field, double value)
-        {
-            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
-        }
 
         /** A cost with what it was last asked for, so that nobody asks twice. */
         struct Evaluation
@@ -127,19 +116,20 @@ namespace parking
 
     void MpcParameters::validate() const
     {
-        check("horizon", static_cast<double>(horizon), horizon >= 1 && horizon <= LONGEST_HORIZON,
-              "a number of steps from 1 to 200");
-        check("step", step, std::isfinite(step) && step > 0.0 && step <= 1.0, "above 0 and up to 1 second");
-        checkWeight("accelerationWeight", accelerationWeight);
-        checkWeight("steeringWeight", steeringWeight);
-        checkWeight("accelerationChangeWeight", accelerationChangeWeight);
-        checkWeight("steeringChangeWeight", steeringChangeWeight);
-        checkWeight("alongWeight", alongWeight);
-        checkWeight("acrossWeight", acrossWeight);
-        checkWeight("headingWeight", headingWeight);
-        checkWeight("alignDistance", alignDistance);
-        checkWeight("farHeadingWeight", farHeadingWeight);
-        check("maxIterations", maxIterations, maxIterations >= 1, "at least 1");
+        const Require require("mpc");
+        require.that(horizon >= 1 && horizon <= LONGEST_HORIZON, "horizon", static_cast<double>(horizon),
+                     "a number of steps from 1 to 200");
+        require.that(std::isfinite(step) && step > 0.0 && step <= 1.0, "step", step, "above 0 and up to 1 second");
+        require.notNegative("accelerationWeight", accelerationWeight);
+        require.notNegative("steeringWeight", steeringWeight);
+        require.notNegative("accelerationChangeWeight", accelerationChangeWeight);
+        require.notNegative("steeringChangeWeight", steeringChangeWeight);
+        require.notNegative("alongWeight", alongWeight);
+        require.notNegative("acrossWeight", acrossWeight);
+        require.notNegative("headingWeight", headingWeight);
+        require.notNegative("alignDistance", alignDistance);
+        require.notNegative("farHeadingWeight", farHeadingWeight);
+        require.that(maxIterations >= 1, "maxIterations", maxIterations, "at least 1");
     }
 
     class Mpc::Solver

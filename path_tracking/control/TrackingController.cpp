@@ -1,6 +1,6 @@
 #include "path_tracking/control/TrackingController.h"
 
-#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/simulation/BicycleModel.h"
 
@@ -21,20 +21,9 @@ namespace parking
         constexpr double STEERING_PATIENCE = 2.0;  // seconds without progress that the wheels are waited for
         constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
 
-        void check(const char *field, double value, bool ok, const char *right)
+        void checkShare(const Require &require, const char *field, double value)
         {
-            if (!ok)
-                throw Error(std::string("tracking: ") + field + " is " + formatNumber(value) + "; it must be " + right);
-        }
-
-        void checkShare(const char *field, double value)
-        {
-            check(field, value, value > 0.0 && value <= 1.0, "above 0 and up to 1");
-        }
-
-        void checkPositive(const char *field, double value)
-        {
-            check(field, value, std::isfinite(value) && value > 0.0, "a positive number");
+            require.that(value > 0.0 && value <= 1.0, field, value, "above 0 and up to 1");
         }
 
         double towards(double from, double to, double most)
@@ -45,22 +34,23 @@ namespace parking
 
     void TrackingParameters::validate() const
     {
+        const Require require("tracking");
         mpc.validate();
         reference.validate();
-        checkShare("speedShare", speedShare);
-        checkShare("accelerationShare", accelerationShare);
-        checkShare("steeringRateShare", steeringRateShare);
+        checkShare(require, "speedShare", speedShare);
+        checkShare(require, "accelerationShare", accelerationShare);
+        checkShare(require, "steeringRateShare", steeringRateShare);
         estimator.validate();
-        check("steeringLag", steeringLag, steeringLag >= 0.0 && steeringLag <= 0.5, "from 0 to 0.5 seconds");
-        check("driveLag", driveLag, driveLag >= 0.0 && driveLag <= 0.5, "from 0 to 0.5 seconds");
-        checkPositive("lateralAcceleration", lateralAcceleration);
-        checkPositive("stopTolerance", stopTolerance);
-        checkPositive("arrivalTolerance", arrivalTolerance);
-        checkPositive("settleTime", settleTime);
-        checkPositive("steeringTolerance", steeringTolerance);
-        checkPositive("maxCrossTrack", maxCrossTrack);
-        checkPositive("maxHeadingError", maxHeadingError);
-        check("maxFailures", maxFailures, maxFailures >= 0, "a count that is not negative");
+        require.that(steeringLag >= 0.0 && steeringLag <= 0.5, "steeringLag", steeringLag, "from 0 to 0.5 seconds");
+        require.that(driveLag >= 0.0 && driveLag <= 0.5, "driveLag", driveLag, "from 0 to 0.5 seconds");
+        require.positive("lateralAcceleration", lateralAcceleration);
+        require.positive("stopTolerance", stopTolerance);
+        require.positive("arrivalTolerance", arrivalTolerance);
+        require.positive("settleTime", settleTime);
+        require.positive("steeringTolerance", steeringTolerance);
+        require.positive("maxCrossTrack", maxCrossTrack);
+        require.positive("maxHeadingError", maxHeadingError);
+        require.that(maxFailures >= 0, "maxFailures", maxFailures, "a count that is not negative");
     }
 
     SpeedLimits TrackingParameters::limits(const Vehicle &vehicle) const

@@ -1,7 +1,6 @@
 #include "path_tracking/reference/ReferencePath.h"
 
-#include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/Require.h"
 #include "path_tracking/reference/DrivablePath.h"
 
 #include <algorithm>
@@ -83,23 +82,17 @@ namespace parking
             return {onArc.x + part * (node.pose.x - missed.x), onArc.y + part * (node.pose.y - missed.y),
                     wrapAngle(onArc.yaw + part * wrapAngle(node.pose.yaw - missed.yaw))};
         }
-
-        void checkPositive(const char *field, double value, const char *unit)
-        {
-            if (!(std::isfinite(value) && value > 0.0))
-                throw Error(std::string("reference: ") + field + " is " + formatNumber(value) +
-                            "; it must be a positive number of " + unit);
-        }
     }  // namespace
 
     void ReferenceParameters::validate() const
     {
-        checkPositive("bodyTolerance", bodyTolerance, "metres");
-        checkPositive("minBlendSpeed", minBlendSpeed, "m/s");
-        checkPositive("maxBlendLength", maxBlendLength, "metres");
-        checkPositive("maxCornerCut", maxCornerCut, "metres");
-        checkPositive("maxCornerDeviation", maxCornerDeviation, "metres");
-        checkPositive("cornerSpeed", cornerSpeed, "m/s");
+        const Require require("reference");
+        require.positive("bodyTolerance", bodyTolerance, "metres");
+        require.positive("minBlendSpeed", minBlendSpeed, "m/s");
+        require.positive("maxBlendLength", maxBlendLength, "metres");
+        require.positive("maxCornerCut", maxCornerCut, "metres");
+        require.positive("maxCornerDeviation", maxCornerDeviation, "metres");
+        require.positive("cornerSpeed", cornerSpeed, "m/s");
     }
 
     ReferencePath::ReferencePath(const SampledPath &path, const Vehicle &vehicle, const ReferenceParameters &parameters)

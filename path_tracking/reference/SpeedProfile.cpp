@@ -1,6 +1,7 @@
 #include "path_tracking/reference/SpeedProfile.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -27,9 +28,9 @@ namespace parking
 
         void checkLimit(const char *field, double value, const char *unit)
         {
-            if (!(std::isfinite(value) && value >= LEAST_LIMIT))
-                throw Error(std::string("speed limits: ") + field + " is " + formatNumber(value) +
-                            "; it must be at least " + formatNumber(LEAST_LIMIT) + " " + unit);
+            Require("speed limits")
+                .that(std::isfinite(value) && value >= LEAST_LIMIT, field, value,
+                      "at least " + formatNumber(LEAST_LIMIT) + " " + unit);
         }
 
         void checkSteering(const char *which, double angle, const Vehicle &vehicle)

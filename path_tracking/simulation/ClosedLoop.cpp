@@ -1,6 +1,6 @@
 #include "path_tracking/simulation/ClosedLoop.h"
 
-#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -12,13 +12,6 @@ namespace parking
 {
     namespace
     {
-        void checkPositive(const char *field, double value)
-        {
-            if (!(std::isfinite(value) && value > 0.0))
-                throw Error(std::string("closed loop: ") + field + " is " + formatNumber(value) +
-                            "; it must be a positive number");
-        }
-
         /** Gathers the figures of a drive while it goes on. */
         class Recorder
         {
@@ -147,9 +140,10 @@ namespace parking
     {
         tracking.validate();
         disturbances.validate();
-        checkPositive("plantStep", plantStep);
-        checkPositive("checkDistance", checkDistance);
-        checkPositive("patience", patience);
+        const Require require("closed loop");
+        require.positive("plantStep", plantStep);
+        require.positive("checkDistance", checkDistance);
+        require.positive("patience", patience);
     }
 
     ClosedLoop::ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters)

@@ -1,6 +1,7 @@
 #include "path_tracking/simulation/Plant.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -9,21 +10,6 @@
 
 namespace parking
 {
-    namespace
-    {
-        void check(const char *field, double value, bool ok, const char *right)
-        {
-            if (!ok)
-                throw Error(std::string("disturbances: ") + field + " is " + formatNumber(value) + "; it must be " +
-                            right);
-        }
-
-        void checkSize(const char *field, double value)
-        {
-            check(field, value, std::isfinite(value) && value >= 0.0, "a number that is not negative");
-        }
-    }  // namespace
-
     Disturbances Disturbances::everyday(std::uint64_t seed)
     {
         Disturbances disturbances;
@@ -37,12 +23,13 @@ namespace parking
 
     void Disturbances::validate() const
     {
-        checkSize("steeringLag", steeringLag);
-        checkSize("accelerationLag", accelerationLag);
-        checkSize("positionNoise", positionNoise);
-        checkSize("yawNoise", yawNoise);
-        check("speedBias", speedBias, std::abs(speedBias) < 1.0, "above -1 and below 1");
-        check("steeringOffset", steeringOffset, std::abs(steeringOffset) < 1.0, "above -1 and below 1 radian");
+        const Require require("disturbances");
+        require.notNegative("steeringLag", steeringLag);
+        require.notNegative("accelerationLag", accelerationLag);
+        require.notNegative("positionNoise", positionNoise);
+        require.notNegative("yawNoise", yawNoise);
+        require.that(std::abs(speedBias) < 1.0, "speedBias", speedBias, "above -1 and below 1");
+        require.that(std::abs(steeringOffset) < 1.0, "steeringOffset", steeringOffset, "above -1 and below 1 radian");
     }
 
     Plant::Plant(const Vehicle &vehicle, const Disturbances &disturbances, const Pose &pose, double steering,

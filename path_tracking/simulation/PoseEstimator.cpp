@@ -1,7 +1,6 @@
 #include "path_tracking/simulation/PoseEstimator.h"
 
-#include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
+#include "parking_geometry/text/Require.h"
 #include "path_tracking/simulation/BicycleModel.h"
 
 #include <algorithm>
@@ -16,22 +15,16 @@ namespace parking
     {
         constexpr double LARGEST_SCALE = 1.3;    // of the speed, and its inverse: beyond it is no wheel size
         constexpr double LARGEST_OFFSET = 0.15;  // radians
-
-        void checkPositive(const char *field, double value)
-        {
-            if (!(std::isfinite(value) && value > 0.0))
-                throw Error(std::string("estimator: ") + field + " is " + formatNumber(value) +
-                            "; it must be a positive number");
-        }
-    }  // namespace
+    }                                            // namespace
 
     void EstimatorParameters::validate() const
     {
-        checkPositive("positionNoise", positionNoise);
-        checkPositive("yawNoise", yawNoise);
-        checkPositive("speedBias", speedBias);
-        checkPositive("steeringOffset", steeringOffset);
-        checkPositive("drift", drift);
+        const Require require("estimator");
+        require.positive("positionNoise", positionNoise);
+        require.positive("yawNoise", yawNoise);
+        require.positive("speedBias", speedBias);
+        require.positive("steeringOffset", steeringOffset);
+        require.positive("drift", drift);
     }
 
     PoseEstimator::PoseEstimator(double wheelbase, const EstimatorParameters &parameters)
