@@ -149,17 +149,20 @@ namespace ompl::geometric
         const double spacing = length / static_cast<double>(points.size() - 1);
         const std::size_t usual = options.sampling;
         options.sampling = std::max(usual, static_cast<std::size_t>(std::ceil(parameters_.turningRadius / spacing)));
-        parking::BsplinePath smooth = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
-        if (smooth.polylinePieces > 0 && options.sampling > usual)
+        parking::BsplineResult smooth = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
+        if (smooth.polylineSpans > 0 && options.sampling > usual)
         {
             options.sampling = usual;
-            parking::BsplinePath closer = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
-            if (closer.polylinePieces * smooth.pieces < smooth.polylinePieces * closer.pieces)
+            parking::BsplineResult closer = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
+            if (closer.polylineSpans * smooth.spans < smooth.polylineSpans * closer.spans)
                 smooth = std::move(closer);
         }
         std::vector<Pose> result{poses.front()};
-        for (const parking::PathState &state : smooth.path)
+        for (const parking::PathState &state : smooth.path.sample(0.5 * options.step))
             result.push_back(state.pose);
+        // It ends where the path does, up to rounding; what is left is to turn.
+        result.back().x = poses.back().x;
+        result.back().y = poses.back().y;
         result.push_back(poses.back());
         // The spline was checked at its states; the motion validator has the last word.
         for (std::size_t i = 1; i < result.size(); ++i)

@@ -242,7 +242,7 @@ namespace
         for (int i = 0; i < 60; ++i)
             points.emplace_back(0.5 * i, i < 30 ? 0.0 : 0.5 * (i - 30));
         for (auto _ : state)
-            benchmark::DoNotOptimize(bsplineSmooth(points, 3, 3));
+            benchmark::DoNotOptimize(bsplineSmooth(points));
     }
     BENCHMARK(bsplineOf60Cells)->Unit(benchmark::kMicrosecond);
 }  // namespace

@@ -1,7 +1,7 @@
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/curves/Kinematics.h"
+#include "parking_geometry/curves/Biarc.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 
 #include <unsupported/Eigen/Splines>
 
@@ -21,6 +22,9 @@ namespace parking
 
         /** Points nearer to each other than this are one, metres. */
         constexpr double SAME_PLACE = 1e-9;
+
+        /** Headings that differ by less are one, radians. */
+        constexpr double SAME_HEADING = 1e-9;
 
         constexpr int MIN_DEGREE = 2, MAX_DEGREE = 5;
 
@@ -205,100 +209,115 @@ namespace parking
             }
         }
 
-        void measure(SampledPath &path)
+        /** The curve through \e states, each joined to the next by two arcs, or one line; without pieces where the
+            curve itself bends too much. */
+        Path pathThrough(const SampledPath &states, bool isStraight, double maxCurvature)
         {
-            for (std::size_t i = 1; i < path.size(); ++i)
+            const Pose &begin = states.front().pose, &end = states.back().pose;
+            if (isStraight)  // however unevenly it moves with its parameter
+                return {{begin.x, begin.y, std::atan2(end.y - begin.y, end.x - begin.x)},
+                        {{0.0, std::hypot(end.x - begin.x, end.y - begin.y)}}};
+            Path path{begin, {}};
+            if (std::any_of(states.begin(), states.end(),
+                            [&](const PathState &state) { return std::abs(state.curvature) > maxCurvature; }))
+                return path;
+            for (std::size_t i = 1; i < states.size(); ++i)
             {
-                const Pose &from = path[i - 1].pose, &to = path[i].pose;
-                // Along the polyline, where headings jump at corners, chords are the distance driven.
-                const bool straight = path[i - 1].curvature == 0.0 && path[i].curvature == 0.0;
-                path[i].arcLength = path[i - 1].arcLength + (straight ? std::hypot(to.x - from.x, to.y - from.y)
-                                                                      : std::abs(arcBetween(from, to).length));
+                const Pose &from = states[i - 1].pose, &to = states[i].pose;
+                if (const std::optional<Path> arcs = biarc(from, to, 1))
+                    path.extend(*arcs);
+                else
+                    path.append({0.0, std::hypot(to.x - from.x, to.y - from.y)});
             }
+            return path;
         }
 
-        bool isAcceptable(const SampledPath &span, const BsplineOptions &options, const Vehicle &vehicle,
-                          const FootprintQueries &world)
+        /** Appends \e span, with a turn on the spot where it begins with another heading than the path ends. */
+        void append(Path &path, double &yaw, const Path &span)
         {
-            for (const PathState &state : span)
-                if (std::abs(state.curvature) > options.maxCurvature)
-                    return false;
-            Path arcs{span.front().pose, {}};
-            for (std::size_t i = 1; i < span.size(); ++i)
-                arcs.pieces.emplace_back(arcBetween(span[i - 1].pose, span[i].pose));
-            return isPathFree(world, vehicle, arcs);
+            if (path.pieces.empty())
+                path.start = span.start;
+            else if (const double turn = wrapAngle(span.start.yaw - yaw); std::abs(turn) > SAME_HEADING)
+                path.append(PathPiece::turnOnTheSpot(turn));
+            path.extend(span);
+            yaw = span.end().yaw;
+        }
+
+        /** What becomes of one span; most stay as they are when others get more control points. */
+        struct Span
+        {
+            SampledPath states;
+            Path path;  // none where the curvature of the states says no
+            bool isAcceptable{false};
+        };
+
+        bool isAcceptable(const Path &span, double maxCurvature, const Vehicle &vehicle, const FootprintQueries &world)
+        {
+            return !span.pieces.empty() &&
+                   std::all_of(span.pieces.begin(), span.pieces.end(),
+                               [&](const PathPiece &piece) { return std::abs(piece.curvature) <= maxCurvature; }) &&
+                   isPathFree(world, vehicle, span);
         }
     }  // namespace
 
-    SampledPath bsplineSmooth(const std::vector<Vector2d> &points, int degree, std::size_t sampling)
-    {
-        BsplineOptions options;
-        options.degree = degree;
-        options.sampling = sampling;
-        return bsplineSmooth(points, options, Vehicle(), {}).path;
-    }
-
-    BsplinePath bsplineSmooth(const std::vector<Vector2d> &given, const BsplineOptions &options, const Vehicle &vehicle,
-                              const FootprintQueries &world)
+    BsplineResult bsplineSmooth(const std::vector<Vector2d> &given, const BsplineOptions &options,
+                                const Vehicle &vehicle, const FootprintQueries &world)
     {
         check(options);
         const std::vector<Vector2d> points = distinct(given);
-        const int through = options.degree;
+        const int all = options.degree;  // copies of a point through which the curve passes
         std::vector<int> multiplicity(points.size(), 0);
         for (std::size_t i = 0; i < points.size(); i += options.sampling)
             multiplicity[i] = 1;
         multiplicity.back() = 1;
-        // Most spans stay as they are when others get more control points.
-        struct Span
-        {
-            SampledPath states;
-            bool isAcceptable{false};
-        };
         std::map<std::vector<std::size_t>, Span> known;
-        BsplinePath result;
+        BsplineResult result;
+        std::vector<const Span *> spans;
         for (bool again = true; again;)
         {
             again = false;
             const Curve curve(points, multiplicity, options.degree);
-            result = BsplinePath();
-            result.pieces = curve.spans();
+            result = BsplineResult();
+            result.spans = curve.spans();
+            spans.clear();
             std::vector<int> next = multiplicity;
-            for (std::size_t span = 0; span < curve.spans(); ++span)
+            for (std::size_t k = 0; k < curve.spans(); ++k)
             {
-                const auto [at, isNew] = known.try_emplace(curve.key(span));
-                Span &piece = at->second;
+                const auto [at, isNew] = known.try_emplace(curve.key(k));
+                Span &span = at->second;
                 if (isNew)
-                    append(piece.states, curve.sample(span, options.step));
-                if (piece.states.size() < 2)
+                    append(span.states, curve.sample(k, options.step));
+                if (span.states.size() < 2)
                     continue;
-                const auto [first, last] = curve.reach(span);
-                int least = through;
+                const auto [first, last] = curve.reach(k);
+                int least = all;
                 bool denser = false;
                 for (std::size_t i = first; i <= last; ++i)
                 {
                     least = std::min(least, multiplicity[i]);
                     denser = denser || (multiplicity[i] > 0 && i % options.sampling != 0 && i + 1 < points.size());
                 }
-                const bool isPolyline = least == through;
-                result.polylinePieces += isPolyline;
-                result.denserPieces += denser && !isPolyline;
-                // Pieces of the polyline itself are as they were given; others rise by one step where they fail.
-                if (isPolyline)
-                    for (PathState &state : piece.states)
-                        state.curvature = 0.0;
-                else if (isNew)
-                    piece.isAcceptable = isAcceptable(piece.states, options, vehicle, world);
-                if (!isPolyline && !piece.isAcceptable)
+                const bool isPolyline = least == all;
+                result.polylineSpans += isPolyline;
+                result.denserSpans += denser && !isPolyline;
+                if (isNew)
+                    span.path = pathThrough(span.states, last == first + 1, options.maxCurvature);
+                if (isNew && !isPolyline)
+                    span.isAcceptable = isAcceptable(span.path, options.maxCurvature, vehicle, world);
+                // Spans of the polyline itself are as they were given; others rise by one step where they fail.
+                if (!isPolyline && !span.isAcceptable)
                 {
                     for (std::size_t i = first; i <= last; ++i)
-                        next[i] = std::max(next[i], least == 0 ? 1 : through);
+                        next[i] = std::max(next[i], least == 0 ? 1 : all);
                     again = true;
                 }
-                append(result.path, piece.states);
+                spans.push_back(&span);
             }
             multiplicity = next;
         }
-        measure(result.path);
+        double yaw = 0.0;
+        for (const Span *span : spans)
+            append(result.path, yaw, span->path);
         return result;
     }
 }  // namespace parking

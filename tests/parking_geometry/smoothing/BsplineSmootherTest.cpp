@@ -1,6 +1,5 @@
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 
-#include "parking_geometry/curves/Kinematics.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
@@ -47,14 +46,6 @@ namespace
         return least;
     }
 
-    Path arcsThrough(const SampledPath &states)
-    {
-        Path path{states.front().pose, {}};
-        for (std::size_t i = 1; i < states.size(); ++i)
-            path.pieces.emplace_back(arcBetween(states[i - 1].pose, states[i].pose));
-        return path;
-    }
-
     Vehicle robot()
     {
         Vehicle car;
@@ -69,8 +60,10 @@ TEST(BsplineSmoother, IsTheCurveOfDeBoorWithClampedEnds)
 {
     // Degree 3 through four control points is the Bezier curve of the paper's equation for n = 3.
     const Points points{{0.0, 0.0}, {1.0, 2.0}, {3.0, 2.0}, {4.0, 0.0}};
-    const SampledPath path = bsplineSmooth(points, 3, 1);
-    for (const PathState &state : path)
+    BsplineOptions options;
+    options.sampling = 1;
+    const Path path = bsplineSmooth(points, options).path;
+    for (const PathState &state : path.sample(0.05))
     {
         double nearest = 1e9;
         for (int i = 0; i <= 20000; ++i)
@@ -82,11 +75,11 @@ TEST(BsplineSmoother, IsTheCurveOfDeBoorWithClampedEnds)
         }
         EXPECT_LT(nearest, 2e-4);
     }
-    EXPECT_NEAR(path.front().pose.yaw, std::atan2(2.0, 1.0), 1e-9);
-    EXPECT_NEAR(path.back().pose.yaw, std::atan2(-2.0, 1.0), 1e-9);
+    EXPECT_NEAR(path.start.yaw, std::atan2(2.0, 1.0), 1e-9);
+    EXPECT_NEAR(path.end().yaw, std::atan2(-2.0, 1.0), 1e-9);
 }
 
-TEST(BsplineSmoother, HeadingAndCurvatureAreThoseOfTheCurve)
+TEST(BsplineSmoother, TheCurvatureIsThatOfTheCurveAndHardlyJumps)
 {
     RandomParking random(51);
     for (int i = 0; i < 100; ++i)
@@ -98,22 +91,19 @@ TEST(BsplineSmoother, HeadingAndCurvatureAreThoseOfTheCurve)
                 options.degree = degree;
                 options.sampling = sampling;
                 options.step = 0.02;
-                const SampledPath path = bsplineSmooth(points, options, Vehicle(), {}).path;
-                ASSERT_LT(
-                    std::hypot(path.front().pose.x - points.front().x(), path.front().pose.y - points.front().y()),
-                    1e-12);
-                ASSERT_LT(std::hypot(path.back().pose.x - points.back().x(), path.back().pose.y - points.back().y()),
-                          1e-12);
-                for (std::size_t k = 1; k < path.size(); ++k)
+                const Path path = bsplineSmooth(points, options).path;
+                const Pose end = path.end();
+                ASSERT_LT(std::hypot(path.start.x - points.front().x(), path.start.y - points.front().y()), 1e-12);
+                ASSERT_LT(std::hypot(end.x - points.back().x(), end.y - points.back().y()), 1e-8);
+                for (std::size_t k = 0; k < path.pieces.size(); ++k)
                 {
-                    const Arc arc = arcBetween(path[k - 1].pose, path[k].pose);
-                    ASSERT_LE(std::abs(arc.length), options.step * (1.0 + 1e-3));
-                    ASSERT_NEAR(path[k].arcLength - path[k - 1].arcLength, arc.length, 1e-12);
-                    ASSERT_EQ(path[k].direction, 1);
-                    // The arc between two states has the mean of their curvatures, and the curvature does not jump.
-                    const double scale = 1.0 + std::abs(arc.curvature);
-                    ASSERT_NEAR(arc.curvature, 0.5 * (path[k].curvature + path[k - 1].curvature), 0.05 * scale);
-                    ASSERT_LT(std::abs(path[k].curvature - path[k - 1].curvature), 0.6 * scale);
+                    const PathPiece &piece = path.pieces[k];
+                    ASSERT_EQ(piece.direction(), 1);
+                    ASSERT_EQ(piece.sharpness, 0.0);
+                    if (k == 0)
+                        continue;
+                    const double jump = std::abs(piece.curvature - path.pieces[k - 1].curvature);
+                    ASSERT_LT(jump, 0.6 * (1.0 + std::abs(piece.curvature)));
                 }
             }
 }
@@ -124,15 +114,15 @@ TEST(BsplineSmoother, SmoothsCornersAndStaysNearThePolyline)
     for (int i = 0; i < 200; ++i)
     {
         const Points points = gridWalk(random, 60);
-        const SampledPath path = bsplineSmooth(points, 3, 3);
+        const Path path = bsplineSmooth(points).path;
         // The curve lies in the hulls of four control points, which are at most 9 steps apart.
-        for (const PathState &state : path)
+        for (const PathState &state : path.sample(0.1))
             ASSERT_LT(distanceToPolyline(points, state.pose), 1.6);
         double length = 0.0;
         for (std::size_t k = 1; k < points.size(); ++k)
             length += (points[k] - points[k - 1]).norm();
-        EXPECT_LE(pathLength(path), length + 1e-6);
-        EXPECT_GT(pathLength(path), 0.7 * length);
+        EXPECT_LE(path.length(), length + 1e-6);
+        EXPECT_GT(path.length(), 0.7 * length);
     }
 }
 
@@ -161,21 +151,21 @@ TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
         const PolygonWorld world(car, obstacles);
         BsplineOptions options;
         options.sampling = 5;
-        const BsplinePath result = bsplineSmooth(points, options, car, world.queries());
-        const BsplinePath plain = bsplineSmooth(points, options, car, {});
-        EXPECT_EQ(plain.denserPieces + plain.polylinePieces, 0u);
-        if (isPathFree(world.queries(), car, arcsThrough(plain.path)))
+        const BsplineResult result = bsplineSmooth(points, options, car, world.queries());
+        const BsplineResult plain = bsplineSmooth(points, options);
+        EXPECT_EQ(plain.denserSpans + plain.polylineSpans, 0u);
+        if (isPathFree(world.queries(), car, plain.path))
         {
-            EXPECT_EQ(result.denserPieces + result.polylinePieces, 0u);
-            EXPECT_EQ(result.path.size(), plain.path.size());
+            EXPECT_EQ(result.denserSpans + result.polylineSpans, 0u);
+            EXPECT_EQ(result.path.pieces.size(), plain.path.pieces.size());
         }
         else
         {
-            EXPECT_GT(result.denserPieces + result.polylinePieces, 0u);
+            EXPECT_GT(result.denserSpans + result.polylineSpans, 0u);
         }
-        denser += result.denserPieces;
-        kept += result.polylinePieces;
-        for (const PathState &state : result.path)
+        denser += result.denserSpans;
+        kept += result.polylineSpans;
+        for (const PathState &state : result.path.sample(0.1))
             ASSERT_TRUE(world.isFree(state.pose)) << i;
     }
     EXPECT_GT(denser, 100u);
@@ -193,14 +183,14 @@ TEST(BsplineSmoother, FollowsThePolylineWhereNothingElseIsFree)
     {
         return distanceToPolyline(points, pose) < 1e-6;
     };
-    const BsplinePath result = bsplineSmooth(points, {}, robot(), onThePolyline);
-    EXPECT_GT(result.polylinePieces, 0u);
-    for (const PathState &state : result.path)
+    const BsplineResult result = bsplineSmooth(points, {}, robot(), onThePolyline);
+    EXPECT_GT(result.polylineSpans, 0u);
+    for (const PathState &state : result.path.sample(0.1))
     {
         EXPECT_LT(distanceToPolyline(points, state.pose), 1e-6);
         EXPECT_NEAR(std::abs(std::sin(2.0 * state.pose.yaw)), 0.0, 1e-6) << "along one edge or the other";
     }
-    EXPECT_NEAR(pathLength(result.path), 10.0, 1e-6);
+    EXPECT_NEAR(result.path.length(), 10.0, 1e-6);
 }
 
 TEST(BsplineSmoother, KeepsTheCurvatureLimitWhereItCan)
@@ -215,37 +205,52 @@ TEST(BsplineSmoother, KeepsTheCurvatureLimitWhereItCan)
     const double plain = [&]
     {
         double most = 0.0;
-        for (const PathState &state : bsplineSmooth(points, options, robot(), {}).path)
-            most = std::max(most, std::abs(state.curvature));
+        for (const PathPiece &piece : bsplineSmooth(points, options).path.pieces)
+            most = std::max(most, std::abs(piece.curvature));
         return most;
     }();
     options.maxCurvature = 1.01 * plain;
-    EXPECT_EQ(bsplineSmooth(points, options, robot(), {}).polylinePieces, 0u);
+    EXPECT_EQ(bsplineSmooth(points, options).polylineSpans, 0u);
     options.maxCurvature = 0.9 * plain;
-    const BsplinePath limited = bsplineSmooth(points, options, robot(), {});
-    EXPECT_GT(limited.denserPieces + limited.polylinePieces, 0u) << "a denser spline is sharper: the corner is kept";
-    for (const PathState &state : limited.path)
-        EXPECT_LE(std::abs(state.curvature), options.maxCurvature);
+    const BsplineResult limited = bsplineSmooth(points, options);
+    EXPECT_GT(limited.denserSpans + limited.polylineSpans, 0u) << "a denser spline is sharper: the corner is kept";
+    for (const PathPiece &piece : limited.path.pieces)
+        EXPECT_LE(std::abs(piece.curvature), options.maxCurvature);
 }
 
 TEST(BsplineSmoother, ShortAndDegeneratePolylines)
 {
-    const SampledPath line = bsplineSmooth({{0.0, 0.0}, {1.0, 1.0}}, 3, 4);
-    EXPECT_NEAR(pathLength(line), std::sqrt(2.0), 1e-9);
-    for (const PathState &state : line)
-        EXPECT_NEAR(state.pose.yaw, 0.25 * PI, 1e-9);
-    EXPECT_NEAR(pathLength(bsplineSmooth({{0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}, 3, 1)), 1.0, 1e-9);
-    EXPECT_GT(bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, 5, 1).size(), 2u) << "degree reduced to 2";
-    expectError([] { bsplineSmooth({}, 3, 1); }, {"B-spline", "0 distinct points", "at least 2"});
-    expectError([] { bsplineSmooth({{1.0, 1.0}, {1.0, 1.0}}, 3, 1); }, {"B-spline", "1 distinct points"});
-    expectError([] { bsplineSmooth({{1.0, 1.0}, {std::nan(""), 1.0}}, 3, 1); }, {"B-spline", "point 1", "finite"});
-    expectError([] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, 1, 1); }, {"B-spline", "degree is 1"});
-    expectError([] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, 6, 1); }, {"B-spline", "degree is 6"});
-    expectError([] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, 3, 0); }, {"B-spline", "sampling is 0"});
     BsplineOptions options;
-    options.step = 0.0;
-    expectError([&] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, options, Vehicle(), {}); }, {"B-spline", "step"});
-    options.step = 0.1;
-    options.maxCurvature = -1.0;
-    expectError([&] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, options, Vehicle(), {}); }, {"B-spline", "curvature"});
+    options.sampling = 4;
+    const Path line = bsplineSmooth({{0.0, 0.0}, {1.0, 1.0}}, options).path;
+    EXPECT_NEAR(line.length(), std::sqrt(2.0), 1e-9);
+    for (const PathState &state : line.sample(0.1))
+        EXPECT_NEAR(state.pose.yaw, 0.25 * PI, 1e-9);
+    options.sampling = 1;
+    EXPECT_NEAR(bsplineSmooth({{0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}, options).path.length(), 1.0, 1e-9);
+    options.degree = 5;
+    const Path bend = bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, options).path;
+    EXPECT_GT(bend.pieces.size(), 2u) << "degree reduced to 2";
+    EXPECT_NEAR(bend.end().yaw, 0.5 * PI, 1e-9);
+    expectError([] { bsplineSmooth({}); }, {"B-spline", "0 distinct points", "at least 2"});
+    expectError([] { bsplineSmooth({{1.0, 1.0}, {1.0, 1.0}}); }, {"B-spline", "1 distinct points"});
+    expectError([] { bsplineSmooth({{1.0, 1.0}, {std::nan(""), 1.0}}); }, {"B-spline", "point 1", "finite"});
+    const auto refused = [](const BsplineOptions &bad, const char *what)
+    {
+        expectError([&] { bsplineSmooth({{0.0, 0.0}, {1.0, 0.0}}, bad); }, {"B-spline", what});
+    };
+    BsplineOptions bad;
+    bad.degree = 1;
+    refused(bad, "degree is 1");
+    bad.degree = 6;
+    refused(bad, "degree is 6");
+    bad = {};
+    bad.sampling = 0;
+    refused(bad, "sampling is 0");
+    bad = {};
+    bad.step = 0.0;
+    refused(bad, "step");
+    bad = {};
+    bad.maxCurvature = -1.0;
+    refused(bad, "curvature");
 }

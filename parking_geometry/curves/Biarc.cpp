@@ -1,0 +1,43 @@
+#include "parking_geometry/curves/Biarc.h"
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    namespace
+    {
+        /** The arc that leaves \e from and passes the place \e to. */
+        Arc arcThrough(const Pose &from, const Eigen::Vector2d &to, int direction)
+        {
+            const Pose offset = relativeTo(from, {to.x(), to.y(), 0.0});
+            const double chord = std::hypot(offset.x, offset.y);
+            const double half = std::atan2(direction * offset.y, direction * offset.x);
+            const double curvature = 2.0 * offset.y / (chord * chord);
+            const double stretch = std::abs(half) < 1e-8 ? 1.0 : half / std::sin(half);
+            return {curvature, direction * chord * stretch};
+        }
+    }  // namespace
+
+    std::optional<Path> biarc(const Pose &from, const Pose &to, int direction)
+    {
+        const Eigen::Vector2d between(to.x - from.x, to.y - from.y);
+        const Eigen::Vector2d leaving = direction * Eigen::Vector2d(std::cos(from.yaw), std::sin(from.yaw));
+        const Eigen::Vector2d arriving = direction * Eigen::Vector2d(std::cos(to.yaw), std::sin(to.yaw));
+        const double ahead = between.dot(leaving + arriving);
+        if (!(ahead > 0.0))
+            return std::nullopt;
+        // The tangents' length is the root of a quadratic, written so that nothing cancels for parallel tangents.
+        const double square = between.squaredNorm();
+        const double bend = 2.0 * (1.0 - leaving.dot(arriving));
+        const double reach = square / (ahead + std::sqrt(ahead * ahead + bend * square));
+        const Eigen::Vector2d middle =
+            Eigen::Vector2d(0.5 * (from.x + to.x), 0.5 * (from.y + to.y)) + 0.5 * reach * (leaving - arriving);
+        Path path{from, {}};
+        const Arc first = arcThrough(from, middle, direction);
+        path.append(first);
+        path.append(arcThrough(advance(from, PathPiece(first)), {to.x, to.y}, direction));
+        return path;
+    }
+}  // namespace parking

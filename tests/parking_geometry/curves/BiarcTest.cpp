@@ -1,0 +1,61 @@
+#include "parking_geometry/curves/Biarc.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+    using namespace parking;
+
+    TEST(Biarc, LeadsFromPoseToPoseExactly)
+    {
+        std::mt19937_64 random(7);
+        const auto uniform = [&random](double low, double high)
+        {
+            return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+        };
+        for (int i = 0; i < 2000; ++i)
+        {
+            const int direction = i % 2 == 0 ? 1 : -1;
+            const Pose from{uniform(-9.0, 9.0), uniform(-9.0, 9.0), uniform(-PI, PI)};
+            const double share = i % 3 == 0 ? 1e-6 : 1.0;  // nearly straight ones, too
+            const Pose to =
+                compose(from, {direction * uniform(0.1, 3.0), share * uniform(-0.1, 0.1), share * uniform(-1.2, 1.2)});
+            const auto path = biarc(from, to, direction);
+            ASSERT_TRUE(path);
+            ASSERT_LE(path->pieces.size(), 2u);
+            for (const PathPiece &piece : path->pieces)
+            {
+                EXPECT_EQ(piece.direction(), direction);
+                EXPECT_EQ(piece.sharpness, 0.0);
+            }
+            const Pose off = relativeTo(to, path->end());
+            EXPECT_NEAR(off.x, 0.0, 1e-9);
+            EXPECT_NEAR(off.y, 0.0, 1e-9);
+            EXPECT_NEAR(off.yaw, 0.0, 1e-9);
+        }
+    }
+
+    TEST(Biarc, OfPosesOnAnArcIsThatArc)
+    {
+        for (const double curvature : {-0.3, 0.0, 0.1})
+            for (const double length : {-2.0, 0.5, 3.0})
+            {
+                const Pose from{1.0, -2.0, 0.7};
+                const auto path = biarc(from, advance(from, curvature, length), length < 0.0 ? -1 : 1);
+                ASSERT_TRUE(path);
+                EXPECT_NEAR(path->length(), std::abs(length), 1e-9);
+                for (const PathPiece &piece : path->pieces)
+                    EXPECT_NEAR(piece.curvature, curvature, 1e-9);
+            }
+    }
+
+    TEST(Biarc, NeverGoesAgainstItsDirection)
+    {
+        EXPECT_FALSE(biarc({}, {-1.0, 0.0, 0.0}, 1));
+        EXPECT_FALSE(biarc({}, {1.0, 0.0, 0.0}, -1));
+        EXPECT_FALSE(biarc({}, {}, 1));
+    }
+}  // namespace
