@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -94,9 +95,29 @@ namespace parking
         /** \brief solve() also ends once \e stop is true; null: nothing to look at. */
         virtual void setStop(const std::atomic<bool> *stop) = 0;
 
-        /** \brief Did the last solve() go on until the time was up, or the caller stopped it? */
-        virtual bool ranOutOfTime() const = 0;
+        /** \brief Was the last solve() told to stop, since the time was up or the caller wanted it?
+
+            A planner that was not, and comes back without a solution, has nothing left to try: this is what it did, and
+            not what a clock says afterwards. */
+        virtual bool wasStopped() const = 0;
+
+        /** \brief One line on why the last solve() found nothing, from planners that tell; otherwise empty. */
+        virtual std::string whyNothing() const = 0;
     };
+
+    namespace detail
+    {
+        /** Has the planner a member reason()? */
+        template <class Planner, class = void>
+        struct TellsReason : std::false_type
+        {
+        };
+        template <class Planner>
+        struct TellsReason<Planner, std::void_t<decltype(std::string(std::declval<const Planner &>().reason()))>>
+          : std::true_type
+        {
+        };
+    }  // namespace detail
 
     /** \brief A planner of OMPL that measures its own solve() and keeps to the second.
 
@@ -121,15 +142,18 @@ namespace parking
             const auto limit = std::chrono::duration<double>(timeLimit_);
             record_->begin();
             const SolveRecord::Clock::time_point begin = SolveRecord::Clock::now();
+            wasStopped_ = false;
             const ompl::base::PlannerTerminationCondition timeUp(
                 [&]
                 {
-                    return SolveRecord::Clock::now() - begin >= limit || ptc() ||
-                           (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
+                    const bool stop = SolveRecord::Clock::now() - begin >= limit || ptc() ||
+                                      (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
+                    if (stop)
+                        wasStopped_ = true;
+                    return stop;
                 });
             const ompl::base::PlannerStatus status = Planner::solve(timeUp);
             record_->end();
-            ranOutOfTime_ = timeUp();
             if (status == ompl::base::PlannerStatus::EXACT_SOLUTION)
                 record_->noteAtEnd(this->getProblemDefinition()->getSolutionPath()->length());
             return status;
@@ -150,15 +174,23 @@ namespace parking
             stop_ = stop;
         }
 
-        bool ranOutOfTime() const override
+        bool wasStopped() const override
         {
-            return ranOutOfTime_;
+            return wasStopped_;
+        }
+
+        std::string whyNothing() const override
+        {
+            if constexpr (detail::TellsReason<Planner>::value)
+                return this->reason();
+            else
+                return {};
         }
 
     private:
         std::shared_ptr<SolveRecord> record_{std::make_shared<SolveRecord>()};
         double timeLimit_{1e9};
         const std::atomic<bool> *stop_{nullptr};
-        bool ranOutOfTime_{false};
+        std::atomic<bool> wasStopped_{false};  ///< planners with threads ask in each of them
     };
 }  // namespace parking

@@ -17,7 +17,13 @@ namespace parking
     {
         constexpr double NO_LENGTH = 1e-6;  // metres; AIT* of OMPL 1.5 returns such paths as approximate solutions
 
-        PlanStatus statusOf(ob::PlannerStatus status, bool ranOut)
+        /** What it means that nothing was found. Nobody knows of a planner that does not measure itself. */
+        PlanStatus withoutSolution(const MeasuredPlanner *measured)
+        {
+            return measured == nullptr || measured->wasStopped() ? PlanStatus::Timeout : PlanStatus::Infeasible;
+        }
+
+        PlanStatus statusOf(ob::PlannerStatus status, const MeasuredPlanner *measured)
         {
             switch (static_cast<ob::PlannerStatus::StatusType>(status))
             {
@@ -30,7 +36,7 @@ namespace parking
                 case ob::PlannerStatus::INVALID_GOAL:
                     return PlanStatus::InvalidGoal;
                 default:
-                    return ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+                    return withoutSolution(measured);
             }
         }
 
@@ -97,14 +103,12 @@ namespace parking
                         double timeLimit)
     {
         PlanRun run;
-        bool ranOut = false;
         run.planningTime = timeLimit;
         if (prepared.measured != nullptr)
         {
             const SolveRecord &record = *prepared.measured->record();
             run.planningTime = record.wallTime();
             run.cpuTime = record.cpuTime();
-            ranOut = prepared.measured->ranOutOfTime();
             const std::vector<Improvement> improvements = record.improvements();
             run.firstSolutionTime = improvements.empty() ? run.planningTime : improvements.front().time;
         }
@@ -114,9 +118,11 @@ namespace parking
             run.planningTime = std::max(0.0, run.planningTime - run.mapLoadingTime);
             run.firstSolutionTime = std::max(0.0, run.firstSolutionTime - run.mapLoadingTime);
         }
-        run.status = statusOf(status, ranOut);
+        run.status = statusOf(status, prepared.measured);
         run.search = figuresOf(problem, *prepared.planner);
         const bool exact = run.status == PlanStatus::Exact;
+        if (!exact && prepared.measured != nullptr)
+            run.reason = prepared.measured->whyNothing();
         if (exact)
             run.suboptimalityBound = boundOf(*prepared.planner);
         if (!exact && run.status != PlanStatus::Approximate)
@@ -125,13 +131,13 @@ namespace parking
             dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
         if (path == nullptr)
         {
-            run.status = ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            run.status = withoutSolution(prepared.measured);
             return run;
         }
         PlannedPath planned = readPath(problem, *path, exact);
         if (!exact && planned.length < NO_LENGTH)
         {
-            run.status = ranOut ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            run.status = withoutSolution(prepared.measured);
             return run;
         }
         run.goalDistance = distanceToGoals(problem.scenario(), planned.states.back().pose);

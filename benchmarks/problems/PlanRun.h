@@ -30,7 +30,8 @@ namespace parking
         Timeout,       ///< nothing found until the time was up
         InvalidStart,  ///< no start is free
         InvalidGoal,   ///< no goal is free
-        Infeasible     ///< the planner gave up before the time was up: there is nothing that it could still try
+        Infeasible     ///< the planner came to an end without having been stopped: there is nothing that it could still
+                       ///< try
     };
 
     /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible. */
@@ -40,6 +41,7 @@ namespace parking
     struct PlanRun
     {
         PlanStatus status{PlanStatus::Timeout};
+        std::string reason;             ///< one line on why there is no exact solution, from planners that tell
         double planningTime{0.0};       ///< seconds of wall clock, map loading not included
         double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
         double firstSolutionTime{0.0};  ///< seconds; only with an exact solution

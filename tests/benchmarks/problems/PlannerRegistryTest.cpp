@@ -1,7 +1,7 @@
 // Planners by name, and parameters as texts that must be what the planner makes of them.
 
-#include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/problems/Problem.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
@@ -125,7 +125,7 @@ namespace
         ASSERT_NE(prepared.measured, nullptr);
         prepared.measured->setTimeLimit(0.3);
         prepared.planner->solve(ompl::base::plannerNonTerminatingCondition());
-        EXPECT_TRUE(prepared.measured->ranOutOfTime());
+        EXPECT_TRUE(prepared.measured->wasStopped());
         const SolveRecord &record = *prepared.measured->record();
         EXPECT_GE(record.wallTime(), 0.3);
         EXPECT_LT(record.wallTime(), 5.0);  // the machine may be busy
@@ -137,6 +137,58 @@ namespace
             EXPECT_GE(improvements[i].time, improvements[i - 1].time);
         }
         EXPECT_NEAR(record.bestCost(), prepared.problem()->getSolutionPath()->length(), 1e-6);
+    }
+
+    TEST(MeasuredPlanner, GivingUpIsNotRunningOutOfTime)
+    {
+        // A wall from side to side, and no curve from start to goal that misses it.
+        const parking_test::TemporaryFolder folder;
+        const Problem problem(readScenario(folder.write("wall.yaml",
+                                                        "start: [0, 0, 0]\ngoal: [12, 0, 0]\n"
+                                                        "polygons: [[[5, -9], [6, -9], [6, 9], [5, 9]]]\n")),
+                              ProblemSettings{});
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        const PlannerEntry &entry = registry.find("reeds_shepp");
+        EXPECT_EQ(planOnce(problem, entry, {}, 60.0, 1).status, PlanStatus::Infeasible);
+        // Told to stop before it could try: that is no answer.
+        const PreparedPlanner prepared = problem.prepare(entry, {});
+        const ompl::base::PlannerStatus status =
+            prepared.planner->solve(ompl::base::PlannerTerminationCondition([] { return true; }));
+        EXPECT_TRUE(prepared.measured->wasStopped());
+        EXPECT_EQ(evaluateRun(problem, prepared, status, 60.0).status, PlanStatus::Timeout);
+    }
+
+    /** A planner that says why it finds nothing. */
+    class Resigned : public ompl::base::Planner
+    {
+    public:
+        explicit Resigned(const ompl::base::SpaceInformationPtr &si) : ompl::base::Planner(si, "resigned")
+        {
+        }
+        using ompl::base::Planner::solve;
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &) override
+        {
+            return ompl::base::PlannerStatus::TIMEOUT;
+        }
+        std::string reason() const
+        {
+            return "what for?";
+        }
+    };
+
+    TEST(MeasuredPlanner, PassesOnWhyNothingWasFound)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerEntry entry{"resigned",
+                                 "",
+                                 false,
+                                 [](const ompl::base::SpaceInformationPtr &si)
+                                 { return std::make_shared<Measured<Resigned>>(si); },
+                                 {}};
+        const PlanRun run = planOnce(*problem, entry, {}, 60.0, 1);
+        EXPECT_EQ(run.status, PlanStatus::Infeasible);
+        EXPECT_EQ(run.reason, "what for?");
+        EXPECT_EQ(planOnce(*problem, PlannerRegistry::builtIn().find("reeds_shepp"), {}, 60.0, 1).reason, "");
     }
 
     TEST(MeasuredPlanner, HasOneProgressPropertyOnly)
