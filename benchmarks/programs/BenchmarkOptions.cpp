@@ -61,51 +61,33 @@ namespace parking
     {
         po::options_description options = describe();
         options.add_options()("config", po::value<std::string>());
-        const po::variables_map values =
-            parseCommandLine(arguments, options, po::positional_options_description().add("config", 1));
+        const CommandLine line(arguments, options, po::positional_options_description().add("config", 1));
         BenchmarkOptions result;
-        if (values.count("plugin") > 0)
-            result.plugins = values["plugin"].as<Texts>();
-        result.help = values.count("help") > 0;
+        result.plugins = line.texts("plugin");
+        result.help = line.given("help");
         if (result.help)
             return result;  // with the plug-ins, whose planners it names
-        const auto text = [&values](const char *name)
-        {
-            return values[name].as<std::string>();
-        };
-        const auto texts = [&values](const char *name)
-        {
-            return values.count(name) > 0 ? values[name].as<Texts>() : Texts{};
-        };
-        const auto given = [&values](const char *name)
-        {
-            return values.count(name) > 0;
-        };
-        if (!given("config"))
+        if (!line.given("config"))
             throw Error("no configuration given (see --help)");
-        result.config = text("config");
-        if (given("output"))
-            result.output = text("output");
-        if (given("output") && result.output.empty())
+        result.config = *line.text("config");
+        result.output = line.text("output").value_or("");
+        if (line.given("output") && result.output.empty())
             throw Error("--output must name a folder");
-        if (given("time"))
-            result.timeLimit = positiveNumber("--time", text("time"));
-        if (given("runs"))
-            result.runCount = wholeNumber("--runs", text("runs"), 1, 1000000);
-        if (given("seed"))
-            result.seed = wholeNumber("--seed", text("seed"), 1, std::numeric_limits<std::uint32_t>::max());
-        if (given("shard"))
-            readShard(result, text("shard"));
-        result.scenarios = texts("scenarios");
-        result.planners = texts("planner");
-        result.merge = given("merge");
-        result.inputs = texts("from");
-        result.fresh = given("fresh");
-        result.report = !given("no-report");
-        result.quiet = given("quiet");
+        result.timeLimit = line.positive("time");
+        result.runCount = line.whole("runs", 1, 1000000);
+        result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max());
+        if (const auto shard = line.text("shard"))
+            readShard(result, *shard);
+        result.scenarios = line.texts("scenarios");
+        result.planners = line.texts("planner");
+        result.merge = line.given("merge");
+        result.inputs = line.texts("from");
+        result.fresh = line.given("fresh");
+        result.report = !line.given("no-report");
+        result.quiet = line.given("quiet");
         if (!result.inputs.empty() && !result.merge)
             throw Error("--from goes with --merge only");
-        if (result.merge && (given("shard") || result.fresh))
+        if (result.merge && (line.given("shard") || result.fresh))
             throw Error("--merge goes with neither --shard nor --fresh");
         return result;
     }

@@ -135,6 +135,35 @@ namespace parking
             std::cerr << "Runs of an earlier comparison were moved to " << old << std::endl;
     }
 
+    void Comparison::makeRoom(const std::string &file, const json &newHeader, const std::vector<Unit> &units) const
+    {
+        std::error_code ignored;
+        if (!fs::exists(file, ignored) || fs::file_size(file, ignored) == 0)
+            return;
+        bool goesOn = false;
+        try
+        {
+            const auto [oldHeader, oldRecords] = ResultStore::read(file);
+            std::set<std::tuple<std::string, std::string, std::size_t>> done;
+            for (const RunRecord &record : oldRecords)
+                done.insert({record.experiment, record.planner, record.run});
+            const bool complete =
+                std::all_of(units.begin(), units.end(),
+                            [&](const Unit &unit) {
+                                return done.count({experiments_[unit.experiment].name,
+                                                   config_.planners[unit.planner].name, unit.run}) > 0;
+                            });
+            goesOn = !options_.fresh && !complete && oldHeader.at("fingerprint") == newHeader.at("fingerprint") &&
+                     oldHeader.value("program", "") == newHeader.at("program");
+        }
+        catch (const Error &)
+        {
+            // Something that is no file of results makes room, too.
+        }
+        if (!goesOn)
+            setAside(file);
+    }
+
     bool Comparison::run(const std::atomic<bool> &stop)
     {
         UnitRunner runner(config_, experiments_, registry_, stop);
@@ -145,36 +174,8 @@ namespace parking
             setups.push_back(runner.setupText(i));
         const json newHeader = header(setups);
         const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
-        const auto isDone =
-            [&](const std::set<std::tuple<std::string, std::string, std::size_t>> &done, const Unit &unit)
-        {
-            return done.count({experiments_[unit.experiment].name, config_.planners[unit.planner].name, unit.run}) > 0;
-        };
-
         const std::string file = runsFile();
-        std::error_code ignored;
-        if (fs::exists(file, ignored) && fs::file_size(file, ignored) > 0)
-        {
-            // What is finished, or was something else, makes room; what was interrupted goes on.
-            bool goesOn = false;
-            try
-            {
-                const auto [oldHeader, oldRecords] = ResultStore::read(file);
-                std::set<std::tuple<std::string, std::string, std::size_t>> done;
-                for (const RunRecord &record : oldRecords)
-                    done.insert({record.experiment, record.planner, record.run});
-                const bool complete =
-                    std::all_of(units.begin(), units.end(), [&](const Unit &unit) { return isDone(done, unit); });
-                goesOn = !options_.fresh && !complete && oldHeader.at("fingerprint") == newHeader.at("fingerprint") &&
-                         oldHeader.value("program", "") == newHeader.at("program");
-            }
-            catch (const Error &)
-            {
-            }
-            if (!goesOn)
-                setAside(file);
-        }
-
+        makeRoom(file, newHeader, units);
         ResultStore store(file, newHeader, false);
         std::vector<Unit> left;
         std::vector<std::string> names;
@@ -264,6 +265,42 @@ namespace parking
                   { return std::tie(a.experiment, a.planner, a.run) < std::tie(b.experiment, b.planner, b.run); });
     }
 
+    void Comparison::writeExperiment(const Experiment &experiment, ComparisonFiles &files) const
+    {
+        const fs::path folder(folder_);
+        std::vector<const RunRecord *> own;
+        for (const RunRecord &record : records_)
+            if (record.experiment == experiment.name)
+                own.push_back(&record);
+        if (own.empty())
+            return;
+        const std::string log = (folder / (experiment.name + ".log")).string();
+        writeFileAtomically(log, experimentLog(config_, experiment, header_, own));
+        files.logs.push_back(log);
+
+        const Scenario scenario = experiment.scenario();
+        std::vector<std::pair<std::string, const RunRecord *>> best;
+        for (const std::size_t index : experiment.planners)
+        {
+            const std::string &planner = config_.planners[index].name;
+            std::vector<const RunRecord *> runs;
+            for (const RunRecord *record : own)
+                if (record->planner == planner)
+                    runs.push_back(record);
+            best.emplace_back(planner, bestRun(runs));
+            for (const RunRecord *record : runs)
+                if (record->hasPath && (config_.savePaths == SavePaths::All ||
+                                        (config_.savePaths == SavePaths::Shortest && record == best.back().second)))
+                    writeFileAtomically((folder / "paths" /
+                                         (experiment.name + "-" + planner + "-" + std::to_string(record->run) + ".csv"))
+                                            .string(),
+                                        pathCsv(scenario, *record));
+        }
+        const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
+        writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
+        files.pictures.push_back(picture);
+    }
+
     ComparisonFiles Comparison::write()
     {
         if (!options_.inputs.empty())
@@ -281,38 +318,7 @@ namespace parking
         for (const Experiment &experiment : experiments_)
         {
             expected += experiment.planners.size() * config_.runCount;
-            std::vector<const RunRecord *> own;
-            for (const RunRecord &record : records_)
-                if (record.experiment == experiment.name)
-                    own.push_back(&record);
-            if (own.empty())
-                continue;
-            const std::string log = (folder / (experiment.name + ".log")).string();
-            writeFileAtomically(log, experimentLog(config_, experiment, header_, own));
-            files.logs.push_back(log);
-
-            const Scenario scenario = experiment.scenario();
-            std::vector<std::pair<std::string, const RunRecord *>> best;
-            for (const std::size_t index : experiment.planners)
-            {
-                const std::string &planner = config_.planners[index].name;
-                std::vector<const RunRecord *> runs;
-                for (const RunRecord *record : own)
-                    if (record->planner == planner)
-                        runs.push_back(record);
-                best.emplace_back(planner, bestRun(runs));
-                for (const RunRecord *record : runs)
-                    if (record->hasPath && (config_.savePaths == SavePaths::All ||
-                                            (config_.savePaths == SavePaths::Shortest && record == best.back().second)))
-                        writeFileAtomically(
-                            (folder / "paths" /
-                             (experiment.name + "-" + planner + "-" + std::to_string(record->run) + ".csv"))
-                                .string(),
-                            pathCsv(scenario, *record));
-            }
-            const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
-            writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
-            files.pictures.push_back(picture);
+            writeExperiment(experiment, files);
         }
         files.missing = expected - std::min(expected, records_.size());
         files.database = (folder / "benchmark.db").string();

@@ -67,6 +67,11 @@ namespace parking
         std::vector<std::string> inputs() const;
         void gather();
         void setAside(const std::string &file) const;
+        /** Sets the file of an earlier start aside when that was finished, or was something else; what was interrupted
+            stays and goes on. */
+        void makeRoom(const std::string &file, const nlohmann::json &newHeader, const std::vector<Unit> &units) const;
+        /** Log, paths and picture. */
+        void writeExperiment(const Experiment &experiment, ComparisonFiles &files) const;
 
         BenchmarkOptions options_;
         const PlannerRegistry &registry_;

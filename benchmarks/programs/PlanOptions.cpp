@@ -15,6 +15,8 @@ namespace parking
     {
         using Texts = std::vector<std::string>;
 
+        constexpr std::size_t MAX_RUNS = 1000000;
+
         po::options_description describe()
         {
             po::options_description options("Options");
@@ -48,56 +50,33 @@ namespace parking
     {
         po::options_description options = describe();
         options.add_options()("scenario", po::value<std::string>());
-        const po::variables_map values =
-            parseCommandLine(arguments, options, po::positional_options_description().add("scenario", 1));
+        const CommandLine line(arguments, options, po::positional_options_description().add("scenario", 1));
         PlanOptions result;
-        if (values.count("plugin") > 0)
-            result.plugins = values["plugin"].as<Texts>();
-        result.help = values.count("help") > 0;
+        result.plugins = line.texts("plugin");
+        result.help = line.given("help");
         if (result.help)
             return result;  // with the plug-ins, whose planners it names
-        const auto text = [&values](const char *name)
-        {
-            return values[name].as<std::string>();
-        };
-        const auto given = [&values](const char *name)
-        {
-            return values.count(name) > 0;
-        };
-        if (!given("scenario"))
+        if (!line.given("scenario"))
             throw Error("no scenario given (see --help)");
-        result.scenario = text("scenario");
-        if (given("planner"))
-            result.planner = text("planner");
-        if (given("vehicle"))
-            result.vehicle = text("vehicle");
-        if (given("set"))
-            for (const std::string &each : values["set"].as<Texts>())
-                result.settings.push_back(keyAndValue("--set", each));
-        if (given("space"))
-            result.space = spaceByName(text("space"));
-        if (given("footprint"))
-            result.footprint = footprintByName(text("footprint"));
-        if (given("circle-radius"))
-            result.circleRadius = positiveNumber("--circle-radius", text("circle-radius"));
-        if (given("time-limit"))
-            result.timeLimit = positiveNumber("--time-limit", text("time-limit"));
-        if (given("runs"))
-            result.runs = wholeNumber("--runs", text("runs"), 1, 1000000);
-        if (given("seed"))
-            result.seed = wholeNumber("--seed", text("seed"), 1, std::numeric_limits<std::uint32_t>::max() - 1000000);
-        result.track = given("track");
-        if (given("json"))
-            result.json = text("json");
-        if (given("svg"))
-            result.svg = text("svg");
-        if (given("html"))
-            result.html = text("html");
-        if (given("html") && !result.track)
+        result.scenario = *line.text("scenario");
+        result.planner = line.text("planner").value_or(result.planner);
+        result.vehicle = line.text("vehicle").value_or("");
+        for (const std::string &each : line.texts("set"))
+            result.settings.push_back(keyAndValue("--set", each));
+        if (const auto space = line.text("space"))
+            result.space = spaceByName(*space);
+        if (const auto footprint = line.text("footprint"))
+            result.footprint = footprintByName(*footprint);
+        result.circleRadius = line.positive("circle-radius").value_or(result.circleRadius);
+        result.timeLimit = line.positive("time-limit").value_or(result.timeLimit);
+        result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
+        result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
+        result.track = line.given("track");
+        result.json = line.outputFile("json").value_or("");
+        result.svg = line.outputFile("svg").value_or("");
+        result.html = line.outputFile("html").value_or("");
+        if (line.given("html") && !result.track)
             throw Error("--html shows the drive and needs --track");
-        if ((given("json") && result.json.empty()) || (given("svg") && result.svg.empty()) ||
-            (given("html") && result.html.empty()))
-            throw Error("the name of an output file is empty");
         return result;
     }
 

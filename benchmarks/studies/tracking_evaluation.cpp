@@ -150,28 +150,23 @@ namespace
         add("no-smoothing", "drive the planner's arcs as they are");
         add("help", "this text");
         options.add_options()("scenario", po::value<std::vector<std::string>>());
-        const po::variables_map values =
-            parseCommandLine(arguments, options, po::positional_options_description().add("scenario", -1));
-        if (values.count("help") > 0)
+        const CommandLine line(arguments, options, po::positional_options_description().add("scenario", -1));
+        if (line.given("help"))
         {
             std::cout << "usage: tracking_evaluation SCENARIO... [options]\n\n" << options;
             return 0;
         }
-        if (values.count("scenario") == 0)
+        if (!line.given("scenario"))
             throw Error("no scenario given (see --help)");
-        const auto text = [&values](const char *name, const std::string &otherwise)
-        {
-            return values.count(name) > 0 ? values[name].as<std::string>() : otherwise;
-        };
-        const std::size_t seeds = wholeNumber("--seeds", text("seeds", "20"), 1, 100000);
-        const std::size_t first = wholeNumber("--first-seed", text("first-seed", "1"), 0, 1000000000);
+        const std::size_t seeds = line.whole("seeds", 1, 100000).value_or(20);
+        const std::size_t first = line.whole("first-seed", 0, 1000000000).value_or(1);
         ParkingParameters parameters;
-        parameters.planning.smooth = values.count("no-smoothing") == 0;
-        const std::string output = text("output", "");
+        parameters.planning.smooth = !line.given("no-smoothing");
+        const std::string output = line.text("output").value_or("");
         if (!output.empty())
             requireWritable(output);
         std::vector<Row> rows;
-        for (const std::string &file : values["scenario"].as<std::vector<std::string>>())
+        for (const std::string &file : line.texts("scenario"))
         {
             rows.push_back(evaluate(readScenario(file), parameters, seeds, first));
             std::cerr << file << (rows.back().good() ? "" : ": figures missed, or no path") << std::endl;

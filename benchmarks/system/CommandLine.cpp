@@ -18,9 +18,8 @@ namespace po = boost::program_options;
 
 namespace parking
 {
-    po::variables_map parseCommandLine(const std::vector<std::string> &arguments,
-                                       const po::options_description &options,
-                                       const po::positional_options_description &positional)
+    CommandLine::CommandLine(const std::vector<std::string> &arguments, const po::options_description &options,
+                             const po::positional_options_description &positional)
     {
         std::vector<std::string> names;
         for (const auto &option : options.options())
@@ -28,15 +27,13 @@ namespace parking
                 names.push_back("--" + option->long_name());
         try
         {
-            po::variables_map values;
             po::store(po::command_line_parser(arguments)
                           .options(options)
                           .positional(positional)
                           .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                           .run(),
-                      values);
-            po::notify(values);
-            return values;
+                      values_);
+            po::notify(values_);
         }
         catch (const po::unknown_option &error)
         {
@@ -50,6 +47,40 @@ namespace parking
         {
             throw Error(oneLine(error.what()) + " (see --help)");
         }
+    }
+
+    bool CommandLine::given(const std::string &option) const
+    {
+        return values_.count(option) > 0;
+    }
+
+    std::optional<std::string> CommandLine::text(const std::string &option) const
+    {
+        return given(option) ? std::optional<std::string>(values_[option].as<std::string>()) : std::nullopt;
+    }
+
+    std::vector<std::string> CommandLine::texts(const std::string &option) const
+    {
+        return given(option) ? values_[option].as<std::vector<std::string>>() : std::vector<std::string>{};
+    }
+
+    std::optional<double> CommandLine::positive(const std::string &option) const
+    {
+        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option))) : std::nullopt;
+    }
+
+    std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const
+    {
+        return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), least, most))
+                             : std::nullopt;
+    }
+
+    std::optional<std::string> CommandLine::outputFile(const std::string &option) const
+    {
+        const std::optional<std::string> name = text(option);
+        if (name && name->empty())
+            throw Error("the name of an output file is empty");
+        return name;
     }
 
     double positiveNumber(const std::string &name, const std::string &text)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boost/program_options/options_description.hpp>
@@ -10,12 +12,37 @@
 
 namespace parking
 {
-    /** \brief Parses a command line: options must be written out in full.
+    /** \brief A command line that was read: what each option was given. Options must be written out in full.
 
-        Throws parking::Error with one line; for an unknown option it names the nearest. */
-    boost::program_options::variables_map parseCommandLine(
-        const std::vector<std::string> &arguments, const boost::program_options::options_description &options,
-        const boost::program_options::positional_options_description &positional);
+        Options that were not given are empty; the caller has the defaults: `line.positive("time").value_or(5.0)`. The
+        readers throw parking::Error naming option and value where a value is not what it must be. */
+    class CommandLine
+    {
+    public:
+        /** \brief Throws parking::Error with one line; for an unknown option it names the nearest. */
+        CommandLine(const std::vector<std::string> &arguments,
+                    const boost::program_options::options_description &options,
+                    const boost::program_options::positional_options_description &positional);
+
+        bool given(const std::string &option) const;
+
+        std::optional<std::string> text(const std::string &option) const;
+
+        /** \brief Of an option that may be given several times. */
+        std::vector<std::string> texts(const std::string &option) const;
+
+        /** \brief See positiveNumber(). */
+        std::optional<double> positive(const std::string &option) const;
+
+        /** \brief See wholeNumber(). */
+        std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
+
+        /** \brief The name of a file to write. Throws parking::Error for an empty one. */
+        std::optional<std::string> outputFile(const std::string &option) const;
+
+    private:
+        boost::program_options::variables_map values_;
+    };
 
     /** \brief The number that option \e name was given. Throws parking::Error naming the option when it is no number
         that is positive (and finite). */
