@@ -40,8 +40,8 @@ namespace parking
                 break;
             goals.push_back(goal);
         }
-        if (goals.empty())
-            return ob::PlannerStatus::INVALID_GOAL;
+        if (goals.empty())  // none is free, or there was no time to look
+            return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
 
         std::vector<std::tuple<double, const ob::State *, const ob::State *>> motions;
         for (const ob::State *start : starts)
