@@ -87,7 +87,8 @@ namespace parking
         int direction{1};       ///< 1 forwards, -1 in reverse
     };
 
-    /** \brief States along a path, for drawing, writing and asking about; what the path is says Path. */
+    /** \brief States along a path, for drawing, writing and asking about poses: a picture of a Path, from which it is
+        not made again. */
     using SampledPath = std::vector<PathState>;
 
     /** \brief A part of a path between two cusps: driven in one direction, from piece \e first to before \e last. */

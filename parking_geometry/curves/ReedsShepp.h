@@ -10,7 +10,10 @@
 
 namespace parking
 {
-    /** \brief A Reeds-Shepp curve: up to five pieces at the turning radius or straight. */
+    /** \brief A Reeds-Shepp curve: up to five arcs at the turning radius or lines.
+
+        Not a Path because a search tries thousands of them: its size is fixed, so nothing is allocated, and it has no
+        start of its own. */
     struct ReedsSheppCurve
     {
         std::array<Arc, 5> pieces{};

@@ -1,9 +1,9 @@
 // Planner, manoeuvre and smoother over every bundled scenario and every TPCAP case: how many stretches between two
 // changes of direction end with continuous curvature, and is what comes out drivable and free?
 //
-// Continuous means: within a stretch the exact pieces of the path meet with equal curvature (1e-9 1/m), and from state
-// to state the curvature changes no faster than the wheels turn at the speed that the path allows there. A stretch with
-// a stop in it, where the car stands to steer, does not count as continuous.
+// Continuous means: within a stretch the pieces of the path meet with equal curvature (1e-9 1/m), and along each the
+// curvature changes no faster than the wheels turn at the speed of the stretch. A stretch with a stop in it, where the
+// car stands to steer, does not count as continuous.
 
 #include "automatic_parking/ParkingPlanner.h"
 
