@@ -1,6 +1,6 @@
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/NearestName.h"
-#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/io/ScenarioParts.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "parking_geometry/ParkingSlot.h"
 
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/manoeuvres/RandomParking.h"
-#include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
 #include <cmath>
 #include <limits>

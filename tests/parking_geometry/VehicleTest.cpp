@@ -1,9 +1,9 @@
 #include "parking_geometry/Vehicle.h"
 
-#include "tests/parking_geometry/ExpectError.h"
-#include "tests/parking_geometry/TemporaryFolder.h"
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
 
 #include <cmath>
 #include <limits>

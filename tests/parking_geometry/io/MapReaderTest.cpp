@@ -1,7 +1,7 @@
+#include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 #include "tests/parking_geometry/io/TestImages.h"
-#include "parking_geometry/io/ScenarioReader.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "parking_geometry/text/WriteFile.h"
 
+#include "parking_geometry/text/ReadFile.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
-#include "parking_geometry/text/ReadFile.h"
 
 #include <csignal>
 #include <filesystem>
