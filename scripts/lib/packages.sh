@@ -31,6 +31,7 @@ pkg-config                   | test  | the consumer that finds the installed pac
 git                          | test  | names the files that the style tests look at
 clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
+doxygen                      | test  | builds the documentation, which must not make it warn
 LIST
 }
 

@@ -131,6 +131,19 @@ class ChecksTest(unittest.TestCase):
                        check=True)
         self.assertEqual(self.run_check('readme_sample').returncode, 0)
 
+    def test_docstring_about_a_parameter_that_is_not_there(self):
+        if not shutil.which('doxygen'):
+            self.skipTest('doxygen is not installed')
+        shutil.copy(os.path.join(ROOT, 'Doxyfile'), self.root)
+        for name in ('CHANGELOG.md', 'CONTRIBUTING.md', 'docs/planner.md', 'path_tracking/Drive.h',
+                     'automatic_parking/Park.h', 'benchmarks/Run.h'):
+            self.write(name, '')
+        done = self.run_check('docs')
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.write('path_tracking/Drive.h', '/** \\brief A drive. */\nclass Drive\n{\npublic:\n'
+                   '    /** \\param gone metres */\n    Drive(double length);\n};\n')
+        self.expect_found('docs', 'path_tracking/Drive.h')
+
     def test_files_ignored_by_git_do_not_count(self):
         if not shutil.which('git'):
             self.skipTest('git is not installed')

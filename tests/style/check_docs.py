@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""Does Doxygen build the documentation without a warning: does what docstrings and documents name exist?
+
+usage: check_docs.py ROOT
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from project_files import SKIPPED, report
+
+
+def main(root):
+    if not shutil.which('doxygen'):
+        print('SKIPPED: doxygen is not installed; scripts/test installs it')
+        sys.exit(SKIPPED)
+    with tempfile.TemporaryDirectory() as output:
+        configuration = f'@INCLUDE = Doxyfile\nOUTPUT_DIRECTORY = "{output}"\n'
+        built = subprocess.run(['doxygen', '-'], input=configuration, cwd=root, capture_output=True, text=True,
+                               check=False)
+        said = [line.replace(root + os.sep, '') for line in built.stderr.splitlines() if line.strip()]
+        if not said and not os.path.exists(os.path.join(output, 'docs', 'index.html')):
+            said = [f'doxygen wrote no pages, status {built.returncode}']
+    report(said, 'Doxyfile says what Doxygen reads, and what it warns of.')
+
+
+if __name__ == '__main__':
+    main(os.path.abspath(sys.argv[1]))
