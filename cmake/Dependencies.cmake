@@ -12,8 +12,13 @@ macro(parking_find)
   endif()
 endmacro()
 
-# What the public headers include. No version of OMPL is asked for: its configuration refuses other major versions.
+# All that the core needs.
 parking_find(Eigen3 3.3 NO_MODULE)
+if(PARKING_CORE_ONLY)
+  return()
+endif()
+
+# What the public headers include. No version of OMPL is asked for: its configuration refuses other major versions.
 parking_find(ompl)
 parking_find(fcl)
 
@@ -32,8 +37,13 @@ if(NOT TARGET ompl_improved_astar::ompl_dependency)
     # OMPL_LIBRARIES names what OMPL itself was linked with, too (Boost's libraries, ODE). Programs that use OMPL
     # need none of it, and Debian's libompl-dev does not bring all of it.
     list(GET OMPL_LIBRARIES 0 parking_ompl_library)
-    set(parking_ompl_includes ${OMPL_INCLUDE_DIRS})
-    list(REMOVE_ITEM parking_ompl_includes /usr/include)
+    # Debian's OMPL names folders of packages that it does not bring; a target with one of them cannot be used.
+    set(parking_ompl_includes)
+    foreach(dir IN LISTS OMPL_INCLUDE_DIRS)
+      if(IS_DIRECTORY ${dir} AND NOT dir STREQUAL "/usr/include")
+        list(APPEND parking_ompl_includes ${dir})
+      endif()
+    endforeach()
     set_target_properties(ompl_improved_astar::ompl_dependency PROPERTIES
       INTERFACE_INCLUDE_DIRECTORIES "${parking_ompl_includes}"
       INTERFACE_LINK_LIBRARIES "${parking_ompl_library};Eigen3::Eigen")

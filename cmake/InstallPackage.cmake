@@ -4,22 +4,47 @@ include(CMakePackageConfigHelpers)
 include(PkgConfigFile)
 
 get_property(parking_libraries GLOBAL PROPERTY PARKING_LIBRARIES)
+get_property(parking_core_libraries GLOBAL PROPERTY PARKING_CORE_LIBRARIES)
+set(parking_other_libraries ${parking_libraries})
+list(REMOVE_ITEM parking_other_libraries ${parking_core_libraries})
 set(parking_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/${PROJECT_NAME})
 
-install(TARGETS ${parking_libraries}
-  EXPORT ${PROJECT_NAME}Targets
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT ${PROJECT_NAME}Targets
-  NAMESPACE ${PROJECT_NAME}::
-  DESTINATION ${parking_package_dir})
+# The core in one target.
+add_library(parking_core INTERFACE)
+add_library(${PROJECT_NAME}::core ALIAS parking_core)
+set_property(TARGET parking_core PROPERTY EXPORT_NAME core)
+target_link_libraries(parking_core INTERFACE ${parking_core_libraries})
+
+# Two sets of targets: that of the core can be read where OMPL, FCL and the others are not installed.
+install(TARGETS parking_core EXPORT ${PROJECT_NAME}CoreTargets)
+foreach(set IN ITEMS core other)
+  if(set STREQUAL "core")
+    set(export ${PROJECT_NAME}CoreTargets)
+  else()
+    set(export ${PROJECT_NAME}Targets)
+  endif()
+  if(parking_${set}_libraries)
+    install(TARGETS ${parking_${set}_libraries}
+      EXPORT ${export}
+      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(EXPORT ${export}
+      NAMESPACE ${PROJECT_NAME}::
+      DESTINATION ${parking_package_dir})
+  endif()
+endforeach()
 
 if(BUILD_SHARED_LIBS)
   set(PARKING_STATIC_LIBRARIES OFF)
 else()
   set(PARKING_STATIC_LIBRARIES ON)
+endif()
+if(PARKING_CORE_ONLY)
+  set(parking_has_only_core ON)
+else()
+  set(parking_has_only_core OFF)
 endif()
 list(JOIN parking_libraries ", " parking_library_names)
 configure_package_config_file(

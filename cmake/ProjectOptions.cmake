@@ -1,9 +1,19 @@
 # Options, warnings and the helper that makes every library of the project the same way.
 
 option(BUILD_SHARED_LIBS "Build shared libraries" OFF)
-option(PARKING_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
-option(PARKING_BUILD_BENCHMARKS "Build parking_plan, parking_benchmark and the micro-benchmarks" ${PROJECT_IS_TOP_LEVEL})
-option(PARKING_BUILD_EXAMPLES "Build the example programs" ${PROJECT_IS_TOP_LEVEL})
+option(PARKING_CORE_ONLY "Build only what needs nothing but Eigen: geometry, footprint checks and search" OFF)
+if(PROJECT_IS_TOP_LEVEL AND NOT PARKING_CORE_ONLY)
+  set(parking_everything ON)
+else()
+  set(parking_everything OFF)
+endif()
+option(PARKING_BUILD_TESTS "Build the tests" ${parking_everything})
+option(PARKING_BUILD_BENCHMARKS "Build parking_plan, parking_benchmark and the micro-benchmarks" ${parking_everything})
+option(PARKING_BUILD_EXAMPLES "Build the example programs" ${parking_everything})
+if(PARKING_CORE_ONLY AND (PARKING_BUILD_TESTS OR PARKING_BUILD_BENCHMARKS OR PARKING_BUILD_EXAMPLES))
+  message(FATAL_ERROR "PARKING_CORE_ONLY builds three libraries; the tests, benchmarks and examples need the others, too: "
+    "set PARKING_BUILD_TESTS, PARKING_BUILD_BENCHMARKS and PARKING_BUILD_EXAMPLES to OFF")
+endif()
 option(PARKING_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PARKING_SANITIZER "" CACHE STRING "Sanitizers to build with, for example address,undefined or thread")
 
@@ -40,13 +50,18 @@ else()
   set(PARKING_SOVERSION ${PROJECT_VERSION_MAJOR})
 endif()
 
-# parking_add_library(name): a library whose headers are included as <name/Header.h>, exported as
-# ompl_improved_astar::name. Sources are added with target_sources, headers as its FILE_SET HEADERS.
+# parking_add_library(name [CORE]): a library whose headers are included as <folder/Header.h>, exported as
+# ompl_improved_astar::name. Sources are added with target_sources, headers as its FILE_SET HEADERS. A library of the
+# core needs nothing but Eigen and other libraries of the core.
 function(parking_add_library name)
+  cmake_parse_arguments(ARG "CORE" "" "" ${ARGN})
   add_library(${name})
   add_library(ompl_improved_astar::${name} ALIAS ${name})
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:parking_build_flags>)
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PARKING_SOVERSION})
   set_property(GLOBAL APPEND PROPERTY PARKING_LIBRARIES ${name})
+  if(ARG_CORE)
+    set_property(GLOBAL APPEND PROPERTY PARKING_CORE_LIBRARIES ${name})
+  endif()
 endfunction()

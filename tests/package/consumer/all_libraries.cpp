@@ -7,6 +7,8 @@
 #include <parking_geometry/curves/Path.h>
 #include <parking_geometry/io/ScenarioReader.h>
 #include <state_validity/FootprintChecker.h>
+#include <state_validity/fcl/FclContactTest.h>
+#include <state_validity/ompl/FclFootprintChecker.h>
 #ifdef HAS_automatic_parking
 #include <automatic_parking/AutomaticParking.h>
 #endif
@@ -28,7 +30,7 @@ int main(int argc, char **argv)
     path.append({-0.1, 3.0});
 
     const auto world = parking::ObstacleSet::fromPolygons({{{4, -5}, {5, -5}, {5, 5}, {4, 5}}}, {{-20, -20}, {20, 20}});
-    const parking::FootprintChecker checker(world, parking::Vehicle());
+    const parking::FootprintChecker checker(world, parking::Vehicle(), 0.0, parking::fclContactTest());
     const bool startIsFree = checker.isFree({-5.0, 0.0, 0.0}), wallIsFree = checker.isFree({3.0, 0.0, 0.0});
 
     bool readerRefuses = false;
