@@ -63,7 +63,7 @@ namespace parking
         return limits;
     }
 
-    TrackingController::TrackingController(const SampledPath &path, const Vehicle &vehicle,
+    TrackingController::TrackingController(const Path &path, const Vehicle &vehicle,
                                            const TrackingParameters &parameters, double initialSteering, Solve solve)
       : vehicle_(vehicle),
         parameters_((parameters.validate(), parameters)),

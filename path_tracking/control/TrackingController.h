@@ -93,7 +93,7 @@ namespace parking
 
             \param solve replaces the optimiser (to try another one, or failures); empty: Mpc
             Throws parking::Error for a path, a vehicle or parameters that cannot be used. */
-        TrackingController(const SampledPath &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
+        TrackingController(const Path &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
                            double initialSteering = 0.0, Solve solve = {});
 
         const SpeedProfile &profile() const

@@ -1,10 +1,12 @@
 #include "path_tracking/reference/CornerRounding.h"
 
+#include "parking_geometry/curves/Biarc.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -12,32 +14,61 @@ namespace parking
 {
     namespace
     {
-        constexpr double STEP = 0.05;           ///< metres between states of the simulated car
-        constexpr double BACK_ON_PATH = 0.005;  ///< metres beside the section that count as being on it
-        constexpr double BACK_IN_YAW = 0.005;   ///< radians likewise
-        constexpr double SEARCH_AHEAD = 2.0;    ///< metres of the section searched for the nearest place
+        constexpr double STEP = 0.05;               ///< metres that the simulated car drives at a time
+        constexpr double BACK_ON_PATH = 0.005;      ///< metres beside the stretch that count as being on it
+        constexpr double BACK_IN_YAW = 0.005;       ///< radians likewise
+        constexpr double BACK_IN_CURVATURE = 0.02;  ///< 1/m likewise
+        constexpr double SEARCH_AHEAD = 2.0;        ///< metres of the stretch searched for the nearest place
+        constexpr double JOIN_LENGTH = 1.0;         ///< metres over which a car returns exactly
+        constexpr double LEAST_JOIN = 0.3;          ///< metres; in less, even millimetres ask for much steering
 
-        /** The section as a polyline of places with distances from its begin. */
+        /** A place of a path: a piece and how far along it. */
+        struct Place
+        {
+            std::size_t piece;
+            double along;  ///< metres since the begin of the piece
+            Pose pose;     ///< where the piece begins
+        };
+
+        /** The place \e driven metres from the begin of \e path; where pieces meet, that in the later one. */
+        Place placeAt(const Path &path, double driven)
+        {
+            Place place{0, driven, path.start};
+            while (place.piece + 1 < path.pieces.size() && place.along >= path.pieces[place.piece].driven())
+            {
+                place.pose = advance(place.pose, path.pieces[place.piece]);
+                place.along -= path.pieces[place.piece++].driven();
+            }
+            place.along = std::min(place.along, path.pieces[place.piece].driven());
+            return place;
+        }
+
+        /** The stretch as a polyline of places with distances from its begin. */
         class Guide
         {
         public:
-            explicit Guide(const PathSection &section)
+            explicit Guide(const Path &stretch)
             {
-                // Arcs are resampled so that the polyline is the section.
-                append({section.nodes.front().pose.x, section.nodes.front().pose.y});
-                for (std::size_t i = 1; i < section.nodes.size(); ++i)
+                Pose pose = stretch.start;
+                points_.emplace_back(pose.x, pose.y);
+                distances_.push_back(0.0);
+                driven_.push_back(0.0);
+                double before = 0.0;
+                for (const PathPiece &piece : stretch.pieces)
                 {
-                    const PathNode &node = section.nodes[i];
-                    const int pieces =
-                        node.curvature == 0.0 ? 1 : std::max(1, static_cast<int>(std::ceil(node.length / STEP)));
-                    for (int k = pieces - 1; k >= 0; --k)
-                    {
-                        const Pose place = advance(node.pose, node.curvature,
-                                                   -section.direction * node.length * k / static_cast<double>(pieces));
-                        append({place.x, place.y});
-                    }
-                    if (i == section.lastCornerNode)
+                    if (piece.turn != 0.0)
                         lastCorner_ = distances_.back();
+                    // Bent pieces are resampled so that the polyline is the stretch.
+                    const bool bent = piece.curvature != 0.0 || piece.sharpness != 0.0;
+                    const int parts = bent ? std::max(1, static_cast<int>(std::ceil(piece.driven() / STEP))) : 1;
+                    for (int k = 1; k <= parts && piece.length != 0.0; ++k)
+                    {
+                        const double along = piece.driven() * k / parts;
+                        const Pose place = advance(pose, piece, along);
+                        append({place.x, place.y}, before + along);
+                    }
+                    pose = advance(pose, piece);
+                    before += piece.driven();
                 }
             }
 
@@ -68,19 +99,23 @@ namespace parking
             {
                 if (distance >= length())
                     return points_.back() + endDirection() * (distance - length());
-                const auto next = std::upper_bound(distances_.begin() + 1, distances_.end() - 1, distance);
-                const auto i = static_cast<std::size_t>(next - distances_.begin());
-                const double share = (distance - distances_[i - 1]) / (distances_[i] - distances_[i - 1]);
-                return points_[i - 1] + share * (points_[i] - points_[i - 1]);
+                const std::size_t i = indexAfter(distance);
+                return points_[i - 1] + shareOf(i, distance) * (points_[i] - points_[i - 1]);
+            }
+
+            /** Metres driven along the stretch itself at \e distance. */
+            double drivenAt(double distance) const
+            {
+                const std::size_t i = indexAfter(distance);
+                return driven_[i - 1] + shareOf(i, distance) * (driven_[i] - driven_[i - 1]);
             }
 
             /** Distance from the begin to the place nearest to \e point, at most SEARCH_AHEAD beyond \e from. */
             double nearest(const Eigen::Vector2d &point, double from, double &deviation) const
             {
-                auto next = std::upper_bound(distances_.begin() + 1, distances_.end() - 1, from);
                 double best = std::numeric_limits<double>::infinity();
                 double result = from;
-                for (auto i = static_cast<std::size_t>(next - distances_.begin()); i < points_.size(); ++i)
+                for (std::size_t i = indexAfter(from); i < points_.size(); ++i)
                 {
                     const Eigen::Vector2d edge = points_[i] - points_[i - 1];
                     const double span = distances_[i] - distances_[i - 1];
@@ -101,73 +136,78 @@ namespace parking
             }
 
         private:
-            void append(const Eigen::Vector2d &point)
+            std::size_t indexAfter(double distance) const
             {
-                if (points_.empty())
-                    distances_.push_back(0.0);
-                else if ((point - points_.back()).norm() < 1e-9)
+                const auto next = std::upper_bound(distances_.begin() + 1, distances_.end() - 1, distance);
+                return static_cast<std::size_t>(next - distances_.begin());
+            }
+
+            double shareOf(std::size_t i, double distance) const
+            {
+                return std::min(1.0, (distance - distances_[i - 1]) / (distances_[i] - distances_[i - 1]));
+            }
+
+            void append(const Eigen::Vector2d &point, double driven)
+            {
+                if ((point - points_.back()).norm() < 1e-9)
                     return;
-                else
-                    distances_.push_back(distances_.back() + (point - points_.back()).norm());
+                distances_.push_back(distances_.back() + (point - points_.back()).norm());
                 points_.push_back(point);
+                driven_.push_back(driven);
             }
 
             std::vector<Eigen::Vector2d> points_;
             std::vector<double> distances_;
+            std::vector<double> driven_;
             double lastCorner_{0.0};
         };
 
-        /** Where on the section the simulated car may go over to it: the node, if it stands at one exactly enough. */
-        std::optional<std::size_t> joinNode(const PathSection &section, const Pose &car, double turnedCurvature)
+        /** The way onto the stretch from \e driven metres on, when the car is on it as good as exactly. */
+        std::optional<Path> joinHere(const Path &stretch, double driven, const Pose &car, double curvature,
+                                     const Vehicle &vehicle)
         {
-            for (std::size_t i = section.lastCornerNode + 1; i + 1 < section.nodes.size(); ++i)
-            {
-                const Pose &place = section.nodes[i].pose;
-                if (std::abs(place.x - car.x) > STEP || std::abs(place.y - car.y) > STEP)
-                    continue;
-                const Pose offset = relativeTo(place, car);
-                if (std::abs(offset.x) <= 0.5 * STEP + 1e-9 && std::abs(offset.y) <= BACK_ON_PATH &&
-                    std::abs(offset.yaw) <= BACK_IN_YAW &&
-                    std::abs(section.nodes[i + 1].curvature - turnedCurvature) < 0.02)
-                    return i;
-            }
-            return std::nullopt;
+            const Place place = placeAt(stretch, driven);
+            const PathPiece &piece = stretch.pieces[place.piece];
+            const Pose offset = relativeTo(advance(place.pose, piece, place.along), car);
+            if (std::abs(offset.x) > STEP || std::abs(offset.y) > BACK_ON_PATH || std::abs(offset.yaw) > BACK_IN_YAW ||
+                std::abs(piece.curvatureAt(place.along) - curvature) > BACK_IN_CURVATURE)
+                return std::nullopt;
+            return joinStretch(stretch, driven, car, vehicle);
         }
 
         /** One simulated drive, aiming \e ahead metres in front. Directions of travel are headings here: a car in
             reverse is a car driving forwards with its heading turned by half a turn and its curvature negated. */
-        RoundedSection pursue(const PathSection &section, const Guide &guide, const Pose &start, const Vehicle &vehicle,
+        RoundedCorners pursue(const Path &stretch, const Guide &guide, const Pose &start, const Vehicle &vehicle,
                               double steeringSlope, double ahead)
         {
-            const double sign = section.direction;
-            const double turned = section.direction > 0 ? 0.0 : PI;
+            const double sign = stretch.stretches().front().direction;
+            const double turned = sign > 0.0 ? 0.0 : PI;
             Pose car{start.x, start.y, start.yaw + turned};
-            RoundedSection result;
-            result.nodes.push_back({start, 0.0, 0.0});
+            RoundedCorners result;
+            result.path.start = start;
             double along = 0.0, steering = 0.0;
-            bool first = true;
             const auto most = static_cast<std::size_t>((2.0 * guide.length() + 10.0) / STEP);
-            for (std::size_t count = 0; count < most; ++count)
+            const auto locate = [&]
             {
                 double deviation = 0.0;
                 along = guide.nearest({car.x, car.y}, along, deviation);
                 if (deviation > result.deviation)
                 {
                     result.deviation = deviation;
-                    result.worstPlace = along;
+                    result.worstPlace = guide.drivenAt(along);
                 }
+            };
+            for (std::size_t count = 0; count < most; ++count)
+            {
+                locate();
                 if (along > guide.lastCorner())
-                {
-                    const Pose real{car.x, car.y, car.yaw - turned};
-                    const double curvature = sign * vehicle.curvature(steering);
-                    if (const auto join = joinNode(section, real, curvature))
+                    if (const auto rest = joinHere(stretch, guide.drivenAt(along), {car.x, car.y, car.yaw - turned},
+                                                   sign * vehicle.curvature(steering), vehicle))
                     {
-                        // The few millimetres between the car and the section are left to the controller.
-                        result.nodes.back().pose = section.nodes[*join].pose;
-                        result.nodes.insert(result.nodes.end(), section.nodes.begin() + *join + 1, section.nodes.end());
+                        result.path.extend(*rest);
+                        result.following = true;
                         return result;
                     }
-                }
                 const Eigen::Vector2d target = guide.at(along + ahead);
                 const Pose aim = relativeTo(car, {target.x(), target.y(), 0.0});
                 const double squared = aim.x * aim.x + aim.y * aim.y;
@@ -175,51 +215,70 @@ namespace parking
                 double wanted = aim.x <= 0.0 ? std::copysign(vehicle.maxSteeringAngle, aim.y)
                                              : vehicle.steeringAngle(2.0 * aim.y / squared);
                 wanted = std::clamp(wanted, -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
-                // The car stands at the begin of a section and may turn its wheels there.
-                const double change = first ? 2.0 * PI : steeringSlope * STEP;
+                // The car stands at the begin of a stretch and may turn its wheels there.
+                const double change = count == 0 ? 2.0 * PI : steeringSlope * STEP;
+                const double before = vehicle.curvature(steering);
                 steering = std::clamp(wanted, steering - change, steering + change);
-                first = false;
-                const double curvature = vehicle.curvature(steering);
-                Pose next = advance(car, curvature, STEP);
-                double driven = STEP;
+                const double after = vehicle.curvature(steering);
+                PathPiece piece =
+                    count == 0 ? PathPiece(after, STEP) : PathPiece(before, STEP, (after - before) / STEP);
+                Pose next = advance(car, piece);
                 const double left = (guide.end() - Eigen::Vector2d(car.x, car.y)).dot(guide.endDirection());
                 const double gain = left - (guide.end() - Eigen::Vector2d(next.x, next.y)).dot(guide.endDirection());
                 const bool ends = along >= guide.length() - 2.0 * STEP && gain > 1e-6 && left <= gain;
                 if (ends)
                 {
-                    driven = STEP * std::max(0.0, left) / gain;
-                    next = advance(car, curvature, driven);
+                    piece.length = STEP * std::max(0.0, left) / gain;
+                    next = advance(car, piece);
                 }
                 car = next;
-                if (driven > 1e-6)
-                    result.nodes.push_back({{car.x, car.y, car.yaw - turned}, sign * curvature, driven});
+                if (piece.length > 1e-6)
+                    result.path.append({sign * piece.curvature, sign * piece.length, sign * piece.sharpness});
                 if (ends)
                 {
-                    guide.nearest({car.x, car.y}, along, deviation);
-                    result.deviation = std::max(result.deviation, deviation);
-                    if (result.nodes.size() < 2)
-                        break;
-                    result.nodes.front().curvature = result.nodes[1].curvature;
+                    locate();
+                    result.following = !result.path.pieces.empty();
                     return result;
                 }
             }
-            result.deviation = std::numeric_limits<double>::infinity();
             return result;
         }
     }  // namespace
 
-    RoundedSection roundCorners(const PathSection &section, const Pose &start, const Vehicle &vehicle,
-                                double steeringSlope)
+    std::optional<Path> joinStretch(const Path &stretch, double from, const Pose &car, const Vehicle &vehicle)
     {
-        const Guide guide(section);
+        // The joint keeps to one piece where that is long enough: two arcs cannot imitate more.
+        const Place here = placeAt(stretch, from);
+        const double left = stretch.pieces[here.piece].driven() - here.along;
+        if (left < LEAST_JOIN)
+            return std::nullopt;
+        const Place there = placeAt(stretch, from + std::min(left, JOIN_LENGTH));
+        const Pose target = advance(there.pose, stretch.pieces[there.piece], there.along);
+        std::optional<Path> path = biarc(car, target, stretch.pieces[here.piece].direction());
+        if (!path)
+            return std::nullopt;
+        for (const PathPiece &piece : path->pieces)
+            if (std::abs(piece.curvature) > 1.0 / vehicle.minTurningRadius())
+                return std::nullopt;
+        PathPiece rest = stretch.pieces[there.piece];
+        rest.curvature = rest.curvatureAt(there.along);
+        rest.length = rest.direction() * (rest.driven() - there.along);
+        path->append(rest);
+        for (std::size_t i = there.piece + 1; i < stretch.pieces.size(); ++i)
+            path->append(stretch.pieces[i]);
+        return path;
+    }
+
+    RoundedCorners roundCorners(const Path &stretch, const Pose &start, const Vehicle &vehicle, double steeringSlope)
+    {
+        const Guide guide(stretch);
         constexpr std::array<double, 6> DISTANCES{0.25, 0.375, 0.5, 0.75, 1.0, 2.0};
-        RoundedSection best;
-        best.deviation = std::numeric_limits<double>::infinity();
+        RoundedCorners best;
         for (const double share : DISTANCES)
         {
-            RoundedSection candidate =
-                pursue(section, guide, start, vehicle, steeringSlope, share * vehicle.minTurningRadius());
-            if (candidate.deviation < best.deviation)
+            RoundedCorners candidate =
+                pursue(stretch, guide, start, vehicle, steeringSlope, share * vehicle.minTurningRadius());
+            if (candidate.following && (!best.following || candidate.deviation < best.deviation))
                 best = std::move(candidate);
         }
         return best;

@@ -1,7 +1,6 @@
 #include "path_tracking/reference/ReferencePath.h"
 
 #include "parking_geometry/text/Require.h"
-#include "path_tracking/reference/DrivablePath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,76 +10,91 @@
 
 namespace parking
 {
+    /** Neighbouring pieces of continuous curvature. */
+    struct ReferencePath::Run
+    {
+        std::size_t endNode;
+        PathPiece first;
+        PathPiece last;
+        std::vector<SteeringKnot> knots;
+
+        double length() const
+        {
+            return knots.back().s - knots.front().s;
+        }
+
+        /** Cuts off what is \e most metres from its end. */
+        void trimEnd(double most)
+        {
+            const double end = knots.back().s - most;
+            while (knots.size() > 1 && knots[knots.size() - 2].s >= end)
+                knots.pop_back();
+            if (knots.size() > 1)
+                knots.back() = between(knots[knots.size() - 2], knots.back(), end);
+        }
+
+        void trimBegin(double most)
+        {
+            const double begin = knots.front().s + most;
+            auto kept = knots.begin();
+            while (kept + 1 != knots.end() && (kept + 1)->s <= begin)
+                ++kept;
+            if (kept + 1 != knots.end())
+                *kept = between(*kept, *(kept + 1), begin);
+            knots.erase(knots.begin(), kept);
+        }
+
+        static SteeringKnot between(const SteeringKnot &a, const SteeringKnot &b, double s)
+        {
+            const double part = b.s > a.s ? (s - a.s) / (b.s - a.s) : 0.0;
+            return {s, a.angle + part * (b.angle - a.angle)};
+        }
+    };
+
     namespace
     {
         /** Nodes are no farther apart than this, so that projecting onto chords errs by less than 0.5 mm. */
         constexpr double NODE_DISTANCE = 0.1;
         /** Radians that the heading may be off behind a ramp. */
         constexpr double BLEND_YAW = 4e-4;
-        /** Pieces whose curvature differs by less are one arc. */
+        /** Curvatures that differ by less do not jump. */
         constexpr double SAME_CURVATURE = 1e-6;
+        /** Knots of the steering angle nearer to each other are one. */
+        constexpr double SAME_PLACE = 1e-9;
 
         /** Metres; a shorter stretch of another curvature turns the car by less than 0.05 degrees at full lock. */
         constexpr double SHORTEST_RUN = 0.002;
         constexpr double STUB_JUMP = 0.1;  // radians of steering
 
-        /** Neighbouring pieces of equal curvature. */
-        struct Run
-        {
-            std::size_t endNode;
-            double begin;
-            double end;
-            double curvature;
-            double angle;
-
-            double length() const
-            {
-                return end - begin;
-            }
-        };
-
         /** Joins what is too short to be worth steering for, and far off the steering angles round it, to its
-           neighbour. A finely sampled clothoid has short runs too, but no jumps. */
+            neighbour. */
+        template <class Run>
         void dropStubs(std::vector<Run> &runs)
         {
             std::vector<Run> kept;
             for (std::size_t k = 0; k < runs.size(); ++k)
             {
-                const auto jumps = [&](const Run &other)
+                const bool before =
+                    kept.empty() || std::abs(kept.back().knots.back().angle - runs[k].knots.front().angle) > STUB_JUMP;
+                const bool after = k + 1 == runs.size() ||
+                                   std::abs(runs[k + 1].knots.front().angle - runs[k].knots.back().angle) > STUB_JUMP;
+                const bool alone = kept.empty() && k + 1 == runs.size();
+                if (runs[k].length() >= SHORTEST_RUN || !before || !after || alone)
                 {
-                    return std::abs(other.angle - runs[k].angle) > STUB_JUMP;
-                };
-                const bool before = kept.empty() || jumps(kept.back());
-                const bool after = k + 1 == runs.size() || jumps(runs[k + 1]);
-                if (runs[k].length() >= SHORTEST_RUN || !before || !after || runs.size() == 1)
-                {
-                    kept.push_back(runs[k]);
+                    kept.push_back(std::move(runs[k]));
                 }
                 else if (!kept.empty())
                 {
-                    kept.back().end = runs[k].end;
+                    kept.back().knots.push_back({runs[k].knots.back().s, kept.back().knots.back().angle});
                     kept.back().endNode = runs[k].endNode;
-                }
-                else if (k + 1 < runs.size())
-                {
-                    runs[k + 1].begin = runs[k].begin;
                 }
                 else
                 {
-                    kept.push_back(runs[k]);
+                    std::vector<SteeringKnot> &next = runs[k + 1].knots;
+                    next.insert(next.begin(), {runs[k].knots.front().s, next.front().angle});
                 }
             }
             runs = std::move(kept);
-        }
-
-        /** The pose \e part of the way along the piece that ends at \e node, its closing error spread evenly. */
-        Pose alongPiece(const Pose &begin, const PathNode &node, int direction, double part)
-        {
-            const double driven = direction * node.length;
-            const Pose onArc = advance(begin, node.curvature, driven * part);
-            const Pose missed = advance(begin, node.curvature, driven);
-            return {onArc.x + part * (node.pose.x - missed.x), onArc.y + part * (node.pose.y - missed.y),
-                    wrapAngle(onArc.yaw + part * wrapAngle(node.pose.yaw - missed.yaw))};
         }
     }  // namespace
 
@@ -95,7 +109,7 @@ namespace parking
         require.positive("cornerSpeed", cornerSpeed, "m/s");
     }
 
-    ReferencePath::ReferencePath(const SampledPath &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
+    ReferencePath::ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
       : vehicle_(vehicle)
     {
         vehicle.validate();
@@ -104,112 +118,127 @@ namespace parking
         corners.steeringSlope = vehicle.maxSteeringRate / parameters.cornerSpeed;
         corners.maxCut = parameters.maxCornerCut;
         corners.maxDeviation = parameters.maxCornerDeviation;
-        const DrivablePath drivable = makeDrivable(splitPath(path, vehicle), path.back().pose, vehicle, corners);
-        corners_ = drivable.corners;
-        cornerTurns_ = drivable.turns;
-        cornerDeviation_ = drivable.deviation;
-        for (const DrivablePiece &piece : drivable.pieces)
+        path_ = makeDrivable(path, vehicle, corners, &corners_);
+        for (const Stretch &stretch : path_.stretches())
         {
-            if (!legs_.empty() && legs_.back().direction == piece.direction)
-                legs_.back().end = LegEnd::Steering;
-            addSection(piece.direction, piece.nodes, parameters);
+            const std::size_t first = nodes_.size();
+            const std::vector<Run> runs = addNodes(nodes_.empty() ? path_.start : nodes_.back().pose, stretch);
+            addLegs(runs, first, stretch.direction, parameters);
         }
         legs_.back().end = LegEnd::Goal;
+        for (Node &node : nodes_)
+            node.pose.yaw = wrapAngle(node.pose.yaw);
     }
 
-    void ReferencePath::addSection(int direction, const std::vector<PathNode> &nodes,
-                                   const ReferenceParameters &parameters)
+    /** Nodes close enough to each other, and the runs of continuous curvature that they make up. */
+    std::vector<ReferencePath::Run> ReferencePath::addNodes(const Pose &begin, const Stretch &stretch)
     {
-        // Nodes, close enough to each other.
-        double s = lengths_.empty() ? 0.0 : lengths_.back();
-        std::size_t legBegin = nodes_.size();
-        nodes_.push_back(nodes.front());
-        nodes_.back().length = 0.0;
-        lengths_.push_back(s);
+        nodes_.push_back({begin, {}, nodes_.empty() ? 0.0 : nodes_.back().s});
         std::vector<Run> runs;
-        for (std::size_t i = 1; i < nodes.size(); ++i)
+        for (std::size_t i = stretch.first; i < stretch.last; ++i)
         {
-            const PathNode &node = nodes[i];
-            const int pieces = std::max(1, static_cast<int>(std::ceil(node.length / NODE_DISTANCE - 1e-9)));
-            for (int k = 1; k <= pieces; ++k)
+            const PathPiece &piece = path_.pieces[i];
+            const auto angleAt = [&](double driven)
             {
-                const Pose pose = k == pieces
-                                      ? node.pose
-                                      : alongPiece(nodes[i - 1].pose, node, direction, static_cast<double>(k) / pieces);
-                s += node.length / pieces;
-                nodes_.push_back({pose, node.curvature, node.length / pieces});
-                lengths_.push_back(s);
-            }
-            if (!runs.empty() && std::abs(runs.back().curvature - node.curvature) < SAME_CURVATURE)
+                return std::clamp(vehicle_.steeringAngle(piece.curvatureAt(driven)), -vehicle_.maxSteeringAngle,
+                                  vehicle_.maxSteeringAngle);
+            };
+            const Node from = nodes_.back();
+            if (runs.empty() || std::abs(runs.back().last.endCurvature() - piece.curvature) >= SAME_CURVATURE)
+                runs.push_back({0, piece, piece, {{from.s, angleAt(0.0)}}});
+            Run &run = runs.back();
+            const int parts = std::max(1, static_cast<int>(std::ceil(piece.driven() / NODE_DISTANCE - 1e-9)));
+            for (int k = 1; k <= parts; ++k)
             {
-                runs.back().end = s;
-                runs.back().endNode = nodes_.size() - 1;
+                const double before = piece.driven() * (k - 1) / parts, driven = piece.driven() * k / parts;
+                nodes_.push_back({advance(from.pose, piece, driven),
+                                  {piece.curvatureAt(before), piece.length / parts, piece.sharpness},
+                                  from.s + driven});
+                if (piece.sharpness != 0.0 || k == parts)
+                    run.knots.push_back({from.s + driven, angleAt(driven)});
             }
-            else
-            {
-                runs.push_back(
-                    {nodes_.size() - 1, s - node.length, s, node.curvature, vehicle_.steeringAngle(node.curvature)});
-            }
+            run.last = piece;
+            run.endNode = nodes_.size() - 1;
         }
-
         dropStubs(runs);
+        return runs;
+    }
 
+    /** Ramps the steering angle over the jumps between \e runs, or stops there. */
+    void ReferencePath::addLegs(const std::vector<Run> &runs, std::size_t firstNode, int direction,
+                                const ReferenceParameters &parameters)
+    {
         // The part of the body that a wrong heading moves most.
         const double reach = std::max(vehicle_.wheelbase + vehicle_.frontOverhang, vehicle_.rearOverhang);
         ReferenceLeg leg;
         leg.direction = direction;
-        const auto open = [&](const Run &run)
+        leg.beginLength = nodes_[firstNode].s;
+        const auto addKnots = [&leg](const Run &run)
         {
-            leg.beginLength = run.begin;
-            leg.firstNode = legBegin;
-            leg.steering.assign(1, {run.begin, run.angle});
+            for (const SteeringKnot &knot : run.knots)
+                if (leg.steering.empty() || knot.s > leg.steering.back().s + SAME_PLACE)
+                    leg.steering.push_back(knot);
         };
-        const auto close = [&](const Run &run, LegEnd end)
+        const auto close = [&](std::size_t lastNode, LegEnd end)
         {
             leg.end = end;
-            leg.endLength = run.end;
-            leg.lastNode = run.endNode;
-            if (run.end > leg.steering.back().s)
-                leg.steering.push_back({run.end, run.angle});
+            leg.endLength = leg.steering.back().s;
             legs_.push_back(leg);
-            legBegin = run.endNode;
+            legNodes_.push_back({firstNode, lastNode});
+            firstNode = lastNode;
+            leg.steering.clear();
+            leg.beginLength = leg.endLength;
         };
-        open(runs.front());
+        Run current = runs.front();
         for (std::size_t k = 0; k + 1 < runs.size(); ++k)
         {
-            const Run &before = runs[k], &after = runs[k + 1];
-            const double jump = std::abs(after.angle - before.angle);
-            const double curvatureJump = std::abs(after.curvature - before.curvature);
-            const double most =
+            Run next = runs[k + 1];
+            const double jump = std::abs(next.knots.front().angle - current.knots.back().angle);
+            const double curvatureJump = std::abs(next.first.curvature - current.last.endCurvature());
+            double most =
                 std::min(0.5 * parameters.maxBlendLength, 4.0 * parameters.bodyTolerance / (reach * curvatureJump));
-            double left = std::min(most, 0.5 * before.length());
-            double right = std::min(most, 0.5 * after.length());
+            // A ramp of half length l that replaces clothoids leaves the heading off by the change of sharpness * l^2
+            // / 2.
+            if (const double kink = std::abs(next.first.sharpness - current.last.sharpness); kink > 0.0)
+                most = std::min(most, std::sqrt(2.0 * BLEND_YAW / kink));
+            double left = std::min({most, 0.5 * runs[k].length(), current.last.driven()});
+            double right = std::min({most, 0.5 * next.length(), next.first.driven()});
             // A ramp that lies unevenly round its jump leaves the heading off by |jump| * |left - right| / 2.
             const double uneven = 2.0 * BLEND_YAW / curvatureJump;
             left = std::min(left, right + uneven);
             right = std::min(right, left + uneven);
-            if (vehicle_.maxSteeringRate * (left + right) < parameters.minBlendSpeed * jump)
+            const bool stops = vehicle_.maxSteeringRate * (left + right) < parameters.minBlendSpeed * jump;
+            if (!stops)
             {
-                close(before, LegEnd::Steering);
-                open(after);
-                continue;
+                current.trimEnd(left);
+                next.trimBegin(right);
             }
-            if (before.end - left > leg.steering.back().s + 1e-9)
-                leg.steering.push_back({before.end - left, before.angle});
-            leg.steering.push_back({after.begin + right, after.angle});
+            addKnots(current);
+            if (stops)
+                close(current.endNode, LegEnd::Steering);
+            current = std::move(next);
         }
-        close(runs.back(), LegEnd::Cusp);
+        addKnots(current);
+        close(current.endNode, LegEnd::Cusp);
+    }
+
+    std::size_t ReferencePath::nodeBehind(std::size_t leg, double s) const
+    {
+        const auto begin = nodes_.begin() + static_cast<std::ptrdiff_t>(legNodes_[leg].first) + 1;
+        const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(legNodes_[leg].last);
+        const auto node =
+            std::lower_bound(begin, end, s, [](const Node &each, double value) { return each.s < value; });
+        return static_cast<std::size_t>(node - nodes_.begin());
     }
 
     Pose ReferencePath::pose(std::size_t leg, double s) const
     {
-        const ReferenceLeg &l = legs_[leg];
-        const auto begin = lengths_.begin() + static_cast<std::ptrdiff_t>(l.firstNode) + 1;
-        const auto end = lengths_.begin() + static_cast<std::ptrdiff_t>(l.lastNode);
-        const auto i = static_cast<std::size_t>(std::lower_bound(begin, end, s) - lengths_.begin());
-        const double length = nodes_[i].length;
-        const double part = std::clamp((s - lengths_[i - 1]) / length, 0.0, 1.0);
-        return alongPiece(nodes_[i - 1].pose, nodes_[i], l.direction, part);
+        const std::size_t i = nodeBehind(leg, s);
+        const Node &from = nodes_[i - 1];
+        const PathPiece &piece = nodes_[i].piece;
+        Pose pose = advance(from.pose, piece, std::clamp(s - from.s, 0.0, piece.driven()));
+        pose.yaw = wrapAngle(pose.yaw);
+        return pose;
     }
 
     double ReferencePath::steering(std::size_t leg, double s) const
@@ -236,29 +265,27 @@ namespace parking
         const ReferenceLeg &l = legs_[leg];
         from = std::clamp(from, l.beginLength, l.endLength);
         to = std::clamp(to, from, l.endLength);
-        const auto begin = lengths_.begin() + static_cast<std::ptrdiff_t>(l.firstNode) + 1;
-        const auto end = lengths_.begin() + static_cast<std::ptrdiff_t>(l.lastNode);
-        auto i = static_cast<std::size_t>(std::lower_bound(begin, end, from) - lengths_.begin());
         double best = std::numeric_limits<double>::infinity();
         double s = from;
-        for (; i <= l.lastNode; ++i)
+        for (std::size_t i = nodeBehind(leg, from); i <= legNodes_[leg].last; ++i)
         {
-            const Pose &a = nodes_[i - 1].pose, &b = nodes_[i].pose;
-            const double dx = b.x - a.x, dy = b.y - a.y;
+            const Node &a = nodes_[i - 1], &b = nodes_[i];
+            const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y, length = b.s - a.s;
             const double squared = dx * dx + dy * dy;
-            const double lowest = std::max(0.0, (from - lengths_[i - 1]) / nodes_[i].length);
-            const double highest = std::min(1.0, (to - lengths_[i - 1]) / nodes_[i].length);
-            const double part = squared > 0.0 ? std::clamp(((pose.x - a.x) * dx + (pose.y - a.y) * dy) / squared,
-                                                           lowest, std::max(lowest, highest))
-                                              : lowest;
-            const double ex = pose.x - (a.x + part * dx), ey = pose.y - (a.y + part * dy);
+            const double lowest = std::max(0.0, (from - a.s) / length);
+            const double highest = std::min(1.0, (to - a.s) / length);
+            const double part = squared > 0.0
+                                    ? std::clamp(((pose.x - a.pose.x) * dx + (pose.y - a.pose.y) * dy) / squared,
+                                                 lowest, std::max(lowest, highest))
+                                    : lowest;
+            const double ex = pose.x - (a.pose.x + part * dx), ey = pose.y - (a.pose.y + part * dy);
             const double apart = ex * ex + ey * ey;
             if (apart < best)
             {
                 best = apart;
-                s = lengths_[i - 1] + part * nodes_[i].length;
+                s = a.s + part * length;
             }
-            if (lengths_[i] >= to)
+            if (b.s >= to)
                 break;
         }
         // From the chord to the arc: one step along it.

@@ -2,7 +2,7 @@
 
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
-#include "path_tracking/reference/PathSections.h"
+#include "path_tracking/reference/MakeDrivable.h"
 
 #include <cstddef>
 #include <vector>
@@ -46,15 +46,13 @@ namespace parking
         double angle;  ///< radians
     };
 
-    /** \brief A stretch between two standstills. */
+    /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
     struct ReferenceLeg
     {
         int direction{1};
         LegEnd end{LegEnd::Goal};
         double beginLength{0.0};             ///< metres since the begin of the path
         double endLength{0.0};               ///< metres since the begin of the path
-        std::size_t firstNode{0};            ///< index of the node where it begins
-        std::size_t lastNode{0};             ///< index of the node where it ends
         std::vector<SteeringKnot> steering;  ///< at least two, first at beginLength, last at endLength
 
         double length() const
@@ -75,34 +73,32 @@ namespace parking
 
     /** \brief A path made ready for being driven: legs between standstills, each with its steering angle.
 
-        What is done to the path that a planner delivers:
-        - It ends where the direction changes; the car stands there.
-        - Samples of a continuous curvature are steps of constant curvature. The steering angle is interpolated between
-          the middles of the steps, so that a clothoid gets its ramp back.
-        - A true jump of the curvature (from an arc to a line) is spread over a ramp round the jump. By symmetry the car
+        What a Path does not say is how the wheels turn where its curvature jumps; that is added here:
+        - A leg ends where the direction changes; the car stands there.
+        - Along a clothoid the steering angle follows the curvature exactly.
+        - A jump of the curvature (from an arc to a line) is spread over a ramp round the jump. By symmetry the car
           returns to the path's heading behind it; in the middle its heading is off by |jump| * ramp / 8. The ramp is as
           long as bodyTolerance allows for the body's farthest point. If it needed a speed below minBlendSpeed, the leg
           ends there instead and the car steers at standstill.
-        - Sharp corners are cut or turned at (see makeDrivable()); the path's stand-in is the reference then.
-
-        Poses between two nodes lie on their arc. */
+        - Turns on the spot, which are sharp corners, are cut or shunted at (see makeDrivable()); the path without them
+          is the reference then. */
     class ReferencePath
     {
     public:
         /** \brief Prepares \e path.
 
-            Throws parking::Error as splitPath() and validate() of the arguments do, and when the corners of the path
-            cannot be driven within maxCornerDeviation. */
-        ReferencePath(const SampledPath &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
+            Throws parking::Error as makeDrivable() and validate() of the arguments do. */
+        ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
 
         const std::vector<ReferenceLeg> &legs() const
         {
             return legs_;
         }
 
-        const std::vector<PathNode> &nodes() const
+        /** \brief The path that is driven: the given one without its corners. */
+        const Path &path() const
         {
-            return nodes_;
+            return path_;
         }
 
         const Vehicle &vehicle() const
@@ -113,7 +109,7 @@ namespace parking
         /** \brief Metres driven. */
         double length() const
         {
-            return lengths_.back();
+            return nodes_.back().s;
         }
 
         /** \brief The pose at \e s metres since the begin, on leg \e leg (cut to its ends); yaw wrapped. */
@@ -136,33 +132,40 @@ namespace parking
             return nodes_.back().pose;
         }
 
-        /** \brief Sharp corners of the given path. */
-        std::size_t corners() const
+        /** \brief What became of the corners of the given path. */
+        const CornerReport &corners() const
         {
             return corners_;
         }
 
-        /** \brief Of those, how many the car shunts at. */
-        std::size_t cornerTurns() const
-        {
-            return cornerTurns_;
-        }
-
-        /** \brief Metres that the reference leaves the given path at most (0 without corners). */
-        double cornerDeviation() const
-        {
-            return cornerDeviation_;
-        }
-
     private:
-        void addSection(int direction, const std::vector<PathNode> &nodes, const ReferenceParameters &parameters);
+        /** A place on the path and the piece that leads to it from the node before. */
+        struct Node
+        {
+            Pose pose;
+            PathPiece piece;
+            double s{0.0};  ///< metres since the begin
+        };
+
+        /** Nodes of a leg. */
+        struct NodeRange
+        {
+            std::size_t first;
+            std::size_t last;
+        };
+
+        struct Run;
+
+        std::size_t nodeBehind(std::size_t leg, double s) const;
+        std::vector<Run> addNodes(const Pose &begin, const Stretch &stretch);
+        void addLegs(const std::vector<Run> &runs, std::size_t firstNode, int direction,
+                     const ReferenceParameters &parameters);
 
         Vehicle vehicle_;
-        std::vector<PathNode> nodes_;
-        std::vector<double> lengths_;  // per node, metres since the begin
+        Path path_;
+        CornerReport corners_;
+        std::vector<Node> nodes_;
         std::vector<ReferenceLeg> legs_;
-        std::size_t corners_{0};
-        std::size_t cornerTurns_{0};
-        double cornerDeviation_{0.0};
+        std::vector<NodeRange> legNodes_;  // per leg
     };
 }  // namespace parking

@@ -18,7 +18,7 @@ namespace parking
         /** Points of a sampled profile. */
         constexpr double MOST_POINTS = 1e7;
 
-        /** A stretch of a leg with one cap on the squared speed. */
+        /** A part of a leg with one cap on the squared speed. */
         struct CapInterval
         {
             double begin;
@@ -78,7 +78,7 @@ namespace parking
         checkLimit("lateralAcceleration", lateralAcceleration, "m/s^2");
     }
 
-    SpeedProfile::SpeedProfile(const SampledPath &path, const Vehicle &vehicle)
+    SpeedProfile::SpeedProfile(const Path &path, const Vehicle &vehicle)
       : SpeedProfile(ReferencePath(path, vehicle), SpeedLimits::of(vehicle))
     {
     }

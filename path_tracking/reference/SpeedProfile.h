@@ -54,7 +54,7 @@ namespace parking
                      std::optional<double> finalSteering = std::nullopt);
 
         /** \brief Prepares \e path with default parameters and times it within the limits of \e vehicle. */
-        SpeedProfile(const SampledPath &path, const Vehicle &vehicle);
+        SpeedProfile(const Path &path, const Vehicle &vehicle);
 
         const ReferencePath &reference() const
         {

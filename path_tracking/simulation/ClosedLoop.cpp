@@ -79,7 +79,7 @@ namespace parking
                     check(state.pose);
             }
 
-            Evaluation finish(const SampledPath &path, double travelTime)
+            Evaluation finish(const Path &path, double travelTime)
             {
                 const ReferencePath &reference = controller_.profile().reference();
                 if (clearance_ || validity_)
@@ -87,7 +87,7 @@ namespace parking
                 figures_.plannedLength = reference.length();
                 figures_.plannedTime = controller_.profile().duration();
                 figures_.travelTime = travelTime;
-                figures_.cornerDeviation = reference.cornerDeviation();
+                figures_.cornerDeviation = reference.corners().deviation;
                 figures_.standstills = reference.legs().size() - 1;
                 if (time_ > 0.0)
                 {
@@ -96,7 +96,7 @@ namespace parking
                 }
                 if (legTime_ > 0.0)
                     figures_.meanCrossTrack = crossTrackTime_ / legTime_;
-                const Pose &wanted = path.back().pose;
+                const Pose wanted = path.end();
                 figures_.finalPositionError = std::hypot(last_.pose.x - wanted.x, last_.pose.y - wanted.y);
                 figures_.finalYawError = std::abs(wrapAngle(last_.pose.yaw - wanted.yaw));
                 const Pose end = reference.end();
@@ -174,12 +174,11 @@ namespace parking
         solve_ = std::move(solve);
     }
 
-    DriveResult ClosedLoop::drive(const SampledPath &path, const std::optional<Pose> &start,
-                                  double initialSteering) const
+    DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
     {
         TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering, solve_);
         const ReferencePath &reference = controller.profile().reference();
-        Plant plant(vehicle_, parameters_.disturbances, start.value_or(path.front().pose), initialSteering,
+        Plant plant(vehicle_, parameters_.disturbances, start.value_or(path.start), initialSteering,
                     parameters_.plantStep);
         Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);
         recorder.begin(plant.state());

@@ -5,80 +5,58 @@
 
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <vector>
 
 namespace parking::test
 {
-    /** A path of arcs, sampled. Curvatures as shares of the car's largest. */
-    inline SampledPath arcs(const Pose &start, const std::vector<Arc> &pieces, double step = 0.1,
-                            const Vehicle &vehicle = {})
+    /** A path of arcs. Curvatures as shares of the car's largest. */
+    inline Path arcs(const Pose &start, const std::vector<Arc> &pieces, const Vehicle &vehicle = {})
     {
         Path path{start, {}};
         for (const Arc &piece : pieces)
             path.append({piece.curvature / vehicle.minTurningRadius(), piece.length});
-        return path.sample(step);
+        return path;
     }
 
-    /** A piece of a path of continuous curvature: curvature as a function of the driven length, one direction. */
-    struct SmoothPiece
-    {
-        double length;
-        int direction;
-        std::function<double(double)> curvature;
-    };
+    /** A part of a path of continuous curvature, in one direction. */
+    using SmoothPart = std::vector<PathPiece>;
 
-    /** Samples pieces of continuous curvature: exact poses (integrated in steps of 1 mm), curvature of each sample that
-        of the arc between its poses. */
-    inline SampledPath smooth(const Pose &start, const std::vector<SmoothPiece> &pieces, double step = 0.1)
+    inline Path smooth(const Pose &start, const std::vector<SmoothPart> &parts)
     {
-        SampledPath path;
-        PathState state;
-        state.pose = start;
-        for (const SmoothPiece &piece : pieces)
-        {
-            state.direction = piece.direction;
-            state.curvature = piece.curvature(0.0);
-            if (path.empty())
-                path.push_back(state);
-            const int samples = std::max(1, static_cast<int>(std::ceil(piece.length / step)));
-            const double sampleLength = piece.length / samples;
-            const int fine = std::max(1, static_cast<int>(std::ceil(sampleLength / 0.001)));
-            const double h = sampleLength / fine;
-            for (int i = 0; i < samples; ++i)
-            {
-                const double yaw = state.pose.yaw;
-                for (int k = 0; k < fine; ++k)
-                    state.pose =
-                        advance(state.pose, piece.curvature(i * sampleLength + (k + 0.5) * h), piece.direction * h);
-                state.curvature = (state.pose.yaw - yaw) / (piece.direction * sampleLength);
-                state.arcLength += sampleLength;
-                path.push_back(state);
-            }
-        }
-        for (PathState &each : path)
-            each.pose.yaw = wrapAngle(each.pose.yaw);
+        Path path{start, {}};
+        for (const SmoothPart &part : parts)
+            for (const PathPiece &piece : part)
+                path.append(piece);
         return path;
     }
 
     /** Curvature that rises from 0 at constant rate, is held, and falls to 0 again: clothoid, arc, clothoid. */
-    inline SmoothPiece clothoidTurn(int direction, double curvature, double ramp, double arc)
+    inline SmoothPart clothoidTurn(int direction, double curvature, double ramp, double arc)
     {
-        return {2.0 * ramp + arc, direction,
-                [=](double s)
-                {
-                    return curvature * std::min({1.0, s / ramp, (2.0 * ramp + arc - s) / ramp});
-                }};
+        const double sharpness = curvature / ramp;
+        return {{0.0, direction * ramp, sharpness},
+                {curvature, direction * arc},
+                {curvature, direction * ramp, -sharpness}};
     }
 
-    inline SmoothPiece straight(int direction, double length)
+    inline SmoothPart straight(int direction, double length)
     {
-        return {length, direction,
-                [](double)
-                {
-                    return 0.0;
-                }};
+        return {{0.0, direction * length}};
+    }
+
+    /** The same path in arcs no longer than \e step, each turning as far as its part of the path: what is left of a
+        clothoid when somebody has sampled it. */
+    inline Path inArcs(const Path &path, double step)
+    {
+        const SampledPath states = path.sample(step);
+        Path result{path.start, {}};
+        for (std::size_t i = 1; i < states.size(); ++i)
+        {
+            const double length = states[i].direction * (states[i].arcLength - states[i - 1].arcLength);
+            result.append({wrapAngle(states[i].pose.yaw - states[i - 1].pose.yaw) / length, length});
+        }
+        return result;
     }
 
     /** Numbers that are the same with every standard library. */
@@ -104,7 +82,7 @@ namespace parking::test
     };
 
     /** What a Reeds-Shepp planner delivers: full-lock arcs and lines, with cusps. */
-    inline SampledPath randomReedsShepp(std::uint64_t seed, double length, double step = 0.1)
+    inline Path randomReedsShepp(std::uint64_t seed, double length)
     {
         Random random(seed);
         std::vector<Arc> pieces;
@@ -119,11 +97,11 @@ namespace parking::test
             if (random.below(3) == 0)
                 direction = -direction;
         }
-        return arcs({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces, step);
+        return arcs({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces);
     }
 
     /** What a lattice planner with five steering angles delivers: arcs of half a metre. */
-    inline SampledPath randomLattice(std::uint64_t seed, double length)
+    inline Path randomLattice(std::uint64_t seed, double length)
     {
         Random random(seed);
         const Vehicle vehicle;
@@ -137,15 +115,15 @@ namespace parking::test
             if (random.below(8) == 0)
                 direction = -direction;
         }
-        return path.sample(0.1);
+        return path;
     }
 
     /** What a smoothing planner delivers: clothoids, arcs and lines of continuous curvature, with cusps. */
-    inline SampledPath randomSmooth(std::uint64_t seed, double length, double step = 0.1)
+    inline Path randomSmooth(std::uint64_t seed, double length)
     {
         Random random(seed);
         const double most = 1.0 / Vehicle().minTurningRadius();
-        std::vector<SmoothPiece> pieces;
+        std::vector<SmoothPart> pieces;
         int direction = random.below(2) == 0 ? 1 : -1;
         double left = length;
         while (left > 0.0)
@@ -160,39 +138,25 @@ namespace parking::test
                 pieces.push_back(clothoidTurn(direction, curvature, std::abs(curvature) * random.uniform(3.0, 9.0),
                                               random.uniform(0.1, 3.0)));
             }
-            left -= pieces.back().length;
+            for (const PathPiece &piece : pieces.back())
+                left -= piece.driven();
             if (random.below(3) == 0)
                 direction = -direction;
         }
-        return smooth({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces, step);
+        return smooth({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces);
     }
 
-    /** What a grid planner delivers: straight chords, headings those of the chords, curvature 0.
+    /** What a grid planner delivers: straight chords with turns on the spot between them.
 
-        \param turns radians of the corner after each chord
-        \param headingBefore is the heading at a corner that of the chord before it, or after? */
-    inline SampledPath chords(const Pose &start, const std::vector<double> &lengths, const std::vector<double> &turns,
-                              bool headingBefore, double step = 0.0)
+        \param turns radians of the corner behind each chord */
+    inline Path chords(const Pose &start, const std::vector<double> &lengths, const std::vector<double> &turns)
     {
-        SampledPath path;
-        PathState state;
-        state.pose = start;
-        path.push_back(state);
+        Path path{start, {}};
         for (std::size_t i = 0; i < lengths.size(); ++i)
         {
-            const int pieces = step > 0.0 ? std::max(1, static_cast<int>(std::ceil(lengths[i] / step))) : 1;
-            for (int k = 0; k < pieces; ++k)
-            {
-                state.pose = advance(state.pose, 0.0, lengths[i] / pieces);
-                state.arcLength += lengths[i] / pieces;
-                path.push_back(state);
-            }
+            path.append({0.0, lengths[i]});
             if (i < turns.size())
-            {
-                state.pose.yaw = wrapAngle(state.pose.yaw + turns[i]);
-                if (!headingBefore)
-                    path.back().pose.yaw = state.pose.yaw;
-            }
+                path.append(PathPiece::turnOnTheSpot(turns[i]));
         }
         return path;
     }

@@ -1,7 +1,7 @@
 #include "path_tracking/control/MpcCost.h"
 
-#include "tests/path_tracking/control/MpcProblems.h"
 #include "path_tracking/simulation/BicycleModel.h"
+#include "tests/path_tracking/control/MpcProblems.h"
 
 #include <gtest/gtest.h>
 

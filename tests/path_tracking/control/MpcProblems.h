@@ -36,9 +36,9 @@ namespace parking::test
     inline MpcProblem randomProblem(std::uint64_t seed, const MpcParameters &mpc)
     {
         Random random(seed);
-        const SampledPath path = seed % 3 == 0   ? randomReedsShepp(seed, 12.0)
-                                 : seed % 3 == 1 ? randomLattice(seed, 12.0)
-                                                 : randomSmooth(seed, 12.0);
+        const Path path = seed % 3 == 0   ? randomReedsShepp(seed, 12.0)
+                          : seed % 3 == 1 ? randomLattice(seed, 12.0)
+                                          : randomSmooth(seed, 12.0);
         const SpeedProfile profile(path, Vehicle());
         const auto leg = static_cast<std::size_t>(random.below(static_cast<int>(profile.reference().legs().size())));
         MpcProblem problem =

@@ -1,9 +1,9 @@
 #include "path_tracking/control/Mpc.h"
 
-#include "tests/path_tracking/control/MpcProblems.h"
 #include "parking_geometry/Error.h"
 #include "path_tracking/control/MpcCost.h"
 #include "path_tracking/control/MpcWorkingSet.h"
+#include "tests/path_tracking/control/MpcProblems.h"
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ namespace parking::test
             const MpcParameters mpc;
             for (std::uint64_t seed = 0; seed < 10; ++seed)
             {
-                const SpeedProfile profile(randomSmooth(seed, 15.0, 0.05), Vehicle());
+                const SpeedProfile profile(randomSmooth(seed, 15.0), Vehicle());
                 const double time = 0.4 * profile.legDuration(0);
                 const MpcProblem problem = problemOn(profile, 0, time, mpc);
                 Mpc controller(Vehicle(), mpc);

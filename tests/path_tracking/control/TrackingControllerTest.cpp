@@ -30,12 +30,12 @@ namespace parking::test
 
         /** Lets a controller drive a car, \e spoil changing what the controller measures at a time. Every command is
             checked against the limits of the car. */
-        Drive driveWith(TrackingController &controller, const SampledPath &path,
+        Drive driveWith(TrackingController &controller, const Path &path,
                         const std::function<void(double, Measurement &)> &spoil = {})
         {
             const Vehicle vehicle;
             const double period = controller.parameters().mpc.step;
-            Plant plant(vehicle, {}, path.front().pose, 0.0, 0.005);
+            Plant plant(vehicle, {}, path.start, 0.0, 0.005);
             Drive drive;
             double steering = 0.0;
             int standing = 0;
@@ -71,19 +71,19 @@ namespace parking::test
             return drive;
         }
 
-        SampledPath examplePath()
+        Path examplePath()
         {
             return arcs({1.0, 2.0, 0.5}, {{0.0, 3.0}, {1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}});
         }
 
         TEST(TrackingController, ArrivesAndKeepsStanding)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path);
             EXPECT_EQ(drive.mode, TrackingMode::Arrived);
             EXPECT_EQ(drive.events, 0);
-            const Pose off = relativeTo(path.back().pose, drive.end);
+            const Pose off = relativeTo(path.end(), drive.end);
             EXPECT_LT(std::hypot(off.x, off.y), 0.005);
             EXPECT_LT(std::abs(off.yaw), 0.005);
             for (int i = 0; i < 5; ++i)
@@ -117,7 +117,7 @@ namespace parking::test
 
         TEST(TrackingController, SurvivesAShortFailureOfTheSolver)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             const TrackingParameters parameters;
             TrackingController controller(path, Vehicle(), parameters, 0.0,
                                           spoiled(12, parameters.maxFailures, failure));
@@ -130,7 +130,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsOnThePathWhenTheSolverKeepsFailing)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             const TrackingParameters parameters;
             for (const int from : {0, 5, 20, 35, 60})
                 for (const bool wild : {false, true})
@@ -156,7 +156,7 @@ namespace parking::test
 
         TEST(TrackingController, AWildOptimiserCannotRunAway)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             for (const double sign : {1.0, -1.0})
             {
                 const auto wild = [sign](const MpcProblem &)
@@ -176,7 +176,7 @@ namespace parking::test
 
         TEST(TrackingController, BridgesLostMeasurementsAndStopsWhenTheyStayAway)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             const TrackingParameters parameters;
             for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
             {
@@ -207,7 +207,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsOnRequest)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             TrackingController controller(path, Vehicle());
             bool asked = false;
             double place = 0.0;
@@ -223,7 +223,7 @@ namespace parking::test
             EXPECT_EQ(drive.mode, TrackingMode::Stopped);
             EXPECT_EQ(drive.event, "safe stop: the map has changed");
             EXPECT_LT(drive.farthest, 0.01);
-            EXPECT_LT(drive.stoppedAt, path.back().arcLength - 1.0);
+            EXPECT_LT(drive.stoppedAt, path.length() - 1.0);
         }
 
         TEST(TrackingController, ASafeStopLeadsBackTowardsThePath)
@@ -232,9 +232,9 @@ namespace parking::test
             for (const double direction : {1.0, -1.0})
                 for (const Pose &error : {Pose{0.0, 0.3, 0.0}, Pose{0.0, 0.0, 0.15}, Pose{0.0, -0.2, -0.1}})
                 {
-                    const SampledPath path = arcs({}, {{0.0, direction * 30.0}});
+                    const Path path = arcs({}, {{0.0, direction * 30.0}});
                     TrackingController controller(path, vehicle);
-                    Plant plant(vehicle, {}, compose(path.front().pose, error), 0.0, 0.005);
+                    Plant plant(vehicle, {}, compose(path.start, error), 0.0, 0.005);
                     plant.drive({direction * 1.0, 0.0, false}, 2.0, {});
                     const Pose begin = plant.state().pose;
                     controller.step(plant.measure());
@@ -266,7 +266,7 @@ namespace parking::test
 
         TEST(TrackingController, StandingShortOfTheEndIsAcceptedOrNotAfterAWhile)
         {
-            const SampledPath path = arcs({}, {{0.0, 3.0}});
+            const Path path = arcs({}, {{0.0, 3.0}});
             const TrackingParameters parameters;
             TrackingController near(path, Vehicle(), parameters, 0.0, shyOf(0.05));
             const Drive accepted = driveWith(near, path);
@@ -281,28 +281,28 @@ namespace parking::test
 
         TEST(TrackingController, StopsWhenTheCarStandsElsewhere)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             for (const Pose &error : {Pose{0.0, 0.51, 0.0}, Pose{0.0, 0.0, 0.72}})
             {
                 TrackingController controller(path, Vehicle());
-                const TrackingStep step = controller.step({compose(path.front().pose, error), 0.0, 0.0});
+                const TrackingStep step = controller.step({compose(path.start, error), 0.0, 0.0});
                 EXPECT_EQ(step.event.rfind("safe stop: the ", 0), 0u) << step.event;
             }
             for (const Pose &error : {Pose{0.0, 0.49, 0.0}, Pose{0.0, 0.0, 0.68}})
             {
                 TrackingController controller(path, Vehicle());
-                EXPECT_EQ(controller.step({compose(path.front().pose, error), 0.0, 0.0}).event, "");
+                EXPECT_EQ(controller.step({compose(path.start, error), 0.0, 0.0}).event, "");
             }
         }
 
         TEST(TrackingController, BrakesAsSoonAsTheEndIsPassed)
         {
             // A car that is ahead of its time by a metre and still fast.
-            const SampledPath path = arcs({}, {{0.0, 3.0}});
+            const Path path = arcs({}, {{0.0, 3.0}});
             for (const double beyond : {-0.01, 0.01})
             {
                 TrackingController controller(path, Vehicle());
-                controller.step({path.front().pose, 0.0, 0.0});
+                controller.step({path.start, 0.0, 0.0});
                 TrackingStep step;
                 for (int i = 0; i < 40; ++i)
                 {
@@ -317,7 +317,7 @@ namespace parking::test
 
         TEST(TrackingController, StopsWhenTheWheelsDoNotTurn)
         {
-            const SampledPath path = arcs({}, {{1.0, 3.0}});
+            const Path path = arcs({}, {{1.0, 3.0}});
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path, [](double, Measurement &m) { m.steering = 0.1; });
             EXPECT_EQ(drive.mode, TrackingMode::Stopped);
@@ -327,13 +327,13 @@ namespace parking::test
 
         TEST(TrackingController, GivesUpOnACarThatDoesNotMove)
         {
-            const SampledPath path = arcs({}, {{0.0, 3.0}});
+            const Path path = arcs({}, {{0.0, 3.0}});
             TrackingController controller(path, Vehicle());
             TrackingMode mode = TrackingMode::Driving;
             std::string event;
             for (int i = 0; i < 200 && mode != TrackingMode::Stopped; ++i)
             {
-                const TrackingStep step = controller.step({path.front().pose, 0.0, 0.0});
+                const TrackingStep step = controller.step({path.start, 0.0, 0.0});
                 mode = step.mode;
                 if (!step.event.empty())
                     event = step.event;
@@ -344,7 +344,7 @@ namespace parking::test
 
         TEST(TrackingController, RefusesBadParameters)
         {
-            const SampledPath path = examplePath();
+            const Path path = examplePath();
             const auto refused = [&path](const auto &change)
             {
                 TrackingParameters parameters;
@@ -363,7 +363,7 @@ namespace parking::test
             refused([](TrackingParameters &p) { p.reference.cornerSpeed = 0.0; });
             refused([](TrackingParameters &p) { p.estimator.drift = 0.0; });
             EXPECT_THROW(TrackingController({}, Vehicle()), Error);
-            EXPECT_THROW(TrackingController(SampledPath(1), Vehicle()), Error);
+            EXPECT_THROW(TrackingController(Path{}, Vehicle()), Error);
             Vehicle slow;
             slow.maxSpeed = 1e-6;  // a valid car that no timed path suits
             EXPECT_THROW(TrackingController(path, slow), Error);

@@ -1,4 +1,4 @@
-#include "path_tracking/reference/DrivablePath.h"
+#include "path_tracking/reference/MakeDrivable.h"
 #include "path_tracking/reference/ReferencePath.h"
 
 #include "parking_geometry/Error.h"
@@ -13,9 +13,10 @@ namespace parking::test
 {
     namespace
     {
-        /** Distance of a point from a polyline of states, by brute force. */
-        double distanceTo(const SampledPath &path, const Pose &point)
+        /** Distance of a point from a path, by brute force. */
+        double distanceTo(const Path &exact, const Pose &point)
         {
+            const SampledPath path = exact.sample(0.02);
             double best = 1e9;
             for (std::size_t i = 1; i < path.size(); ++i)
             {
@@ -29,44 +30,83 @@ namespace parking::test
             return best;
         }
 
-        /** Checks that the legs of a reference are drivable arcs that hang together. */
+        /** Checks that a car can drive what a reference follows, and that its poses are those of that path. */
         void expectDrivable(const ReferencePath &reference)
         {
             const double most = 1.0 / reference.vehicle().minTurningRadius();
-            for (const ReferenceLeg &leg : reference.legs())
-                for (std::size_t i = leg.firstNode + 1; i <= leg.lastNode; ++i)
-                {
-                    const PathNode &from = reference.nodes()[i - 1], &to = reference.nodes()[i];
-                    EXPECT_LE(std::abs(to.curvature), most * (1.0 + 1e-9));
-                    const Pose driven = advance(from.pose, to.curvature, leg.direction * to.length);
-                    EXPECT_NEAR(driven.x, to.pose.x, 0.006);
-                    EXPECT_NEAR(driven.y, to.pose.y, 0.006);
-                    EXPECT_NEAR(wrapAngle(driven.yaw - to.pose.yaw), 0.0, 0.006);
-                }
-            for (std::size_t i = 1; i < reference.legs().size(); ++i)
+            for (const PathPiece &piece : reference.path().pieces)
             {
-                const Pose &end = reference.nodes()[reference.legs()[i - 1].lastNode].pose;
-                const Pose &begin = reference.nodes()[reference.legs()[i].firstNode].pose;
-                EXPECT_NEAR(std::hypot(end.x - begin.x, end.y - begin.y), 0.0, 0.011);
-                EXPECT_NEAR(wrapAngle(end.yaw - begin.yaw), 0.0, CORNER_ANGLE);
+                EXPECT_EQ(piece.turn, 0.0);
+                EXPECT_LE(std::abs(piece.curvature), most * (1.0 + 1e-9));
+                EXPECT_LE(std::abs(piece.endCurvature()), most * (1.0 + 1e-9));
             }
+            const Pose off = relativeTo(reference.path().end(), reference.end());
+            EXPECT_NEAR(off.x, 0.0, 1e-9);
+            EXPECT_NEAR(off.y, 0.0, 1e-9);
+            EXPECT_NEAR(off.yaw, 0.0, 1e-9);
         }
 
         TEST(Corners, AreCutByLittleMoreThanTheInscribedArc)
         {
             const double radius = Vehicle().minTurningRadius();
-            for (const double degrees : {5.0, 15.0, 26.565, 45.0, 60.0})
-                for (const bool before : {true, false})
+            for (const double degrees : {0.5, 5.0, 15.0, 26.565, 45.0, 60.0})
+            {
+                const double angle = degrees * PI / 180.0;
+                const Path path = chords({3.0, 1.0, 2.0}, {10.0, 10.0}, {angle});
+                const ReferencePath reference(path, Vehicle());
+                const double inscribed = radius * (1.0 / std::cos(0.5 * angle) - 1.0);
+                EXPECT_EQ(reference.corners().corners, 1u);
+                EXPECT_EQ(reference.corners().shunts, 0u) << degrees;
+                EXPECT_LE(reference.corners().deviation, inscribed + 0.03) << degrees;
+                EXPECT_EQ(reference.legs().size(), 1u);
+                expectDrivable(reference);
+                // Behind the corner the car is on the path again, exactly unless it takes ten metres to settle.
+                const Pose off = relativeTo(path.end(), reference.end());
+                EXPECT_LE(std::hypot(off.x, off.y), degrees < 60.0 ? 1e-9 : 0.02) << degrees;
+                EXPECT_LE(std::abs(off.yaw), degrees < 60.0 ? 1e-9 : 0.03) << degrees;
+            }
+        }
+
+        TEST(Corners, APathWithoutThemIsLeftAlone)
+        {
+            const Path path = randomReedsShepp(4, 20.0);
+            CornerReport report;
+            const Path same = makeDrivable(path, Vehicle(), {}, &report);
+            ASSERT_EQ(same.pieces.size(), path.pieces.size());
+            for (std::size_t i = 0; i < path.pieces.size(); ++i)
+            {
+                EXPECT_EQ(same.pieces[i].curvature, path.pieces[i].curvature);
+                EXPECT_EQ(same.pieces[i].length, path.pieces[i].length);
+            }
+            EXPECT_EQ(report.corners, 0u);
+            EXPECT_EQ(report.deviation, 0.0);
+        }
+
+        TEST(Corners, NonsenseIsRefusedNamingThePiece)
+        {
+            const auto errorOf = [](const PathPiece &piece)
+            {
+                try
                 {
-                    const double angle = degrees * PI / 180.0;
-                    const ReferencePath reference(chords({3.0, 1.0, 2.0}, {10.0, 10.0}, {angle}, before), Vehicle());
-                    const double inscribed = radius * (1.0 / std::cos(0.5 * angle) - 1.0);
-                    EXPECT_EQ(reference.corners(), 1u);
-                    EXPECT_EQ(reference.cornerTurns(), 0u) << degrees;
-                    EXPECT_LE(reference.cornerDeviation(), inscribed + 0.03) << degrees;
-                    EXPECT_EQ(reference.legs().size(), 1u);
-                    expectDrivable(reference);
+                    makeDrivable({{}, {{0.0, 1.0}, piece}}, Vehicle());
                 }
+                catch (const Error &error)
+                {
+                    return std::string(error.what());
+                }
+                return std::string();
+            };
+            const double most = 1.0 / Vehicle().minTurningRadius();
+            EXPECT_EQ(errorOf({1.009 * most, 1.0}), "");
+            EXPECT_NE(errorOf({1.011 * most, 1.0}).find("path piece 1: curvature"), std::string::npos);
+            EXPECT_NE(errorOf({0.0, 2.0, 0.51 * most}).find("path piece 1: curvature"), std::string::npos);
+            EXPECT_NE(errorOf({0.0, std::nan("")}).find("path piece 1: "), std::string::npos);
+            PathPiece both(0.0, 1.0);
+            both.turn = 1.0;
+            EXPECT_NE(errorOf(both).find("both drives and turns"), std::string::npos);
+            EXPECT_THROW(makeDrivable({}, Vehicle()), Error);
+            EXPECT_THROW(makeDrivable({{}, {PathPiece::turnOnTheSpot(1.0)}}, Vehicle()), Error);
+            EXPECT_THROW(makeDrivable({{std::nan(""), 0.0, 0.0}, {{0.0, 1.0}}}, Vehicle()), Error);
         }
 
         TEST(Corners, TheStatedDeviationHolds)
@@ -81,32 +121,32 @@ namespace parking::test
                     turns.push_back(random.below(5) == 0 ? (random.below(2) == 0 ? 1 : -1) * PI / 4 : 0.0);
                 }
                 turns.pop_back();
-                const SampledPath path =
-                    chords({0.0, 0.0, 0.1 * static_cast<double>(seed)}, lengths, turns, seed % 2 == 0);
+                const Path path = chords({0.0, 0.0, 0.1 * static_cast<double>(seed)}, lengths, turns);
                 const ReferencePath reference(path, Vehicle());
                 expectDrivable(reference);
                 double farthest = 0.0;
-                for (const PathNode &node : reference.nodes())
-                    farthest = std::max(farthest, distanceTo(path, node.pose));
-                EXPECT_LE(farthest, reference.cornerDeviation() + 0.01) << seed;
-                EXPECT_GT(reference.cornerDeviation(), 0.0) << seed;
+                for (const PathState &state : reference.path().sample(0.1))
+                    farthest = std::max(farthest, distanceTo(path, state.pose));
+                EXPECT_LE(farthest, reference.corners().deviation + 0.01) << seed;
+                EXPECT_GT(reference.corners().deviation, 0.0) << seed;
                 // However it was driven, it ends at the last pose.
-                const Pose end = relativeTo(path.back().pose, reference.end());
+                const Pose end = relativeTo(path.end(), reference.end());
                 EXPECT_LE(std::hypot(end.x, end.y), 0.021) << seed;
-                EXPECT_LE(std::abs(end.yaw), CORNER_ANGLE) << seed;
+                EXPECT_LE(std::abs(end.yaw), CornerParameters().endYawTolerance) << seed;
             }
         }
 
         TEST(Corners, SharpOnesAreTurnedAtAndTheLimitIsKept)
         {
-            const SampledPath path = chords({}, {8.0, 8.0}, {PI / 2}, true);
+            const Path path = chords({}, {8.0, 8.0}, {PI / 2});
             ReferenceParameters parameters;
             const ReferencePath cut(path, Vehicle(), parameters);
-            EXPECT_EQ(cut.corners(), 2u);  // the corner, and the end that the car misses by cutting it so late
+            EXPECT_EQ(cut.corners().corners, 1u);
+            EXPECT_GT(cut.corners().deviation, 0.3);
             parameters.maxCornerCut = 0.3;
             const ReferencePath turned(path, Vehicle(), parameters);
-            EXPECT_EQ(turned.corners(), 1u);
-            EXPECT_EQ(turned.cornerTurns(), 1u);
+            EXPECT_EQ(turned.corners().corners, 1u);
+            EXPECT_EQ(turned.corners().shunts, 1u);
             EXPECT_GT(turned.legs().size(), 3u);
             expectDrivable(turned);
             parameters.maxCornerDeviation = 0.5;
@@ -125,11 +165,26 @@ namespace parking::test
         {
             for (const double degrees : {10.0, 30.0, 45.0, 90.0, 135.0, 180.0})
             {
-                SampledPath path = chords({}, {10.0, 5.0}, {PI / 4}, true);
-                path.front().pose.yaw = degrees * PI / 180.0;
+                Path path = chords({}, {10.0, 5.0}, {PI / 4});
+                path.start.yaw = degrees * PI / 180.0;
+                path.pieces.insert(path.pieces.begin(), PathPiece::turnOnTheSpot(-path.start.yaw));
                 const ReferencePath reference(path, Vehicle());
                 expectDrivable(reference);
-                EXPECT_NEAR(wrapAngle(reference.nodes().front().pose.yaw - degrees * PI / 180.0), 0.0, 1e-9);
+                EXPECT_NEAR(wrapAngle(reference.pose(0, 0.0).yaw - path.start.yaw), 0.0, 1e-9);
+            }
+        }
+
+        TEST(Corners, TheEndMayFaceAnyWay)
+        {
+            for (const double degrees : {10.0, -45.0, 180.0})
+            {
+                Path path = chords({}, {6.0, 5.0}, {PI / 4});
+                path.append(PathPiece::turnOnTheSpot(degrees * PI / 180.0));
+                const ReferencePath reference(path, Vehicle());
+                expectDrivable(reference);
+                const Pose off = relativeTo(path.end(), reference.end());
+                EXPECT_LE(std::hypot(off.x, off.y), 1e-5) << degrees;
+                EXPECT_LE(std::abs(off.yaw), 1e-5) << degrees;
             }
         }
 
@@ -137,44 +192,45 @@ namespace parking::test
         {
             for (const double misfit : {0.0, 0.3, PI / 4})
             {
-                SampledPath path = chords({}, {6.0, 6.0}, {PI / 4}, true, 0.5);
-                Pose begin = path.back().pose;
-                begin.yaw += misfit;
-                const SampledPath manoeuvre = arcs(begin, {{0.0, -2.0}, {1.0, -4.0}, {0.0, -3.0}});
-                for (std::size_t i = 1; i < manoeuvre.size(); ++i)
-                {
-                    path.push_back(manoeuvre[i]);
-                    path.back().arcLength += 12.0;
-                }
+                Path path = chords({}, {6.0, 6.0}, {PI / 4});
+                path.append(PathPiece::turnOnTheSpot(misfit));
+                const Path manoeuvre = arcs(path.end(), {{0.0, -2.0}, {1.0, -4.0}, {0.0, -3.0}});
+                path.extend(manoeuvre);
                 const ReferencePath reference(path, Vehicle());
                 expectDrivable(reference);
-                // The last 9 metres are the manoeuvre's own poses.
-                const std::size_t leg = reference.legs().size() - 1;
-                const double end = reference.length();
-                for (double back = 0.0; back < reference.legs()[leg].length(); back += 0.1)
-                    EXPECT_NEAR(distanceTo(manoeuvre, reference.pose(leg, end - back)), 0.0, 1e-3);
-                EXPECT_NEAR(reference.end().x, path.back().pose.x, 1e-9);
+                // The arc and the last line are the manoeuvre's own; a metre of the first may lead there.
+                const Path &driven = reference.path();
+                ASSERT_GE(driven.pieces.size(), 3u);
+                const PathPiece &last = driven.pieces.back(), &turn = driven.pieces[driven.pieces.size() - 2];
+                EXPECT_NEAR(last.length, -3.0, 1e-9);
+                EXPECT_NEAR(turn.length, -4.0, 1e-9);
+                EXPECT_EQ(last.curvature, 0.0);
+                EXPECT_EQ(turn.curvature, manoeuvre.pieces[1].curvature);
+                EXPECT_NEAR(reference.end().x, path.end().x, 1e-9);
+                EXPECT_NEAR(reference.end().y, path.end().y, 1e-9);
+                EXPECT_NEAR(wrapAngle(reference.end().yaw - path.end().yaw), 0.0, 1e-9);
             }
         }
 
         TEST(Corners, ArePlacedAlikeInReverse)
         {
             // The same polyline driven in reverse: the mirror image of the drive.
-            SampledPath path = chords({}, {8.0, 8.0}, {PI / 4}, true);
+            Path path = chords({}, {8.0, 8.0}, {PI / 4});
             const ReferencePath forwards(path, Vehicle());
-            for (PathState &state : path)
-            {
-                state.pose.yaw = wrapAngle(state.pose.yaw + PI);
-                state.direction = -1;
-            }
+            path.start.yaw += PI;
+            for (PathPiece &piece : path.pieces)
+                piece.length = -piece.length;
             const ReferencePath reverse(path, Vehicle());
-            EXPECT_NEAR(reverse.cornerDeviation(), forwards.cornerDeviation(), 1e-9);
-            ASSERT_EQ(reverse.nodes().size(), forwards.nodes().size());
-            for (std::size_t i = 0; i < forwards.nodes().size(); ++i)
+            EXPECT_NEAR(reverse.corners().deviation, forwards.corners().deviation, 1e-9);
+            ASSERT_EQ(reverse.legs().size(), 1u);
+            ASSERT_EQ(forwards.legs().size(), 1u);
+            EXPECT_NEAR(reverse.length(), forwards.length(), 1e-9);
+            for (double s = 0.0; s < forwards.length(); s += 0.1)
             {
-                EXPECT_NEAR(reverse.nodes()[i].pose.x, forwards.nodes()[i].pose.x, 1e-9);
-                EXPECT_NEAR(reverse.nodes()[i].pose.y, forwards.nodes()[i].pose.y, 1e-9);
-                EXPECT_NEAR(reverse.nodes()[i].curvature, -forwards.nodes()[i].curvature, 1e-9);
+                const Pose one = reverse.pose(0, s), other = forwards.pose(0, s);
+                EXPECT_NEAR(one.x, other.x, 1e-9);
+                EXPECT_NEAR(one.y, other.y, 1e-9);
+                EXPECT_NEAR(reverse.steering(0, s), -forwards.steering(0, s), 1e-9);
             }
         }
     }  // namespace

@@ -12,32 +12,35 @@ namespace parking::test
 {
     namespace
     {
-        TEST(ReferencePath, PosesLieOnTheArcsOfThePath)
+        TEST(ReferencePath, PosesLieOnThePath)
         {
-            for (const double step : {0.02, 0.1, 0.7})
+            std::vector<Path> paths{
+                {{2.0, -1.0, 3.0}, {{0.2, 4.0}, {0.0, 2.0}, {-0.1, -3.0}, {-0.1, -2.0, 0.1}, {0.1, -1.5}}}};
+            for (std::uint64_t seed = 0; seed < 10; ++seed)
+                for (const Path &path : {randomReedsShepp(seed, 20.0), randomSmooth(seed, 20.0)})
+                    paths.push_back(path);
+            for (const Path &exact : paths)
             {
-                const double radius = Vehicle().minTurningRadius();
-                const Path exact{{2.0, -1.0, 3.0}, {{1.0 / radius, 4.0}, {0.0, 2.0}, {-0.5 / radius, -3.0}}};
-                const ReferencePath reference(exact.sample(step), Vehicle());
+                const ReferencePath reference(exact, Vehicle());
                 EXPECT_NEAR(reference.length(), exact.length(), 1e-9);
                 double s = 0.0;
                 Pose begin = exact.start;
-                for (const PathPiece &segment : exact.pieces)
+                for (const PathPiece &piece : exact.pieces)
                 {
                     for (double part = 0.05; part < 1.0; part += 0.1)
                     {
-                        const double at = s + part * std::abs(segment.length);
+                        const double at = s + part * piece.driven();
                         std::size_t leg = 0;
                         while (reference.legs()[leg].endLength < at)
                             ++leg;
-                        const Pose expected = advance(begin, segment.curvature, part * segment.length);
+                        const Pose expected = advance(begin, piece, part * piece.driven());
                         const Pose offset = relativeTo(expected, reference.pose(leg, at));
                         EXPECT_NEAR(offset.x, 0.0, 1e-9);
                         EXPECT_NEAR(offset.y, 0.0, 1e-9);
                         EXPECT_NEAR(offset.yaw, 0.0, 1e-9);
                     }
-                    s += std::abs(segment.length);
-                    begin = advance(begin, segment.curvature, segment.length);
+                    s += piece.driven();
+                    begin = advance(begin, piece);
                 }
             }
         }
@@ -93,7 +96,7 @@ namespace parking::test
 
         TEST(ReferencePath, TheSpeedOfTheBlendDecidesWhetherToStop)
         {
-            const SampledPath path = arcs({}, {{0.0, 3.0}, {0.4, 3.0}});
+            const Path path = arcs({}, {{0.0, 3.0}, {0.4, 3.0}});
             ReferenceParameters parameters;
             const ReferencePath moving(path, Vehicle(), parameters);
             ASSERT_EQ(moving.legs().size(), 1u);
@@ -104,15 +107,40 @@ namespace parking::test
             EXPECT_EQ(ReferencePath(path, Vehicle(), parameters).legs().size(), 2u);
         }
 
-        TEST(ReferencePath, GivesAClothoidItsRampBack)
+        TEST(ReferencePath, SteersAlongClothoidsAsTheyBend)
         {
+            const Path path = smooth({}, {clothoidTurn(1, 0.3, 2.0, 1.0), straight(1, 1.0)});
+            const ReferencePath exact(path, Vehicle());
+            ASSERT_EQ(exact.legs().size(), 1u);
+            const auto curvature = [](double s)
+            {
+                return std::max(0.0, 0.3 * std::min({1.0, s / 2.0, (5.0 - s) / 2.0}));
+            };
+            for (double s = 0.0; s < path.length(); s += 0.01)
+                EXPECT_NEAR(exact.steering(0, s), Vehicle().steeringAngle(curvature(s)), 1e-3) << s;
+            EXPECT_LE(bodyDeviation(exact), 0.002);
+            // Of a clothoid that comes in arcs the jumps are ramped.
             for (const double step : {0.02, 0.05, 0.1})
             {
-                const SmoothPiece turn = clothoidTurn(1, 0.3, 2.0, 1.0);
-                const ReferencePath reference(smooth({}, {turn}, step), Vehicle());
-                ASSERT_EQ(reference.legs().size(), 1u);
-                for (double s = 0.1; s < turn.length - 0.1; s += 0.01)
-                    EXPECT_NEAR(reference.steering(0, s), Vehicle().steeringAngle(turn.curvature(s)), 0.015) << s;
+                const ReferencePath sampled(inArcs(path, step), Vehicle());
+                ASSERT_EQ(sampled.legs().size(), 1u);
+                for (double s = 0.1; s < 4.9; s += 0.01)
+                    EXPECT_NEAR(sampled.steering(0, s), Vehicle().steeringAngle(curvature(s)), 0.015) << s;
+            }
+        }
+
+        TEST(ReferencePath, RampsJumpsBetweenClothoids)
+        {
+            // From a clothoid's end to another one's begin with a jump between: one ramp, as far as it may reach.
+            const Path path{{}, {{0.0, 2.0, 0.05}, {0.12, 2.0, -0.05}}};
+            const ReferencePath reference(path, Vehicle());
+            ASSERT_EQ(reference.legs().size(), 1u);
+            EXPECT_LE(bodyDeviation(reference), 0.015);
+            double before = reference.steering(0, 0.0);
+            for (double s = 0.01; s < 2.0; s += 0.01)
+            {
+                EXPECT_GE(reference.steering(0, s), before - 1e-12);
+                before = reference.steering(0, s);
             }
         }
 
@@ -121,7 +149,7 @@ namespace parking::test
             EXPECT_EQ(ReferencePath(arcs({}, {{1.0, 2.0}, {-1.0, 0.001}, {1.0, 2.0}}), Vehicle()).legs().size(), 1u);
             EXPECT_EQ(ReferencePath(arcs({}, {{1.0, 2.0}, {-1.0, 0.003}, {1.0, 2.0}}), Vehicle()).legs().size(), 3u);
             // A finely sampled clothoid is not made of stubs.
-            const ReferencePath fine(smooth({}, {clothoidTurn(1, 0.3, 2.0, 1.0)}, 0.001), Vehicle());
+            const ReferencePath fine(inArcs(smooth({}, {clothoidTurn(1, 0.3, 2.0, 1.0)}), 0.001), Vehicle());
             EXPECT_NEAR(fine.steering(0, 1.0), Vehicle().steeringAngle(0.15), 0.003);
         }
 
@@ -166,7 +194,7 @@ namespace parking::test
 
         TEST(ReferencePath, RefusesBadParameters)
         {
-            const SampledPath path = arcs({}, {{0.0, 2.0}});
+            const Path path = arcs({}, {{0.0, 2.0}});
             for (double ReferenceParameters::*field :
                  {&ReferenceParameters::bodyTolerance, &ReferenceParameters::minBlendSpeed,
                   &ReferenceParameters::maxBlendLength, &ReferenceParameters::maxCornerCut,

@@ -59,26 +59,24 @@ namespace parking::test
         }
     }  // namespace
 
-    double optimalDuration(const std::vector<SmoothPiece> &pieces, const Vehicle &vehicle, const SpeedLimits &limits)
+    double optimalDuration(const Path &path, const Vehicle &vehicle, const SpeedLimits &limits)
     {
         double total = 0.0, wheels = 0.0;
-        for (std::size_t begin = 0; begin < pieces.size();)
+        for (const Stretch &stretch : path.stretches())
         {
-            std::size_t end = begin;
             double length = 0.0;
-            while (end < pieces.size() && pieces[end].direction == pieces[begin].direction)
-                length += pieces[end++].length;
+            for (std::size_t i = stretch.first; i < stretch.last; ++i)
+                length += path.pieces[i].driven();
             const auto steering = [&](double s)
             {
-                std::size_t i = begin;
-                while (i + 1 < end && s > pieces[i].length)
-                    s -= pieces[i++].length;
-                return vehicle.steeringAngle(pieces[i].curvature(std::clamp(s, 0.0, pieces[i].length)));
+                std::size_t i = stretch.first;
+                while (i + 1 < stretch.last && s > path.pieces[i].driven())
+                    s -= path.pieces[i++].driven();
+                return vehicle.steeringAngle(path.pieces[i].curvatureAt(std::clamp(s, 0.0, path.pieces[i].driven())));
             };
             total += std::abs(steering(0.0) - wheels) / limits.steeringRate;
             total += legDuration(length, steering, vehicle, limits);
             wheels = steering(length);
-            begin = end;
         }
         return total;
     }

@@ -14,7 +14,7 @@ namespace parking::test
 {
     namespace
     {
-        SpeedProfile profileOf(const SampledPath &path)
+        SpeedProfile profileOf(const Path &path)
         {
             return SpeedProfile(path, Vehicle());
         }
@@ -69,7 +69,7 @@ namespace parking::test
         TEST(SpeedProfile, ObeysTheLimitsEverywhere)
         {
             for (std::uint64_t seed = 0; seed < 25; ++seed)
-                for (const SampledPath &path :
+                for (const Path &path :
                      {randomReedsShepp(seed, 30.0), randomLattice(seed, 30.0), randomSmooth(seed, 30.0)})
                 {
                     const SpeedProfile profile = profileOf(path);
@@ -89,11 +89,11 @@ namespace parking::test
         {
             // Integrating speed and steering of the trajectory, without looking at its poses, ends at the goal.
             for (std::uint64_t seed = 0; seed < 10; ++seed)
-                for (const SampledPath &path : {randomReedsShepp(seed, 30.0), randomSmooth(seed, 30.0, 0.05)})
+                for (const Path &path : {randomReedsShepp(seed, 30.0), randomSmooth(seed, 30.0)})
                 {
                     const Vehicle vehicle;
                     const Trajectory trajectory = profileOf(path).sample(0.002);
-                    Pose car = path.front().pose;
+                    Pose car = path.start;
                     double worst = 0.0;
                     for (std::size_t i = 1; i < trajectory.size(); ++i)
                     {
@@ -127,7 +127,7 @@ namespace parking::test
         TEST(SpeedProfile, IsNearTheOptimumOfDynamicProgramming)
         {
             const double most = 1.0 / Vehicle().minTurningRadius();
-            const std::vector<std::vector<SmoothPiece>> paths{
+            const std::vector<std::vector<SmoothPart>> paths{
                 {straight(1, 30.0)},
                 {straight(1, 6.0), clothoidTurn(1, 0.9 * most, 2.0, 3.0), straight(1, 8.0),
                  clothoidTurn(1, -0.5 * most, 1.0, 5.0), straight(1, 5.0)},
@@ -135,10 +135,11 @@ namespace parking::test
                 {clothoidTurn(1, 0.7 * most, 0.4, 2.0), straight(-1, 7.0), clothoidTurn(-1, -most, 1.5, 6.0),
                  straight(1, 3.0), clothoidTurn(1, 0.3 * most, 0.5, 3.0)},
             };
-            for (const std::vector<SmoothPiece> &pieces : paths)
+            for (const std::vector<SmoothPart> &parts : paths)
             {
-                const double optimum = optimalDuration(pieces, Vehicle(), SpeedLimits());
-                const double duration = profileOf(smooth({}, pieces)).duration();
+                const Path path = smooth({}, parts);
+                const double optimum = optimalDuration(path, Vehicle(), SpeedLimits());
+                const double duration = profileOf(path).duration();
                 EXPECT_LE(duration, 1.05 * optimum);
                 EXPECT_GE(duration, 0.97 * optimum);
             }

@@ -2,8 +2,8 @@
 #include "path_tracking/simulation/Plant.h"
 #include "path_tracking/simulation/PoseEstimator.h"
 
-#include "tests/path_tracking/TestPaths.h"
 #include "parking_geometry/Error.h"
+#include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
 
