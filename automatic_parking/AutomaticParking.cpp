@@ -3,7 +3,6 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/reference/PathSections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double SAME_PLACE = 1e-6;  // metres
-        constexpr double LOOK_BACK = 0.1;    // metres of path behind the car that still count as being before it
+        constexpr double LOOK_BACK = 0.1;  // metres of path behind the car that still count as being before it
 
         std::string rounded(double value, double unit)
         {
@@ -106,7 +104,7 @@ namespace parking
             return close(truth);
         }
 
-        ParkingResult follow(const SampledPath &path)
+        ParkingResult follow(const Path &path)
         {
             ParkingLeg leg;
             leg.reason = "given path";
@@ -115,10 +113,10 @@ namespace parking
             leg.plan.message = "a path from elsewhere";
             parameters_.replanCrossTrack = parameters_.replanHeadingError = std::numeric_limits<double>::infinity();
             Pose truth = scenario_.start;
-            if (!path.empty())
+            if (!path.pieces.empty())
             {
-                truth = path.front().pose;
-                goal_ = leg.plan.goal = path.back().pose;
+                truth = path.start;
+                goal_ = leg.plan.goal = path.end();
                 leg.plan.clearance = world_.clearance(path);
             }
             const bool driven = drive(leg, truth, 0);
@@ -210,7 +208,7 @@ namespace parking
         }
 
         /** The world is another one from now on. */
-        void takeOver(Scenario changed, const SampledPath &path, double s)
+        void takeOver(Scenario changed, const Path &path, double s)
         {
             if (changed.worldOffset != scenario_.worldOffset)
                 throw Error("scenario " + changed.name + ": a changed map must have the worldOffset of the first one");
@@ -221,12 +219,9 @@ namespace parking
             const bool moved = !sameGoals(changed, scenario_);
             world_ = ParkingWorld(changed);
             scenario_ = std::move(changed);
-            std::size_t first = 0;
-            while (first + 1 < path.size() && path[first + 1].arcLength < s - LOOK_BACK)
-                ++first;
             if (moved)
                 cause_ = "the goal has changed";
-            else if (!world_.isFree(path, first))
+            else if (!world_.isFree(path.rest(std::max(0.0, s - LOOK_BACK))))
                 cause_ = "the map has changed";
         }
 
@@ -307,44 +302,10 @@ namespace parking
         return Session(parameters_, update_, solve_, scenario).park(start);
     }
 
-    ParkingResult AutomaticParking::drive(const Scenario &scenario, const SampledPath &path) const
+    ParkingResult AutomaticParking::drive(const Scenario &scenario, const Path &path) const
     {
         const MapUpdate none;
         return Session(parameters_, none, solve_, scenario).follow(path);
-    }
-
-    SampledPath asChords(const SampledPath &path, const Vehicle &vehicle)
-    {
-        SampledPath result;
-        const double most = 1.0 / vehicle.minTurningRadius();
-        for (const PathState &state : path)
-        {
-            if (!result.empty() && distance(result.back().pose, state.pose) < SAME_PLACE)
-            {
-                // Turning on the spot: what counts is the heading that the car leaves with.
-                if (&state == &path.back())
-                    result.back().pose.yaw = state.pose.yaw;
-                continue;
-            }
-            PathState next = state;
-            next.direction = 1;
-            next.curvature = 0.0;
-            next.arcLength = result.empty() ? 0.0 : result.back().arcLength + distance(result.back().pose, state.pose);
-            if (!result.empty())
-            {
-                const Pose &from = result.back().pose;
-                const double chord = std::atan2(state.pose.y - from.y, state.pose.x - from.x);
-                const double turn = wrapAngle(state.pose.yaw - from.yaw);
-                const bool along = std::abs(wrapAngle(0.5 * turn + from.yaw - chord)) < CORNER_ANGLE;
-                const double curvature = turn / (next.arcLength - result.back().arcLength);
-                if (along && std::abs(curvature) <= most)
-                    next.curvature = curvature;
-                else if (&state != &path.back())
-                    next.pose.yaw = chord;
-            }
-            result.push_back(next);
-        }
-        return result;
     }
 
     Evaluation combined(const std::vector<Evaluation> &drives)

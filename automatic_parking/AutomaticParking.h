@@ -97,7 +97,7 @@ namespace parking
 
         /** \brief Drives a path that somebody else has planned, an OMPL planner for example, in the world of \e
            scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
-        ParkingResult drive(const Scenario &scenario, const SampledPath &path) const;
+        ParkingResult drive(const Scenario &scenario, const Path &path) const;
 
     private:
         class Session;
@@ -106,13 +106,6 @@ namespace parking
         MapUpdate update_;
         TrackingController::Solve solve_;
     };
-
-    /** \brief A path of straight chords, a grid planner's for example, as drives take it: forwards, the heading of each
-        state that of its chord, which may jump from one to the next (see ReferencePath on corners).
-
-        Arcs that the car can drive are kept, so that a spline keeps its shape where it is wide enough. The first and
-       the last heading are kept: the car turns there. */
-    SampledPath asChords(const SampledPath &path, const Vehicle &vehicle);
 
     /** \brief The figures of several drives, one after the other, as if they were one. */
     Evaluation combined(const std::vector<Evaluation> &drives);

@@ -21,7 +21,6 @@ namespace parking
     namespace
     {
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles along motions
-        constexpr double SAMPLING = 0.1;          // metres between states of a path
         constexpr double SAME = 1e-6;             // metres and radians between a path's end and the goal that it is
         constexpr double CLEARANCE_STEP = 1e-3;   // metres to which the least clearance is found
         constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
@@ -44,22 +43,6 @@ namespace parking
         std::string centimetres(double metres)
         {
             return formatNumber(std::round(100.0 * metres)) + " cm";
-        }
-
-        /** \e path sampled, with the curvature of each state being that of the arc that ends there. */
-        SampledPath joinedByArcs(const Path &path)
-        {
-            SampledPath result = path.sample(SAMPLING);
-            for (std::size_t i = 1; i < result.size(); ++i)
-            {
-                const double length = result[i].arcLength - result[i - 1].arcLength;
-                if (length > 0.0)
-                    result[i].curvature = wrapAngle(result[i].pose.yaw - result[i - 1].pose.yaw) /
-                                          (length * static_cast<double>(result[i].direction));
-            }
-            if (result.size() > 1)
-                result.front().curvature = result[1].curvature;
-            return result;
         }
 
         bool isAt(const Pose &pose, const Pose &goal)
@@ -232,13 +215,13 @@ namespace parking
                         const std::shared_ptr<const FootprintChecker> &checker, ParkingPlan &plan)
         {
             const auto begin = Clock::now();
-            plan.path = plan.arcs.sample(SAMPLING);
+            plan.path = plan.arcs;
             if (parameters.smooth)
             {
                 plan.smooth = PathSmoother(vehicle, parameters.smoothing).smooth(plan.arcs, queriesOf(*checker));
                 // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
                 if (plan.smooth.free && isPathFree(world.footprint(), plan.smooth.path))
-                    plan.path = joinedByArcs(plan.smooth.path);
+                    plan.path = plan.smooth.path;
                 else
                     plan.smooth = {};
             }
@@ -281,37 +264,26 @@ namespace parking
         }
     }
 
-    bool ParkingWorld::isFree(const SampledPath &path, std::size_t first) const
+    bool ParkingWorld::isFree(const Path &path) const
     {
-        if (first >= path.size() || !footprint_->isFree(path[first].pose))
-            return first >= path.size();
-        for (std::size_t i = first + 1; i < path.size(); ++i)
-        {
-            const double length = path[i].arcLength - path[i - 1].arcLength;
-            if (length > 0.0 &&
-                footprint_->freeLength(path[i - 1].pose, path[i].curvature, path[i].direction * length) < length)
-                return false;
-            if (!footprint_->isFree(path[i].pose))
-                return false;
-        }
-        return true;
+        return isPathFree(*footprint_, path);
     }
 
-    double ParkingWorld::clearance(const SampledPath &path) const
+    double ParkingWorld::clearance(const Path &path) const
     {
-        double least = std::numeric_limits<double>::infinity();
-        if (!path.empty())
-            least = footprint_->exactClearance(path.front().pose);
+        double least = footprint_->exactClearance(path.start);
+        Pose from = path.start;
         // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point has
         // moved by the difference.
-        for (std::size_t i = 1; i < path.size() && least > 0.0; ++i)
+        for (const PathPiece &piece : path.pieces)
         {
-            const Pose &from = path[i - 1].pose;
-            const double length = path[i].arcLength - path[i - 1].arcLength;
-            const double moved = length * footprint_->speedFactor(path[i].curvature);
+            const double bend = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            const double moved =
+                piece.driven() * footprint_->speedFactor(bend) + std::abs(piece.turn) * footprint_->farthestPoint();
             for (double share = 0.0; share <= 1.0 && least > 0.0;)
             {
-                const Pose pose = advance(from, path[i].curvature, share * length * path[i].direction);
+                const Pose pose = piece.turn != 0.0 ? Pose{from.x, from.y, from.yaw + share * piece.turn}
+                                                    : advance(from, piece, share * piece.driven());
                 double here = footprint_->clearance(pose);
                 if (here < least)
                     here = footprint_->exactClearance(pose);
@@ -321,6 +293,7 @@ namespace parking
                 const double stride = here - least + std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
                 share = std::min(1.0, share + stride / moved);
             }
+            from = advance(from, piece);
         }
         return least;
     }

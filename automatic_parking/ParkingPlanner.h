@@ -61,7 +61,7 @@ namespace parking
         Path manoeuvre;           ///< the constructed part, without segments where the planner did it all
         Path arcs;                ///< both
         SmoothPath smooth;        ///< what the smoother made of it; empty when it was not asked or refused
-        SampledPath path;         ///< to be driven, states joined by arcs
+        Path path;                ///< to be driven: the smooth one, or \e arcs
         double gap{0.0};          ///< metres kept all round the body while planning
         double turningRadius{0};  ///< metres, planned with
         double clearance{0.0};    ///< metres, least between body and obstacles along \e path, to 1 mm or 1 %
@@ -91,12 +91,12 @@ namespace parking
             world. */
         std::shared_ptr<const FootprintChecker> enlarged(double gap) const;
 
-        /** \brief Is the whole of \e path free, from state \e first on? Swept, not sampled. */
-        bool isFree(const SampledPath &path, std::size_t first = 0) const;
+        /** \brief Is the whole of \e path free? Swept, not sampled. */
+        bool isFree(const Path &path) const;
 
         /** \brief Least distance in metres between the body and the obstacles along \e path, to a millimetre or one
             percent; 0 when they touch. */
-        double clearance(const SampledPath &path) const;
+        double clearance(const Path &path) const;
 
     private:
         std::shared_ptr<const FootprintChecker> footprint_;

@@ -60,7 +60,7 @@ try
         return 1;
 
     const std::string title = "Driving into a slot: " + scenario.name;
-    const parking::SampledPath &planned = result.legs.back().plan.path;
+    const parking::Path &planned = result.legs.back().plan.path;
     parking::driveFigure(scenario, planned, result.trajectory, title, text).write("drive_into_slot.svg");
     parking::writeDriveAnimation("drive_into_slot.html", scenario, planned, result.trajectory, title, text);
     return 0;

@@ -14,7 +14,8 @@ namespace parking
 {
     namespace
     {
-        constexpr double UNIT = 1e-4;  // metres, radians and so on to which numbers are written
+        constexpr double UNIT = 1e-4;       // metres, radians and so on to which numbers are written
+        constexpr double DRAWN_STEP = 0.1;  // metres between the states of a drawn path
 
         std::string number(double value)
         {
@@ -92,16 +93,17 @@ namespace parking
         }
     }  // namespace
 
-    std::string driveAnimation(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
+    std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                                const std::string &title, const std::string &subtitle)
     {
         checkDrive(driven);
-        SampledPath seen = planned;
+        const SampledPath states = planned.pieces.empty() ? SampledPath{} : planned.sample(DRAWN_STEP);
+        SampledPath seen = states;
         for (const TrajectoryPoint &point : driven)
             seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
-        drawPlan(map, planned);
+        drawPlan(map, states);
 
         const Vehicle &car = scenario.vehicle;
         std::string data = "{";
@@ -146,7 +148,7 @@ namespace parking
         return page;
     }
 
-    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const SampledPath &planned,
+    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
                              const Trajectory &driven, const std::string &title, const std::string &subtitle)
     {
         writeFileAtomically(file, driveAnimation(scenario, planned, driven, title, subtitle));

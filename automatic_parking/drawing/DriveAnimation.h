@@ -15,14 +15,14 @@ namespace parking
         play, to pause and to go faster, a slider, the keys space and arrows; speed, acceleration and steering over time
         with a cursor.
 
-        \param planned may be empty
+        \param planned may be without pieces: not drawn then
         \param driven a drive in the coordinates of \e scenario, times not decreasing
         \param title,subtitle plain text
         Throws parking::Error for a drive of fewer than two points or with a number that is not finite. */
-    std::string driveAnimation(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
+    std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                                const std::string &title, const std::string &subtitle = {});
 
     /** \brief Writes driveAnimation() to \e file, whole or not at all. Throws parking::Error naming the file, too. */
-    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const SampledPath &planned,
+    void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,
                              const Trajectory &driven, const std::string &title, const std::string &subtitle = {});
 }  // namespace parking

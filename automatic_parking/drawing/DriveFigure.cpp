@@ -10,8 +10,9 @@ namespace parking
     namespace
     {
         constexpr double DEGREES = 180.0 / PI;
-        constexpr double STANDING = 1e-3;  // m/s
-        constexpr double ROOM = 1.15;      // of a plot beyond the car's limits
+        constexpr double STANDING = 1e-3;   // m/s
+        constexpr double ROOM = 1.15;       // of a plot beyond the car's limits
+        constexpr double DRAWN_STEP = 0.1;  // metres between the states of a drawn path
 
         /** When the car drives in reverse. */
         std::vector<SvgBand> reverseBands(const Trajectory &driven)
@@ -61,11 +62,12 @@ namespace parking
             plotOf(driven, "Steering angle", "degrees", &TrajectoryPoint::steering, DEGREES, vehicle.maxSteeringAngle)};
     }
 
-    SvgFigure driveFigure(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
+    SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle)
     {
         SvgFigure figure(title, subtitle);
-        SampledPath seen = planned;
+        const SampledPath states = planned.pieces.empty() ? SampledPath{} : planned.sample(DRAWN_STEP);
+        SampledPath seen = states;
         std::vector<Pose> track;
         for (const TrajectoryPoint &point : driven)
         {
@@ -74,8 +76,8 @@ namespace parking
         }
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
-        if (planned.size() > 1)
-            drawPath(map, planned, scenario.vehicle);
+        if (!planned.pieces.empty())
+            drawPath(map, states, scenario.vehicle);
         if (track.size() > 1)
             drawTrack(map, track, svg_colour::DRIVEN, "driven");
         figure.setMap(map);

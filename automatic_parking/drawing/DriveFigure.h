@@ -14,8 +14,8 @@ namespace parking
         acceleration and steering angle over time, with the car's limits.
 
         Stretches in reverse are tinted. Coordinates are local ones of \e scenario.
-        \param planned may be empty \param driven may be empty: no plots then */
-    SvgFigure driveFigure(const Scenario &scenario, const SampledPath &planned, const Trajectory &driven,
+        \param planned may be without pieces: not drawn then \param driven may be empty: no plots then */
+    SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle = {});
 
     /** \brief Speed, acceleration and steering angle over time, one plot each. */

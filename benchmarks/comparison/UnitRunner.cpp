@@ -1,11 +1,10 @@
 #include "benchmarks/comparison/UnitRunner.h"
 
 #include "benchmarks/comparison/RunColumns.h"
-#include "benchmarks/problems/PathQuality.h"
+#include "benchmarks/problems/PathDrive.h"
 #include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/simulation/ClosedLoop.h"
 
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
@@ -56,9 +55,7 @@ namespace parking
             record.drivenToTheEnd = false;
             try
             {
-                ClosedLoop loop(problem.scenario().vehicle);
-                loop.setValidity([&problem](const Pose &pose) { return problem.footprint().isFree(pose); });
-                const DriveResult drive = loop.drive(pathToDrive(path, problem.scenario().vehicle));
+                const DriveResult drive = drivePath(problem, path);
                 const Evaluation &figures = drive.evaluation;
                 record.drivenToTheEnd = drive.arrived;
                 record.travelTime = figures.travelTime;

@@ -1,11 +1,13 @@
 #include "benchmarks/problems/PlannedPath.h"
 
+#include "parking_geometry/curves/Biarc.h"
 #include "parking_geometry/curves/Kinematics.h"
 #include "state_validity/ompl/OmplPose.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace og = ompl::geometric;
@@ -14,6 +16,8 @@ namespace parking
 {
     namespace
     {
+        constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
+        constexpr double ROUNDING_TURN = 1e-9;  // radians; anything less is rounding of headings
         constexpr double SHORTEST_PIECE = 1e-7;  // metres; anything shorter is rounding of a curve's formula
         // The least clearance is found up to two millimetres or one percent.
         constexpr double CLEARANCE_STEP = 0.002;  // metres
@@ -28,7 +32,7 @@ namespace parking
             return states;
         }
 
-        SampledPath curvePath(const Problem &problem, const og::PathGeometric &path)
+        Path curvePath(const Problem &problem, const og::PathGeometric &path)
         {
             Path arcs;
             const std::vector<const ompl::base::State *> states = statesOf(path);
@@ -41,7 +45,64 @@ namespace parking
                     if (std::abs(curve.pieces[k].length) >= SHORTEST_PIECE)
                         arcs.append(curve.pieces[k]);
             }
-            return arcs.sample(PlannedPath::SAMPLING);
+            return arcs;
+        }
+
+        /** The two arcs in the place of a straight line along which the heading turns, if the car can drive them and
+            they keep to the line as well as arcs can. */
+        std::optional<Path> gentleTurn(const Pose &from, const Pose &to, double askew, int direction,
+                                       const Vehicle &vehicle)
+        {
+            if (std::abs(askew) > MOST_ASKEW)
+                return std::nullopt;
+            std::optional<Path> arcs = biarc(from, to, direction);
+            if (arcs)
+                for (const PathPiece &piece : arcs->pieces)
+                    if (std::abs(piece.curvature) > 1.0 / vehicle.minTurningRadius())
+                        return std::nullopt;
+            return arcs;
+        }
+
+        /** The motions of a plain SE2 space as a car could make them. */
+        Path linePath(const og::PathGeometric &path, const Vehicle &vehicle)
+        {
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            Path result{poseOf(states.front()), {}};
+            const auto turnTo = [&result](double from, double to)
+            {
+                double turn = wrapAngle(to - from);
+                if (!result.pieces.empty() && result.pieces.back().turn != 0.0)
+                {
+                    turn = wrapAngle(turn + result.pieces.back().turn);
+                    result.pieces.pop_back();
+                }
+                if (std::abs(turn) > ROUNDING_TURN)
+                    result.append(PathPiece::turnOnTheSpot(turn));
+            };
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
+                const double length = std::hypot(to.x - from.x, to.y - from.y);
+                if (length < SHORTEST_PIECE)
+                {
+                    turnTo(from.yaw, to.yaw);
+                    continue;
+                }
+                const double mean = from.yaw + 0.5 * wrapAngle(to.yaw - from.yaw);
+                double askew = wrapAngle(std::atan2(to.y - from.y, to.x - from.x) - mean);
+                const int direction = std::abs(askew) <= 0.5 * PI ? 1 : -1;
+                if (direction < 0)
+                    askew = wrapAngle(askew + PI);
+                if (const auto arcs = gentleTurn(from, to, askew, direction, vehicle))
+                {
+                    result.extend(*arcs);
+                    continue;
+                }
+                turnTo(from.yaw, mean + askew);
+                result.append({0.0, direction * length});
+                turnTo(mean + askew, to.yaw);
+            }
+            return result;
         }
 
         /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
@@ -154,7 +215,9 @@ namespace parking
         if (path.getStateCount() == 0)
             return result;
         result.straight = problem.curveSpace().kind() == SpaceKind::SE2;
-        result.states = result.straight ? chordPath(path) : curvePath(problem, path);
+        result.path = result.straight ? linePath(path, problem.scenario().vehicle) : curvePath(problem, path);
+        result.path.start = problem.scenario().start;
+        result.states = result.straight ? chordPath(path) : result.path.sample(PlannedPath::SAMPLING);
         if (exact)
             for (const Pose &goal : problem.scenario().goals)
             {

@@ -13,7 +13,9 @@ namespace parking
     /** \brief A planner's path in the terms of a car, measured. Local coordinates of the scenario. */
     struct PlannedPath
     {
-        SampledPath states;    ///< at most SAMPLING apart, first = start; last = goal when the solution is exact
+        Path path;             ///< as a car may drive it, see readPath()
+        SampledPath states;    ///< as the planner means it: at most SAMPLING apart, first = start; last = goal when the
+                               ///< solution is exact
         bool straight{false};  ///< joined by straight lines (plain SE2 space) and not by arcs
         double length{0.0};    ///< metres
         std::size_t cusps{0};  ///< changes of direction
@@ -27,8 +29,14 @@ namespace parking
     /** \brief Reads and measures a solution of \e problem.
 
         In a Reeds-Shepp or Dubins space the arcs are those that the space interpolates along; pieces shorter than a
-       tenth of a micrometre are rounding and left out. In a plain SE2 space states are joined by straight lines:
-       direction and curvature are those of the arc that would join the states.
+        tenth of a micrometre are rounding and left out.
+
+        In a plain SE2 space the planner means straight lines along which the heading turns evenly, whatever the
+        direction of travel. That is what is measured and checked. No car moves like that, so the path is as near to it
+        as the model of a car allows: where the heading keeps to the direction of travel, as on somebody's smooth curve,
+        a motion becomes the two arcs that join its ends exactly; any other becomes a turn on the spot to the direction
+        of the line, the line, and a turn to the heading at its end. For the paper's grid paths, whose headings are
+        those of their lines, this is exactly what was planned.
 
         \param exact the last state is one of the goals up to rounding, and is set to that goal */
     PlannedPath readPath(const Problem &problem, const ompl::geometric::PathGeometric &path, bool exact);

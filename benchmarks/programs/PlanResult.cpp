@@ -1,8 +1,8 @@
 #include "benchmarks/programs/PlanResult.h"
 
-#include "automatic_parking/AutomaticParking.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
+#include "benchmarks/problems/PathDrive.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/drawing/Svg.h"
 #include "parking_geometry/text/Text.h"
@@ -258,25 +258,19 @@ namespace parking
         return figure.toString();
     }
 
-    void drivePath(const Problem &problem, PlanResult &result)
+    void addDrive(const Problem &problem, PlanResult &result)
     {
         const PlanRun &run = result.first();
         if (!run.path)
             return;
-        const Scenario &scenario = problem.scenario();
-        ParkingParameters parameters;
-        SampledPath path = run.path->states;
-        if (run.path->straight)
+        try
         {
-            // A car that turns at the corners of a grid may leave the path by its turning circle.
-            path = asChords(path, scenario.vehicle);
-            parameters.drive.tracking.reference.maxCornerDeviation = 3.0 * scenario.vehicle.minTurningRadius();
+            result.drive = drivePath(problem, *run.path);
         }
-        ParkingResult driven = AutomaticParking(parameters).drive(scenario, path);
-        if (driven.status == ParkingStatus::NotDrivable)
-            result.driveError = driven.message;
-        else
-            result.drive = std::move(driven.legs.front().drive);
+        catch (const Error &error)
+        {
+            result.driveError = error.what();
+        }
     }
 
     std::string resultHtml(const Problem &problem, const PlanResult &result)
@@ -285,7 +279,7 @@ namespace parking
         if (!result.drive)
             throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
         const Evaluation &figures = result.drive->evaluation;
-        return driveAnimation(scenario, result.first().path->states, result.drive->trajectory, scenario.name,
+        return driveAnimation(scenario, result.first().path->path, result.drive->trajectory, scenario.name,
                               result.planner + ", " + fixed(figures.drivenLength, 1) + " m in " +
                                   fixed(figures.travelTime, 1) + " s, ends " +
                                   fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path");

@@ -44,7 +44,7 @@ namespace parking
     std::string resultSvg(const Problem &problem, const PlanResult &result);
 
     /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
-    void drivePath(const Problem &problem, PlanResult &result);
+    void addDrive(const Problem &problem, PlanResult &result);
 
     /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */
     std::string resultHtml(const Problem &problem, const PlanResult &result);

@@ -50,7 +50,7 @@ namespace
         for (std::size_t run = 0; run < options.runs; ++run)
             result.runs.push_back(planOnce(problem, entry, options.settings, options.timeLimit, options.seed + run));
         if (options.track)
-            drivePath(problem, result);
+            addDrive(problem, result);
 
         if (!options.svg.empty())
             writeFileAtomically(options.svg, resultSvg(problem, result));

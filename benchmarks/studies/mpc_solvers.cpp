@@ -42,7 +42,7 @@ namespace
     }
 
     /** Arcs at full lock, lines and cusps, some 25 m. */
-    SampledPath makePath(std::uint64_t seed)
+    Path makePath(std::uint64_t seed)
     {
         std::mt19937_64 random(seed);
         Path path{{0.0, 0.0, 0.3}, {}};
@@ -55,7 +55,7 @@ namespace
             if (random() % 3 == 0)
                 direction = -direction;
         }
-        return path.sample(0.1);
+        return path;
     }
 
     /** What every solver minimises, and within which limits. */

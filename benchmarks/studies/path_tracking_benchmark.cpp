@@ -20,7 +20,7 @@ namespace
     constexpr double LENGTH = 30.0;
 
     /** Curvature, as a share of the largest, of the pieces of a path: arcs or, ramped up and down, clothoids. */
-    SampledPath makePath(std::uint64_t seed, bool smooth)
+    Path makePath(std::uint64_t seed, bool smooth)
     {
         const double most = 1.0 / Vehicle().minTurningRadius();
         std::mt19937_64 random(seed);
@@ -36,13 +36,11 @@ namespace
             const double length = uniform(0.5, 5.0);
             if (smooth)
             {
-                constexpr int PIECES = 25;  // up, and as many down
-                const double piece = (1.0 + length) / (2 * PIECES);
-                for (int i = 0; i < 2 * PIECES; ++i)
-                {
-                    const double share = std::min(i + 0.5, 2 * PIECES - i - 0.5) / PIECES;
-                    path.append({0.9 * curvature * std::min(1.0, 1.5 * share), direction * piece});
-                }
+                // Up over a third of the length, as long held, and down again.
+                const double third = (1.0 + length) / 3.0, top = 0.9 * curvature;
+                path.append({0.0, direction * third, top / third});
+                path.append({top, direction * third});
+                path.append({top, direction * third, -top / third});
             }
             else
             {
@@ -51,12 +49,12 @@ namespace
             if (random() % 3 == 0)
                 direction = -direction;
         }
-        return path.sample(0.1);
+        return path;
     }
 
     void speedProfile(benchmark::State &state)
     {
-        std::vector<SampledPath> paths;
+        std::vector<Path> paths;
         for (std::uint64_t seed = 0; seed < 20; ++seed)
             paths.push_back(makePath(seed, state.range(0) == 1));
         std::size_t i = 0;
@@ -140,7 +138,7 @@ namespace
         if (state.range(1) == 1)
             parameters.disturbances = everyday(1);
         const ClosedLoop loop(Vehicle(), parameters);
-        const SampledPath path = makePath(1, state.range(0) == 1);
+        const Path path = makePath(1, state.range(0) == 1);
         DriveResult result;
         for (auto _ : state)
             result = loop.drive(path);

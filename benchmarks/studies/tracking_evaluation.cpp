@@ -91,8 +91,8 @@ namespace
             return row;
         const ParkingPlan &plan = nominal.legs.front().plan;
         row.planningTime = plan.planningTime + plan.smoothingTime;
-        row.length = pathLength(plan.path);
-        row.cusps = countCusps(plan.path);
+        row.length = plan.path.length();
+        row.cusps = plan.path.cusps();
         row.clearance = plan.clearance;
         row.nominal = nominal.evaluation;
         row.nominalWorst.add(nominal);

@@ -125,6 +125,27 @@ namespace parking
         return result;
     }
 
+    Path Path::rest(double driven) const
+    {
+        Path result{start, {}};
+        for (const PathPiece &piece : pieces)
+        {
+            const double skipped = std::min(driven, piece.driven());
+            PathPiece left = piece;
+            if (driven > 0.0)
+            {
+                // A turn at the very end of what is skipped is still to be made.
+                result.start = advance(result.start, piece, skipped);
+                driven -= skipped;
+                left.curvature = piece.curvatureAt(skipped);
+                left.length = piece.direction() * (piece.driven() - skipped);
+                left.turn = 0.0;
+            }
+            result.append(left);
+        }
+        return result;
+    }
+
     std::vector<Stretch> Path::stretches() const
     {
         std::vector<Stretch> result;

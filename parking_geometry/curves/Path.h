@@ -131,6 +131,10 @@ namespace parking
          */
         Path part(std::size_t first, std::size_t last) const;
 
+        /** \brief What is left of the path behind its first \e driven metres (0 to length()); the piece that is under
+           way there is cut. */
+        Path rest(double driven) const;
+
         /** \brief The stretches in order. A turn on the spot belongs to the stretch that it precedes; one at the very
             end belongs to the last stretch. Pieces that do nothing are passed over. Empty for a path that never
             drives. */

@@ -22,27 +22,6 @@ namespace parking
         constexpr double JOIN_LENGTH = 1.0;         ///< metres over which a car returns exactly
         constexpr double LEAST_JOIN = 0.3;          ///< metres; in less, even millimetres ask for much steering
 
-        /** A place of a path: a piece and how far along it. */
-        struct Place
-        {
-            std::size_t piece;
-            double along;  ///< metres since the begin of the piece
-            Pose pose;     ///< where the piece begins
-        };
-
-        /** The place \e driven metres from the begin of \e path; where pieces meet, that in the later one. */
-        Place placeAt(const Path &path, double driven)
-        {
-            Place place{0, driven, path.start};
-            while (place.piece + 1 < path.pieces.size() && place.along >= path.pieces[place.piece].driven())
-            {
-                place.pose = advance(place.pose, path.pieces[place.piece]);
-                place.along -= path.pieces[place.piece++].driven();
-            }
-            place.along = std::min(place.along, path.pieces[place.piece].driven());
-            return place;
-        }
-
         /** The stretch as a polyline of places with distances from its begin. */
         class Guide
         {
@@ -166,11 +145,12 @@ namespace parking
         std::optional<Path> joinHere(const Path &stretch, double driven, const Pose &car, double curvature,
                                      const Vehicle &vehicle)
         {
-            const Place place = placeAt(stretch, driven);
-            const PathPiece &piece = stretch.pieces[place.piece];
-            const Pose offset = relativeTo(advance(place.pose, piece, place.along), car);
+            const Path left = stretch.rest(driven);
+            if (left.pieces.empty())
+                return std::nullopt;
+            const Pose offset = relativeTo(left.start, car);
             if (std::abs(offset.x) > STEP || std::abs(offset.y) > BACK_ON_PATH || std::abs(offset.yaw) > BACK_IN_YAW ||
-                std::abs(piece.curvatureAt(place.along) - curvature) > BACK_IN_CURVATURE)
+                std::abs(left.pieces.front().curvature - curvature) > BACK_IN_CURVATURE)
                 return std::nullopt;
             return joinStretch(stretch, driven, car, vehicle);
         }
@@ -248,24 +228,17 @@ namespace parking
     std::optional<Path> joinStretch(const Path &stretch, double from, const Pose &car, const Vehicle &vehicle)
     {
         // The joint keeps to one piece where that is long enough: two arcs cannot imitate more.
-        const Place here = placeAt(stretch, from);
-        const double left = stretch.pieces[here.piece].driven() - here.along;
-        if (left < LEAST_JOIN)
+        const Path left = stretch.rest(from);
+        if (left.pieces.empty() || left.pieces.front().driven() < LEAST_JOIN)
             return std::nullopt;
-        const Place there = placeAt(stretch, from + std::min(left, JOIN_LENGTH));
-        const Pose target = advance(there.pose, stretch.pieces[there.piece], there.along);
-        std::optional<Path> path = biarc(car, target, stretch.pieces[here.piece].direction());
+        const Path behind = left.rest(std::min(left.pieces.front().driven(), JOIN_LENGTH));
+        std::optional<Path> path = biarc(car, behind.start, left.pieces.front().direction());
         if (!path)
             return std::nullopt;
         for (const PathPiece &piece : path->pieces)
             if (std::abs(piece.curvature) > 1.0 / vehicle.minTurningRadius())
                 return std::nullopt;
-        PathPiece rest = stretch.pieces[there.piece];
-        rest.curvature = rest.curvatureAt(there.along);
-        rest.length = rest.direction() * (rest.driven() - there.along);
-        path->append(rest);
-        for (std::size_t i = there.piece + 1; i < stretch.pieces.size(); ++i)
-            path->append(stretch.pieces[i]);
+        path->extend(behind);
         return path;
     }
 

@@ -12,7 +12,7 @@ namespace parking
     {
         double steeringSlope{1.0};     ///< radians of steering per metre while a corner is cut
         double maxCut{1.0};            ///< metres; a corner that would be cut by more is turned at with shunts
-        double maxDeviation{3.5};      ///< metres; a path that would be left by more is refused
+        double maxDeviation{9.0};      ///< metres; a path that would be left by more is refused
         double endTolerance{0.02};     ///< metres beside the end of the path from which the car shunts to it
         double endYawTolerance{0.03};  ///< radians, likewise
     };

@@ -105,7 +105,7 @@ namespace parking
         require.positive("minBlendSpeed", minBlendSpeed, "m/s");
         require.positive("maxBlendLength", maxBlendLength, "metres");
         require.positive("maxCornerCut", maxCornerCut, "metres");
-        require.positive("maxCornerDeviation", maxCornerDeviation, "metres");
+        require.positive("maxCornerRadii", maxCornerRadii, "turning radii");
         require.positive("cornerSpeed", cornerSpeed, "m/s");
     }
 
@@ -117,7 +117,7 @@ namespace parking
         CornerParameters corners;
         corners.steeringSlope = vehicle.maxSteeringRate / parameters.cornerSpeed;
         corners.maxCut = parameters.maxCornerCut;
-        corners.maxDeviation = parameters.maxCornerDeviation;
+        corners.maxDeviation = parameters.maxCornerRadii * vehicle.minTurningRadius();
         path_ = makeDrivable(path, vehicle, corners, &corners_);
         for (const Stretch &stretch : path_.stretches())
         {

@@ -152,7 +152,7 @@ namespace
         ASSERT_TRUE(result.parked()) << result.message;
         ASSERT_EQ(result.legs.size(), 2u);
         EXPECT_NE(result.legs[1].reason.find("40 cm beside the path"), std::string::npos) << result.legs[1].reason;
-        EXPECT_NEAR(result.legs[1].plan.path.front().pose.y, 0.4, 0.01);
+        EXPECT_NEAR(result.legs[1].plan.path.start.y, 0.4, 0.01);
         EXPECT_LT(result.evaluation.finalPositionError, 0.01);
         // Less than the bound is the controller's business.
         EXPECT_EQ(AutomaticParking().park(scenario, Pose{0.0, 0.2, 0.0}).legs.size(), 1u);
@@ -218,7 +218,7 @@ namespace
     TEST(AutomaticParkingTest, drivesGivenPathsAndReportsCollisions)
     {
         Scenario scenario = openGround();
-        const SampledPath path = Path{scenario.start, {{0.0, 15.0}}}.sample(0.1);
+        const Path path{scenario.start, {{0.0, 15.0}}};
         const ParkingResult good = AutomaticParking().drive(scenario, path);
         EXPECT_TRUE(good.parked()) << good.message;
         EXPECT_NEAR(good.evaluation.drivenLength, 15.0, 0.01);
@@ -233,68 +233,35 @@ namespace
     {
         const Scenario scenario = openGround();
         const double nan = std::nan("");
-        const auto refused = [&](const SampledPath &path, const char *why)
+        const auto refused = [&](const Path &path, const char *why)
         {
             const ParkingResult result = AutomaticParking().drive(scenario, path);
             EXPECT_EQ(result.status, ParkingStatus::NotDrivable);
             EXPECT_NE(result.message.find(why), std::string::npos) << result.message;
             EXPECT_TRUE(result.trajectory.empty());
         };
-        const PathState begin{{0.0, 0.0, 0.0}, 0.0, 0.0, 1};
-        refused({}, "at least 2");
-        refused({begin}, "at least 2");
-        refused({begin, begin, begin}, "one place");
-        refused({begin, {{1.0, nan, 0.0}, 1.0, 0.0, 1}}, "finite");
-        refused({begin, {{1.0, 0.0, 0.0}, 1.0, 0.0, 0}}, "direction");
-        refused({begin, {{1.0, 0.0, 0.0}, 1.0, 5.0, 1}}, "curvature");
+        refused({}, "length");
+        refused({{}, {PathPiece::turnOnTheSpot(1.0)}}, "length");
+        refused({{}, {{0.0, nan}}}, "finite");
+        refused({{nan, 0.0, 0.0}, {{0.0, 1.0}}}, "finite");
+        refused({{}, {{0.0, 1.0}, {5.0, 1.0}}}, "piece 1: curvature");
     }
 
     TEST(AutomaticParkingTest, gridPathsAreDrivenByTheSameController)
     {
-        // Chords of a grid with both ways of writing their headings, a turn on the spot, another heading at the end.
-        Scenario scenario = openGround(30.0);
-        SampledPath path;
-        const auto add = [&path](double x, double y, double yaw, double curvature)
-        {
-            path.push_back({{x, y, yaw}, 0.0, curvature, 1});
-        };
-        add(0.0, 0.0, 0.0, 0.0);
-        add(0.0, 0.0, 0.25 * PI, 1e9);
-        for (int i = 1; i <= 20; ++i)
-            add(0.5 * i, 0.5 * i, 0.25 * PI, i == 20 ? -300.0 : 0.0);
-        for (int i = 1; i <= 20; ++i)
-            add(10.0 + 0.5 * i, 10.0, 0.0, i == 1 ? -700.0 : 0.0);
-        path.back().pose.yaw = -0.5;
-        path.back().curvature = 50.0;
-        const ParkingResult refused = AutomaticParking().drive(scenario, path);
-        EXPECT_EQ(refused.status, ParkingStatus::NotDrivable);
-        const SampledPath chords = asChords(path, scenario.vehicle);
-        ASSERT_EQ(chords.size(), 41u);
-        for (const PathState &state : chords)
-            EXPECT_EQ(state.curvature, 0.0);
-        EXPECT_EQ(chords.back().pose.yaw, -0.5);
-        ParkingParameters parameters;
-        parameters.drive.tracking.reference.maxCornerDeviation = 10.0;
-        const ParkingResult result = AutomaticParking(parameters).drive(scenario, chords);
+        // Chords of a grid, turns on the spot between them, another heading at the end.
+        const Scenario scenario = openGround(30.0);
+        Path path{{}, {PathPiece::turnOnTheSpot(0.25 * PI), {0.0, std::hypot(10.0, 10.0)}}};
+        path.append(PathPiece::turnOnTheSpot(-0.25 * PI));
+        path.append({0.0, 10.0});
+        path.append(PathPiece::turnOnTheSpot(-0.5));
+        const ParkingResult result = AutomaticParking().drive(scenario, path);
         ASSERT_TRUE(result.parked()) << result.message;
         EXPECT_LT(result.evaluation.finalPositionError, 0.03);
         EXPECT_LT(result.evaluation.finalYawError, 0.04);
         EXPECT_LT(result.evaluation.maxCrossTrack, 0.01);
         EXPECT_GT(result.evaluation.cornerDeviation, 0.1);
         expectLegal(result, scenario.vehicle);
-    }
-
-    TEST(AutomaticParkingTest, asChordsKeepsArcsThatTheCarCanDrive)
-    {
-        const double most = 1.0 / Vehicle().minTurningRadius();
-        const SampledPath wide = Path{{1.0, 2.0, 0.3}, {{0.5 * most, 4.0}}}.sample(0.1);
-        const SampledPath kept = asChords(wide, Vehicle());
-        ASSERT_EQ(kept.size(), wide.size());
-        for (std::size_t i = 1; i < kept.size(); ++i)
-            EXPECT_NEAR(kept[i].curvature, 0.5 * most, 1e-4);
-        const SampledPath tight = asChords(Path{{1.0, 2.0, 0.3}, {{2.0 * most, 4.0}}}.sample(0.1), Vehicle());
-        EXPECT_EQ(tight[5].curvature, 0.0);
-        EXPECT_TRUE(asChords({}, Vehicle()).empty());
     }
 
     TEST(AutomaticParkingTest, aMapThatMakesNoSenseIsASafeStop)

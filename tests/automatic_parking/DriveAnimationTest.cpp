@@ -26,9 +26,9 @@ namespace
         return drive;
     }
 
-    SampledPath somePath()
+    Path somePath()
     {
-        return Path{{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}}.sample(0.5);
+        return {{0.0, 0.0, 0.0}, {{0.0, 10.0}, {0.1, -3.0}}};
     }
 
     std::size_t count(const std::string &text, const std::string &what)

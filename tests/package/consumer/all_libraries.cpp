@@ -45,7 +45,7 @@ int main(int argc, char **argv)
 
     bool drives = true;
 #ifdef HAS_path_tracking
-    const parking::SpeedProfile profile(path.sample(0.1), parking::Vehicle());
+    const parking::SpeedProfile profile(path, parking::Vehicle());
     parking::Mpc controller(parking::Vehicle{}, parking::MpcParameters{});
     drives = profile.duration() > 0.0 && !controller.solve(parking::MpcProblem()).usable;
 #endif

@@ -149,7 +149,7 @@ namespace parking::test
             EXPECT_EQ(turned.corners().shunts, 1u);
             EXPECT_GT(turned.legs().size(), 3u);
             expectDrivable(turned);
-            parameters.maxCornerDeviation = 0.5;
+            parameters.maxCornerRadii = 0.5 / Vehicle().minTurningRadius();
             try
             {
                 ReferencePath(path, Vehicle(), parameters);

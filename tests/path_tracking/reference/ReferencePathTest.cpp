@@ -198,7 +198,7 @@ namespace parking::test
             for (double ReferenceParameters::*field :
                  {&ReferenceParameters::bodyTolerance, &ReferenceParameters::minBlendSpeed,
                   &ReferenceParameters::maxBlendLength, &ReferenceParameters::maxCornerCut,
-                  &ReferenceParameters::maxCornerDeviation, &ReferenceParameters::cornerSpeed})
+                  &ReferenceParameters::maxCornerRadii, &ReferenceParameters::cornerSpeed})
                 for (const double value : {0.0, -1.0, std::nan("")})
                 {
                     ReferenceParameters parameters;

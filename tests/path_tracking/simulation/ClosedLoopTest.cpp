@@ -168,7 +168,7 @@ namespace parking::test
                 EXPECT_LE(result.evaluation.maxCrossTrack, 0.02);       // from the stand-in
                 EXPECT_LE(result.evaluation.finalPositionError, 0.03);  // from the path itself
                 EXPECT_LE(result.evaluation.finalYawError, 2.0 * DEGREE);
-                EXPECT_LE(result.evaluation.cornerDeviation, ReferenceParameters().maxCornerDeviation);
+                EXPECT_LE(result.evaluation.cornerDeviation, 3.5);
             }
         }
 
