@@ -1,10 +1,9 @@
 #include "benchmarks/comparison/RunRecord.h"
 
 #include "benchmarks/comparison/RunColumns.h"
-#include "parking_geometry/curves/Kinematics.h"
+#include "benchmarks/problems/PathJson.h"
 #include "parking_geometry/text/Text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,22 +13,6 @@ namespace parking
 {
     namespace
     {
-        /** Fewer digits than a double has: a hundredth of a millimetre will do for pictures. */
-        double rounded(double value)
-        {
-            return std::round(value * 1e5) / 1e5;
-        }
-
-        json poseArray(const Pose &pose)
-        {
-            return json::array({rounded(pose.x), rounded(pose.y), rounded(pose.yaw)});
-        }
-
-        Pose poseFrom(const json &array)
-        {
-            return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>()};
-        }
-
         /** JSON has no infinity: what is not finite is the word for it. */
         json figureJson(const FigureValue &value)
         {
@@ -53,75 +36,6 @@ namespace parking
         }
     }  // namespace
 
-    StoredPath StoredPath::of(const PlannedPath &path)
-    {
-        StoredPath stored;
-        if (path.states.empty())
-            return stored;
-        stored.start = path.states.front().pose;
-        if (path.straight)
-        {
-            for (std::size_t i = 1; i < path.states.size(); ++i)
-            {
-                // States in the middle of a straight line say nothing.
-                const PathState &state = path.states[i];
-                const bool corner = i + 1 == path.states.size() || [&]
-                {
-                    const Pose &before = path.states[i - 1].pose, &after = path.states[i + 1].pose;
-                    const double ax = state.pose.x - before.x, ay = state.pose.y - before.y;
-                    const double bx = after.x - state.pose.x, by = after.y - state.pose.y;
-                    return std::abs(ax * by - ay * bx) > 1e-6 || ax * bx + ay * by < 0.0 ||
-                           std::abs(wrapAngle(after.yaw - state.pose.yaw)) > 1e-6 ||
-                           std::abs(wrapAngle(state.pose.yaw - before.yaw)) > 1e-6;
-                }();
-                if (corner)
-                    stored.corners.push_back(state.pose);
-            }
-            return stored;
-        }
-        Path arcs;
-        for (std::size_t i = 1; i < path.states.size(); ++i)
-            arcs.append({path.states[i].curvature,
-                         (path.states[i].arcLength - path.states[i - 1].arcLength) * path.states[i].direction});
-        stored.arcs = std::move(arcs.pieces);
-        return stored;
-    }
-
-    SampledPath StoredPath::sample(double step) const
-    {
-        if (corners.empty())
-            return Path{start, arcs}.sample(step);
-        SampledPath path;
-        PathState state;
-        state.pose = start;
-        path.push_back(state);
-        for (const Pose &corner : corners)
-        {
-            const Pose from = path.back().pose;
-            const double begin = path.back().arcLength;
-            const double length = std::hypot(corner.x - from.x, corner.y - from.y);
-            const double turn = wrapAngle(corner.yaw - from.yaw);
-            const Arc arc = arcBetween(from, corner);
-            const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / step)));
-            for (std::size_t k = 1; k <= steps; ++k)
-            {
-                const double share = static_cast<double>(k) / static_cast<double>(steps);
-                state.pose = {from.x + share * (corner.x - from.x), from.y + share * (corner.y - from.y),
-                              wrapAngle(from.yaw + share * turn)};
-                state.arcLength = begin + share * length;
-                state.curvature = length > 0.0 ? arc.curvature : 0.0;
-                state.direction = arc.length < 0.0 ? -1 : 1;
-                path.push_back(state);
-            }
-        }
-        if (path.size() > 1)
-        {
-            path.front().curvature = path[1].curvature;
-            path.front().direction = path[1].direction;
-        }
-        return path;
-    }
-
     json RunRecord::toJson() const
     {
         json text{{"experiment", experiment}, {"planner", planner}, {"parameters", parameters}};
@@ -138,22 +52,8 @@ namespace parking
         text["progress"] = std::move(improvements);
         if (!hasPath)
             return text;
-        json stored{{"exact", exact}, {"start", poseArray(path.start)}};
-        if (path.corners.empty())
-        {
-            json arcs = json::array();
-            for (const PathPiece &arc : path.arcs)
-                arcs.push_back(json::array({rounded(1e2 * arc.curvature) / 1e2, rounded(arc.length)}));
-            stored["arcs"] = std::move(arcs);
-        }
-        else
-        {
-            json corners = json::array();
-            for (const Pose &corner : path.corners)
-                corners.push_back(poseArray(corner));
-            stored["corners"] = std::move(corners);
-        }
-        text["path"] = std::move(stored);
+        text["path"] = parking::toJson(path);
+        text["path"]["exact"] = exact;
         return text;
     }
 
@@ -177,13 +77,7 @@ namespace parking
             return record;
         record.hasPath = true;
         path->at("exact").get_to(record.exact);
-        record.path.start = poseFrom(path->at("start"));
-        if (path->contains("arcs"))
-            for (const json &arc : path->at("arcs"))
-                record.path.arcs.emplace_back(arc.at(0).get<double>(), arc.at(1).get<double>());
-        else
-            for (const json &corner : path->at("corners"))
-                record.path.corners.push_back(poseFrom(corner));
+        record.path = pathFromJson(*path);
         return record;
     }
 }  // namespace parking

@@ -14,19 +14,6 @@
 
 namespace parking
 {
-    /** \brief A path in few numbers: arcs, or the corners of straight lines. Local coordinates. */
-    struct StoredPath
-    {
-        Pose start;
-        std::vector<PathPiece> arcs;
-        std::vector<Pose> corners;  ///< without the start; either this or arcs
-
-        static StoredPath of(const PlannedPath &path);
-
-        /** \brief States at most \e step apart. */
-        SampledPath sample(double step) const;
-    };
-
     /** \brief A figure of a run, of any type that OMPL's logs know; enumerations are whole numbers here. */
     using FigureValue = std::variant<bool, std::int64_t, double>;
 
@@ -74,7 +61,7 @@ namespace parking
         std::vector<Improvement> progress;
         bool hasPath{false};
         bool exact{false};
-        StoredPath path;
+        Path path;  ///< in local coordinates
 
         /** \brief Exact, valid when checked once more, and in time. */
         bool isSuccess() const

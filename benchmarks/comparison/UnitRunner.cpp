@@ -212,7 +212,7 @@ namespace parking
         putPath(record, *run.path);
         record.distanceToGoal = run.goalDistance;
         record.hasPath = true;
-        record.path = StoredPath::of(*run.path);
+        record.path = run.path->path;
         if (config_.simplify && record.exact)
             simplify(record, world, prepared, config_.timeLimit);
         if (config_.track)

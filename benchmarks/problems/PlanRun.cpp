@@ -140,7 +140,7 @@ namespace parking
             run.status = withoutSolution(prepared.measured);
             return run;
         }
-        run.goalDistance = distanceToGoals(problem.scenario(), planned.states.back().pose);
+        run.goalDistance = distanceToGoals(problem.scenario(), planned.end);
         run.path = std::move(planned);
         return run;
     }

@@ -157,21 +157,21 @@ namespace parking
             return std::max(0.0, least - problem.circleRadius());
         }
 
-        double leastClearance(const Problem &problem, const PlannedPath &path)
+        double leastClearance(const Problem &problem, const SampledPath &states, bool straight)
         {
             if (problem.settings().footprint == FootprintKind::Circle)
             {
                 double least = std::numeric_limits<double>::infinity();
-                for (const PathState &state : path.states)
+                for (const PathState &state : states)
                     least = std::min(least, discClearance(problem, state.pose));
                 return least;
             }
             const FootprintChecker &footprint = problem.footprint();
             CheckCounts ignored;
             // A good first guess spares most of the exact answers: the state that looks nearest.
-            const PathState *nearest = &path.states.front();
+            const PathState *nearest = &states.front();
             double least = std::numeric_limits<double>::infinity();
-            for (const PathState &state : path.states)
+            for (const PathState &state : states)
                 if (const double bound = footprint.clearance(state.pose); bound < least)
                 {
                     least = bound;
@@ -180,19 +180,19 @@ namespace parking
             least = footprint.exactClearance(nearest->pose);
             // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point
             // has moved by the difference.
-            for (std::size_t i = 1; i < path.states.size() && least > 0.0; ++i)
+            for (std::size_t i = 1; i < states.size() && least > 0.0; ++i)
             {
-                const Pose &from = path.states[i - 1].pose, &to = path.states[i].pose;
-                const double length = path.states[i].arcLength - path.states[i - 1].arcLength;
+                const Pose &from = states[i - 1].pose, &to = states[i].pose;
+                const double length = states[i].arcLength - states[i - 1].arcLength;
                 const double turn = wrapAngle(to.yaw - from.yaw);
                 const double moved = length + footprint.farthestPoint() * std::abs(turn);
                 double share = 0.0;
                 while (share <= 1.0 && least > 0.0)
                 {
-                    const Pose pose = path.straight ? Pose{from.x + share * (to.x - from.x),
-                                                           from.y + share * (to.y - from.y), from.yaw + share * turn}
-                                                    : advance(from, path.states[i].curvature,
-                                                              share * length * path.states[i].direction);
+                    const Pose pose = straight
+                                          ? Pose{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                                                 from.yaw + share * turn}
+                                          : advance(from, states[i].curvature, share * length * states[i].direction);
                     const double step = std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
                     double clearance = footprint.clearance(pose, least + moved, ignored);
                     if (clearance < least + step)
@@ -209,31 +209,37 @@ namespace parking
         }
     }  // namespace
 
+    SampledPath PlannedPath::states() const
+    {
+        SampledPath states = path.sample(SAMPLING);
+        states.back().pose = end;
+        return states;
+    }
+
     PlannedPath readPath(const Problem &problem, const og::PathGeometric &path, bool exact)
     {
         PlannedPath result;
         if (path.getStateCount() == 0)
             return result;
-        result.straight = problem.curveSpace().kind() == SpaceKind::SE2;
-        result.path = result.straight ? linePath(path, problem.scenario().vehicle) : curvePath(problem, path);
-        result.path.start = problem.scenario().start;
-        result.states = result.straight ? chordPath(path) : result.path.sample(PlannedPath::SAMPLING);
+        const Scenario &scenario = problem.scenario();
+        const bool straight = problem.curveSpace().kind() == SpaceKind::SE2;
+        result.path = straight ? linePath(path, scenario.vehicle) : curvePath(problem, path);
+        result.path.start = {scenario.start.x, scenario.start.y, wrapAngle(scenario.start.yaw)};
+        result.end = result.path.end();
         if (exact)
-            for (const Pose &goal : problem.scenario().goals)
-            {
-                Pose &last = result.states.back().pose;
-                if (std::hypot(goal.x - last.x, goal.y - last.y) < SAME &&
-                    std::abs(wrapAngle(goal.yaw - last.yaw)) < SAME)
-                    last = {goal.x, goal.y, wrapAngle(goal.yaw)};
-            }
-        result.states.front().pose = problem.scenario().start;
-        result.states.front().pose.yaw = wrapAngle(result.states.front().pose.yaw);
-        result.length = pathLength(result.states);
-        result.cusps = countCusps(result.states);
-        result.clearance = leastClearance(problem, result);
-        const DenseCheck check(problem.scenario(), problem.circleRadius());
-        result.recheck = check.check(result.states, result.straight,
-                                     result.straight ? 0.0 : 1.0 / problem.scenario().vehicle.minTurningRadius());
+            for (const Pose &goal : scenario.goals)
+                if (std::hypot(goal.x - result.end.x, goal.y - result.end.y) < SAME &&
+                    std::abs(wrapAngle(goal.yaw - result.end.yaw)) < SAME)
+                    result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
+        // What the planner means, which on a plain SE2 space is not what a car does.
+        SampledPath meant = straight ? chordPath(path) : result.path.sample(PlannedPath::SAMPLING);
+        meant.front().pose = result.path.start;
+        meant.back().pose = result.end;
+        result.length = pathLength(meant);
+        result.cusps = countCusps(meant);
+        result.clearance = leastClearance(problem, meant, straight);
+        const DenseCheck check(scenario, problem.circleRadius());
+        result.recheck = check.check(meant, straight, straight ? 0.0 : 1.0 / scenario.vehicle.minTurningRadius());
         return result;
     }
 }  // namespace parking

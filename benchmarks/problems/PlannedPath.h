@@ -10,18 +10,19 @@
 
 namespace parking
 {
-    /** \brief A planner's path in the terms of a car, measured. Local coordinates of the scenario. */
+    /** \brief A planner's path as a car may drive it, with what was measured along it. Local coordinates of the
+        scenario. */
     struct PlannedPath
     {
-        Path path;             ///< as a car may drive it, see readPath()
-        SampledPath states;    ///< as the planner means it: at most SAMPLING apart, first = start; last = goal when the
-                               ///< solution is exact
-        bool straight{false};  ///< joined by straight lines (plain SE2 space) and not by arcs
-        double length{0.0};    ///< metres
-        std::size_t cusps{0};  ///< changes of direction
-        double clearance{
-            0.0};             ///< metres between body (or disc) and obstacles, the least along the path; 0 in collision
-        DenseResult recheck;  ///< by code of its own
+        Path path;              ///< from the scenario's start; see readPath()
+        Pose end;               ///< of the path; the goal itself when the solution is exact
+        double length{0.0};     ///< metres
+        std::size_t cusps{0};   ///< changes of direction
+        double clearance{0.0};  ///< metres between body (or disc) and obstacles, the least; 0 in collision
+        DenseResult recheck;    ///< by code of its own
+
+        /** \brief States of the path no more than SAMPLING apart, the last one at \e end. */
+        SampledPath states() const;
 
         static constexpr double SAMPLING = 0.1;  // metres
     };
@@ -32,7 +33,8 @@ namespace parking
         tenth of a micrometre are rounding and left out.
 
         In a plain SE2 space the planner means straight lines along which the heading turns evenly, whatever the
-        direction of travel. That is what is measured and checked. No car moves like that, so the path is as near to it
+        direction of travel. That is what length, cusps, clearance and the
+        recheck are about. No car moves like that, so the path is as near to it
         as the model of a car allows: where the heading keeps to the direction of travel, as on somebody's smooth curve,
         a motion becomes the two arcs that join its ends exactly; any other becomes a turn on the spot to the direction
         of the line, the line, and a turn to the heading at its end. For the paper's grid paths, whose headings are

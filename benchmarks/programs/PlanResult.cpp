@@ -165,7 +165,7 @@ namespace parking
                   {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
                   {"planning_time_ms", std::move(times)},
                   {"runs", std::move(runs)},
-                  {"path", run.path ? pathJson(scenario, run.path->states) : json::array()},
+                  {"path", run.path ? pathJson(scenario, run.path->states()) : json::array()},
                   {"length_m", run.path ? json(run.path->length) : json(nullptr)},
                   {"cusps", run.path ? json(run.path->cusps) : json(nullptr)},
                   {"min_clearance_m", run.path ? number(run.path->clearance) : json(nullptr)},
@@ -236,7 +236,7 @@ namespace parking
     {
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
-        const SampledPath path = run.path ? run.path->states : SampledPath{};
+        const SampledPath path = run.path ? run.path->states() : SampledPath{};
         std::string subtitle =
             result.planner + ", " + toString(run.status) + ", " + fixed(MS * run.planningTime, 1) + " ms";
         if (run.path)

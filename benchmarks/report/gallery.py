@@ -6,6 +6,7 @@ import re
 from charts import px, shown, text
 
 FAINT_RUNS = 30  # paths of other runs drawn behind the best one
+CLOTHOID_STEP = 0.2  # metres of the arcs that a clothoid is drawn with
 
 _MAP = re.compile(r'<svg x="[^"]*" y="[^"]*" width="([\d.]+)" height="([\d.]+)"[^>]* data-left="([^"]+)" '
                   r'data-top="([^"]+)" data-scale="([^"]+)">\n(.*?)</svg>', re.DOTALL)
@@ -33,35 +34,35 @@ def read_picture(folder, problem):
     return Picture(width, height, left, top, scale, _PATHS.sub('', found.group(6)))
 
 
-def _arc_pieces(path):
-    """(direction, begin, end, curvature, turn) of a stored path's arcs, none turning by more than a quarter."""
+def _pieces(path):
+    """(direction, begin, end, curvature, turn) of a stored path's pieces, none turning by more than a quarter.
+
+    Of the arrays that are pieces, [turn] turns on the spot, [curvature, length] is an arc and [curvature, length,
+    sharpness] a clothoid, which is drawn as short arcs."""
     x, y, yaw = path['start']
-    for curvature, length in path.get('arcs', ()):
-        turn = curvature * length
-        count = max(1, math.ceil(abs(turn) / (0.5 * math.pi)))
-        for _ in range(count):
-            step = length / count
-            angle = curvature * step
-            chord = step if abs(angle) < 1e-9 else 2.0 * math.sin(0.5 * angle) / curvature
+    for piece in path['pieces']:
+        if len(piece) == 1:
+            yaw += piece[0]
+            continue
+        curvature, length, sharpness = (*piece, 0.0)[:3]
+        steepest = max(abs(curvature), abs(curvature + sharpness * abs(length)))
+        count = max(1, math.ceil(abs(length) / CLOTHOID_STEP) if sharpness else 1,
+                    math.ceil(steepest * abs(length) / (0.5 * math.pi)))
+        step = length / count
+        for k in range(count):
+            bend = curvature + sharpness * abs(step) * (k + 0.5)
+            angle = bend * step
+            chord = step if abs(angle) < 1e-9 else 2.0 * math.sin(0.5 * angle) / bend
             nx, ny = x + chord * math.cos(yaw + 0.5 * angle), y + chord * math.sin(yaw + 0.5 * angle)
-            yield (1 if step >= 0.0 else -1), (x, y), (nx, ny), curvature, angle
+            yield (1 if step >= 0.0 else -1), (x, y), (nx, ny), bend, angle
             x, y, yaw = nx, ny, yaw + angle
-
-
-def _straight_pieces(path):
-    x, y, yaw = path['start']
-    for nx, ny, nyaw in path['corners']:
-        forwards = (nx - x) * math.cos(yaw) + (ny - y) * math.sin(yaw) >= 0.0
-        yield (1 if forwards else -1), (x, y), (nx, ny), 0.0, 0.0
-        x, y, yaw = nx, ny, nyaw
 
 
 def path_lines(path, picture):
     """The path as SVG: [(direction, d)] of its pieces between changes of direction, and the places of the changes."""
     lines, cusps = [], []
-    pieces = _straight_pieces(path) if path.get('corners') else _arc_pieces(path)
     last = None
-    for direction, begin, end, curvature, turn in pieces:
+    for direction, begin, end, curvature, turn in _pieces(path):
         (x0, y0), (x1, y1) = (((x - picture.left) * picture.scale, (picture.top - y) * picture.scale)
                               for x, y in (begin, end))
         if direction != last:

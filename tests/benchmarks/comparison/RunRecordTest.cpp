@@ -1,4 +1,4 @@
-// A run's record keeps its path in few numbers, from which the path comes back.
+// A run's record keeps its path in exact pieces, from which the path comes back.
 
 #include "benchmarks/comparison/RunRecord.h"
 #include "benchmarks/summary/ComparisonPictures.h"
@@ -10,64 +10,41 @@ namespace
 {
     using namespace parking;
 
-    /** A record with a path, having gone through text. */
-    RunRecord throughText(const PlannedPath &path)
+    TEST(RunRecord, KeepsItsPathExactly)
     {
+        Path path{{1.0 / 3.0, 2.0, 0.5}, {{0.2, 3.0}, {0.0, -2.5}, {-0.25, 1.25, 0.1}}};
+        path.append(PathPiece::turnOnTheSpot(0.7));
+        path.append({0.0, 1e-5});
         RunRecord record;
         record.hasPath = true;
         record.exact = true;
-        record.path = StoredPath::of(path);
-        return RunRecord::fromJson(nlohmann::json::parse(record.toJson().dump()));
+        record.path = path;
+        const RunRecord back = RunRecord::fromJson(nlohmann::json::parse(record.toJson().dump()));
+        EXPECT_TRUE(back.hasPath);
+        EXPECT_TRUE(back.exact);
+        EXPECT_EQ(back.path.start.x, path.start.x);
+        EXPECT_EQ(back.path.start.yaw, path.start.yaw);
+        ASSERT_EQ(back.path.pieces.size(), path.pieces.size());
+        for (std::size_t i = 0; i < path.pieces.size(); ++i)
+        {
+            EXPECT_EQ(back.path.pieces[i].curvature, path.pieces[i].curvature);
+            EXPECT_EQ(back.path.pieces[i].length, path.pieces[i].length);
+            EXPECT_EQ(back.path.pieces[i].sharpness, path.pieces[i].sharpness);
+            EXPECT_EQ(back.path.pieces[i].turn, path.pieces[i].turn);
+        }
+        EXPECT_FALSE(RunRecord::fromJson(nlohmann::json::parse(RunRecord().toJson().dump())).hasPath);
     }
 
-    void expectSame(const SampledPath &a, const SampledPath &b)
+    TEST(RunRecord, APieceThatIsNoneIsRefused)
     {
-        ASSERT_EQ(a.size(), b.size());
-        for (std::size_t i = 0; i < a.size(); ++i)
+        RunRecord record;
+        record.hasPath = true;
+        record.path = {{}, {{0.0, 1.0}}};
+        for (const char *piece : {"[]", "[1, 2, 3, 4]", "7", "[\"a\"]"})
         {
-            EXPECT_NEAR(a[i].pose.x, b[i].pose.x, 1e-3);
-            EXPECT_NEAR(a[i].pose.y, b[i].pose.y, 1e-3);
-            EXPECT_NEAR(wrapAngle(a[i].pose.yaw - b[i].pose.yaw), 0.0, 1e-3);
-            EXPECT_EQ(a[i].direction, b[i].direction);
-        }
-    }
-
-    TEST(RunRecord, ArcsComeBack)
-    {
-        const Path arcs{{1.0, 2.0, 0.5}, {{0.2, 3.0}, {0.0, -2.5}, {-0.25, 1.25}}};
-        PlannedPath path;
-        path.states = arcs.sample(0.1);
-        const RunRecord record = throughText(path);
-        ASSERT_EQ(record.path.arcs.size(), 3U);
-        EXPECT_NEAR(record.path.arcs[1].length, -2.5, 1e-4);
-        expectSame(record.path.sample(0.1), path.states);
-    }
-
-    TEST(RunRecord, CornersComeBack)
-    {
-        PlannedPath path;
-        path.straight = true;
-        PathState state;
-        for (int i = 0; i <= 10; ++i)
-        {
-            state.pose = {0.1 * i, 0.0, 0.0};
-            state.arcLength = 0.1 * i;
-            path.states.push_back(state);
-        }
-        for (int i = 1; i <= 10; ++i)
-        {
-            state.pose = {1.0, 0.1 * i, 0.0};
-            state.arcLength = 1.0 + 0.1 * i;
-            path.states.push_back(state);
-        }
-        const RunRecord record = throughText(path);
-        EXPECT_EQ(record.path.corners.size(), 2U);
-        const SampledPath back = record.path.sample(0.1);
-        ASSERT_EQ(back.size(), path.states.size());
-        for (std::size_t i = 0; i < back.size(); ++i)
-        {
-            EXPECT_NEAR(back[i].pose.x, path.states[i].pose.x, 1e-4);
-            EXPECT_NEAR(back[i].pose.y, path.states[i].pose.y, 1e-4);
+            nlohmann::json text = record.toJson();
+            text["path"]["pieces"].push_back(nlohmann::json::parse(piece));
+            EXPECT_ANY_THROW(RunRecord::fromJson(text)) << piece;
         }
     }
 

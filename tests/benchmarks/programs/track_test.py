@@ -1,5 +1,6 @@
 """parking_plan --track: the drive in the JSON, in the picture and as a page."""
 
+import json
 import math
 import os
 
@@ -31,6 +32,27 @@ class TrackTest(ProgramTest):
             result = self.planned(bundled('parallel'), '--track', '--set', 'parameter_set=' + name)
             self.assertTrue(result['tracking']['arrived'], result['tracking']['message'])
             self.assertLessEqual(result['tracking']['final_position_error_m'], 0.05)
+
+    def test_a_comparison_drives_the_same(self):
+        for planner, settings in (('improved_astar', ()), ('improved_astar', ('parameter_set=basic_astar',)),
+                                  ('reeds_shepp', ())):
+            options = [part for setting in settings for part in ('--set', setting)]
+            result = self.planned(bundled('perpendicular'), '--track', '--planner', planner, *options)
+            alone = result['tracking']
+            lines = [f'{planner}.{setting}' for setting in settings]
+            space = 'space = se2\nfootprint = circle\n' if settings else ''
+            self.write('set.cfg', f'[problem]\nscenario = {bundled("perpendicular")}\n{space}[benchmark]\n'
+                       'time_limit = 20\nrun_count = 1\ntrack = yes\n[planner]\n' + '\n'.join([planner + '=', *lines]) + '\n')
+            self.benchmark('set.cfg', '--output', 'out_' + planner + str(len(settings)), '--quiet')
+            with open(self.path('out_' + planner + str(len(settings)) + '/runs.jsonl')) as stream:
+                next(stream)
+                figures = json.loads(next(stream))['figures']
+            self.assertEqual(figures['driven to the end'], alone['arrived'])
+            for name, field in (('travel time', 'travel_time_s'), ('driven length', 'driven_length_m'),
+                                ('greatest position error', 'max_position_error_m'),
+                                ('final position error', 'final_position_error_m'),
+                                ('final yaw error', 'final_yaw_error_rad'), ('collisions while driving', 'collisions')):
+                self.assertAlmostEqual(figures[name], alone[field], delta=1e-9, msg=f'{planner} {settings} {name}')
 
     def test_picture_and_page(self):
         self.planned(bundled('perpendicular'), '--track', '--svg', self.path('a.svg'), '--html', self.path('a.html'))

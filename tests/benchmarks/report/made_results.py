@@ -32,7 +32,7 @@ def record(problem, planner, run, outcome, first=None, length=None, progress=Non
             'progress': progress}
     if outcome != 'none':
         made['path'] = {'exact': outcome != 'approximate', 'start': [0.0, 0.0, 0.0],
-                        'arcs': [[0.0, 2.0], [0.2, -3.0]]}
+                        'pieces': [[0.0, 2.0], [0.2, -3.0], [0.1], [0.0, -0.5, 0.2]]}
     return made
 
 
