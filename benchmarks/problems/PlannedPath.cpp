@@ -236,7 +236,7 @@ namespace parking
         meant.front().pose = result.path.start;
         meant.back().pose = result.end;
         result.length = pathLength(meant);
-        result.cusps = countCusps(meant);
+        result.cusps = result.path.cusps();
         result.clearance = leastClearance(problem, meant, straight);
         const DenseCheck check(scenario, problem.circleRadius());
         result.recheck = check.check(meant, straight, straight ? 0.0 : 1.0 / scenario.vehicle.minTurningRadius());

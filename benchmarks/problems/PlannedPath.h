@@ -33,12 +33,11 @@ namespace parking
         tenth of a micrometre are rounding and left out.
 
         In a plain SE2 space the planner means straight lines along which the heading turns evenly, whatever the
-        direction of travel. That is what length, cusps, clearance and the
-        recheck are about. No car moves like that, so the path is as near to it
-        as the model of a car allows: where the heading keeps to the direction of travel, as on somebody's smooth curve,
-        a motion becomes the two arcs that join its ends exactly; any other becomes a turn on the spot to the direction
-        of the line, the line, and a turn to the heading at its end. For the paper's grid paths, whose headings are
-        those of their lines, this is exactly what was planned.
+        direction of travel. That is what length, clearance and the recheck are about. No car moves like that, so the
+        path is as near to it as the model of a car allows: where the heading keeps to the direction of travel, as on
+        somebody's smooth curve, a motion becomes the two arcs that join its ends exactly; any other becomes a turn on
+        the spot to the direction of the line, the line, and a turn to the heading at its end. For the paper's grid
+        paths, whose headings are those of their lines, this is exactly what was planned.
 
         \param exact the last state is one of the goals up to rounding, and is set to that goal */
     PlannedPath readPath(const Problem &problem, const ompl::geometric::PathGeometric &path, bool exact);

@@ -8,15 +8,18 @@ namespace parking
 {
     namespace
     {
+        /** Radians; what bends by less is a straight line but for rounding. */
+        constexpr double STRAIGHT = 1e-11;
+
         /** The arc that leaves \e from and passes the place \e to. */
         Arc arcThrough(const Pose &from, const Eigen::Vector2d &to, int direction)
         {
             const Pose offset = relativeTo(from, {to.x(), to.y(), 0.0});
             const double chord = std::hypot(offset.x, offset.y);
             const double half = std::atan2(direction * offset.y, direction * offset.x);
-            const double curvature = 2.0 * offset.y / (chord * chord);
-            const double stretch = std::abs(half) < 1e-8 ? 1.0 : half / std::sin(half);
-            return {curvature, direction * chord * stretch};
+            if (std::abs(half) < STRAIGHT)
+                return {0.0, direction * chord};
+            return {2.0 * offset.y / (chord * chord), direction * chord * half / std::sin(half)};
         }
     }  // namespace
 

@@ -245,6 +245,27 @@ TEST(Path, PartsFollowEachOther)
     }
 }
 
+TEST(Path, TheRestEndsWhereThePathDoes)
+{
+    RandomParking random(23);
+    for (int i = 0; i < 300; ++i)
+    {
+        const Path path = anyPath(random);
+        const double length = path.length(), driven = random.uniform(0.0, length);
+        const Path rest = path.rest(driven);
+        EXPECT_NEAR(rest.length(), length - driven, 1e-9);
+        EXPECT_LT(gap(rest.end(), path.end()), 1e-9);
+        // It begins where the path is by then: a rest of the rest is the rest of both.
+        EXPECT_LT(gap(path.rest(0.5 * driven).rest(0.5 * driven).start, rest.start), 1e-9);
+    }
+    // A turn where the rest begins is still to be made.
+    const Path corner{{}, {{0.0, 2.0}, PathPiece::turnOnTheSpot(1.0), {0.0, 1.0}}};
+    EXPECT_EQ(corner.rest(2.0).pieces.size(), 2U);
+    EXPECT_LT(gap(corner.rest(2.0).start, {2.0, 0.0, 0.0}), 1e-12);
+    EXPECT_LT(gap(corner.rest(2.5).start, {2.0 + 0.5 * std::cos(1.0), 0.5 * std::sin(1.0), 1.0}), 1e-12);
+    EXPECT_TRUE(corner.rest(3.0).pieces.empty());
+}
+
 TEST(Path, AppendingMergesArcsAndDropsWhatDoesNothing)
 {
     Path path;
