@@ -96,7 +96,7 @@ namespace parking
         ParkingResult park(const Scenario &scenario, const std::optional<Pose> &start = std::nullopt) const;
 
         /** \brief Drives a path that somebody else has planned, an OMPL planner for example, in the world of \e
-           scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
+            scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
         ParkingResult drive(const Scenario &scenario, const Path &path) const;
 
     private:

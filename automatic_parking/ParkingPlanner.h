@@ -25,8 +25,8 @@ namespace parking
         /** Gaps in metres kept all round the body, largest first; one that start or goal do not leave is not tried. */
         std::vector<double> gaps{0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
         /** What a gap is worth: of two paths the one with the smaller cost + gapWorth * 0.25 m / (gap + 0.02 m) is
-            taken, in metres. At 3, keeping 25 cm may cost 7 m of way more than 6 cm, and 6 cm 28 m more than grazing.
-         */
+            taken, in metres. At 3, keeping 25 cm may cost 7 m of way more than 6 cm, and 6 cm 28 m more than
+            grazing. */
         double gapWorth{3.0};
         /** Expansions after which a gap is given up; the last one is granted all of the time. */
         std::uint64_t expansionsPerGap{4000};

@@ -24,8 +24,8 @@ namespace parking
             through, full lock is used. At least 1. */
         double radiusFactor{1.03};
 
-        /** Gap all round the body, metres, that manoeuvres in several stretches may go down to, from that of the sweep.
-         */
+        /** Gap all round the body, metres, that manoeuvres in several stretches may go down to, from that of the
+            sweep. */
         double leastClearance{0.01};
 
         /** Expansions after which a search gives up. */
@@ -52,10 +52,10 @@ namespace parking
 
         1. The one-sweep manoeuvre of ReverseParking, checked against the world by the swept footprint.
         2. Where no sweep fits, planInStretches() with the planner's car model: shunts, searched out of the slot. The
-       gap kept is that of the sweep, then 2 cm, then leastClearance: smaller ones where nothing else gets through, or
-           where many stretches become a quarter fewer.
+          gap kept is that of the sweep, then 2 cm, then leastClearance: smaller ones where nothing else gets through,
+          or where many stretches become a quarter fewer.
         3. The planner brings the car to the manoeuvre's beginning P. Where the manoeuvre cannot be reached, the planner
-           goes all the way to the parked pose.
+          goes all the way to the parked pose.
         4. Both are joined and smoothed as one.
 
         Equal inputs give equal outputs: searches end by expansions, not by the clock.

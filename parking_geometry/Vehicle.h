@@ -55,8 +55,8 @@ namespace parking
         /** \brief Steering angle that a curvature needs. */
         double steeringAngle(double curvature) const;
 
-        /** \brief Corners of the body at \e pose: rear right, front right, front left, rear left (counter-clockwise).
-         */
+        /** \brief Corners of the body at \e pose: rear right, front right, front left, rear left
+            (counter-clockwise). */
         std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
 
         /** \brief Throws parking::Error naming the first field that is not finite or out of its range. */

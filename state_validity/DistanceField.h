@@ -35,8 +35,8 @@ namespace parking
         /** \brief The field of \e obstacles.
 
             \param resolution side of a cell in metres for polygon worlds; 0 chooses one. Grid worlds use their own
-           cells. Throws parking::Error when the resolution is negative, not finite, or would need more than 2^28 cells.
-         */
+            cells. Throws parking::Error when the resolution is negative, not finite, or would need more than 2^28
+            cells. */
         explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
 
         /** \brief The field of the non-zero entries of \e blocked, row by row: the transform itself. */

@@ -15,9 +15,9 @@ namespace parking
     /** \brief The edges of all obstacles, found quickly near a point, and how far an oriented box is from them.
 
         The world is cut into square buckets. The list of a bucket holds every edge within \e reach of any of its
-       points, so one list answers a query whole. Lists are gathered when first asked for: their cost grows with the
-       area that is searched, not with the map. Within a list, edges that lie together form blocks of eight with a box
-       round them: most blocks are passed over whole. Safe for const calls from several threads. */
+        points, so one list answers a query whole. Lists are gathered when first asked for: their cost grows with the
+        area that is searched, not with the map. Within a list, edges that lie together form blocks of eight with a box
+        round them: most blocks are passed over whole. Safe for const calls from several threads. */
     class EdgeIndex
     {
     public:
@@ -39,7 +39,7 @@ namespace parking
             they cross, by how much they would have to be moved along the best of those axes. Infinite without edges.
 
             \param ignored separations of at least this need not be told apart: when all are, the result is some number
-           that is at least this */
+            that is at least this */
         double separation(const OrientedBox &box, double ignored) const;
 
         /** \brief The same, told apart however large. */

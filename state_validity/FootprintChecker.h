@@ -30,13 +30,13 @@ namespace parking
 
         Three tiers, each sure of its answer or silent:
         1. The distance field at the centre of the body, against the body's circumscribed and inscribed circle, then at
-           the centres of circles that cover the body (all clear: free) and of circles inscribed in it (one hit:
-           collision).
+          the centres of circles that cover the body (all clear: free) and of circles inscribed in it (one hit:
+          collision).
         2. The separation of the body from the edges of the obstacles near it (separating axes). A positive one means
-       that no outline is crossed, so that the body lies wholly outside or wholly inside of every obstacle, and the
-       field at its centre tells which.
+          that no outline is crossed, so that the body lies wholly outside or wholly inside of every obstacle, and the
+          field at its centre tells which.
         3. The contact test that the checker was given, for bodies within CONTACT_BAND of touching, where rounding
-           decides. Without one they count as touching.
+          decides. Without one they count as touching.
 
         Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. This class knows
         nothing of OMPL and FCL; FclFootprintChecker is its face in OMPL, fclContactTest() a contact test. */
@@ -51,7 +51,7 @@ namespace parking
             \param fieldResolution side of the distance field's cells in metres; 0 chooses one
 
             Throws parking::Error for an invalid vehicle, margin or field resolution, and when the enlarged body is
-           larger than the world. */
+            larger than the world. */
         FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
                          ContactTestMaker contact = {}, double fieldResolution = 0.0);
 
@@ -81,14 +81,14 @@ namespace parking
         /** \brief A lower bound of the distance between the body and the obstacles in metres; 0 when they may touch.
 
             Within reach (one metre) it is exact but where a corner of the body faces a corner of an obstacle, and then
-           at least 0.7 of the distance; beyond it may be lower by the error of the field. */
+            at least 0.7 of the distance; beyond it may be lower by the error of the field. */
         double clearance(const Pose &pose) const;
 
         /** \brief As clearance(), but content with less: stops at the first bound that is at least \e enough. */
         double clearance(const Pose &pose, double enough, CheckCounts &counts) const;
 
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
-           reports: it looks at every edge when none is within a metre. */
+            reports: it looks at every edge when none is within a metre. */
         double exactClearance(const Pose &pose) const;
 
         /** \brief How far the car can drive along an arc without touching an obstacle: exact, not sampled.
@@ -103,8 +103,8 @@ namespace parking
             \param length signed metres
             \param tolerance metres, positive
             \return between 0 and |length|: the length that is proven free, less the tolerance where it ends at an
-            obstacle; |length| itself when all of it is free; 0 when the pose is not free or an argument is not finite
-         */
+            obstacle; |length| itself when all of it is free; 0 when the pose is not free or an argument is not
+            finite */
         double freeLength(const Pose &from, double curvature, double length, double tolerance,
                           CheckCounts &counts) const;
 

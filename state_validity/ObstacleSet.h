@@ -30,14 +30,14 @@ namespace parking
 
         Everything is kept in a local frame near the obstacles: at 4e9 m a double resolves a micrometre only, so no
         arithmetic is done in world coordinates but the subtraction of the frame. Obstacles are solid; the outside of
-       the bounds is an obstacle too. */
+        the bounds is an obstacle too. */
     class ObstacleSet
     {
     public:
         /** \brief A world of polygons (simple, either orientation, three or more corners) inside of \e bounds.
 
             Throws parking::Error for a polygon with fewer than three corners or a coordinate that is not finite, and
-           for bounds that are empty or not finite. */
+            for bounds that are empty or not finite. */
         static ObstacleSet fromPolygons(const std::vector<Polygon> &polygons, const Bounds &bounds);
 
         /** \brief A world of square cells; the outside of the map is an obstacle.
@@ -49,8 +49,8 @@ namespace parking
         /** \brief The world of a scenario, polygons or grid, in the scenario's coordinates. */
         static ObstacleSet fromScenario(const Scenario &scenario);
 
-        /** \brief The local frame, given in the caller's coordinates. Yaw is zero but for maps whose origin is turned.
-         */
+        /** \brief The local frame, given in the caller's coordinates. Yaw is zero but for maps whose origin is
+            turned. */
         const Pose &frame() const
         {
             return frame_;

@@ -12,11 +12,11 @@ namespace parking
     /** \brief The leading side of a moving box, tried against many points and edges for the first contact.
 
         The same answer as firstContact() at a fraction of the cost. What a box that turns about a centre outside of it
-       can meet first is its leading outline only: its front side, its inner side ahead of the axle, its outer side
-       behind the axle (which swings out), and the three corners between these. Everything turns about one centre, so
+        can meet first is its leading outline only: its front side, its inner side ahead of the axle, its outer side
+        behind the axle (which swings out), and the three corners between these. Everything turns about one centre, so
 
         - a point can meet the box only where its distance from the centre is the distance of a place of that outline:
-       at most two places, found by one square root each;
+          at most two places, found by one square root each;
         - a corner can meet an edge only where the edge is as far from the centre as the corner: two places.
 
         Angles are compared by their sines, so nothing but square roots is computed until the end.
@@ -38,7 +38,7 @@ namespace parking
         bool mayMeet(double x, double y, double ex, double ey) const;
 
         /** \brief For arrays of edges from (ax, ay) to (bx, by): how far each is at least from a box round all that is
-           swept. Those above 0 cannot be met. */
+            swept. Those above 0 cannot be met. */
         template <class Array>
         Array gap(const Array &ax, const Array &ay, const Array &bx, const Array &by) const
         {
@@ -54,7 +54,7 @@ namespace parking
         void meetPoint(double x, double y);
 
         /** \brief Notes when a corner of the box meets the edge from (ax, ay) to (bx, by) with the unit normal (nx,
-         * ny). */
+            ny). */
         void meetEdge(double ax, double ay, double bx, double by, double nx, double ny);
 
         /** \brief Metres along the motion until the first contact noted; infinite when there was none. */

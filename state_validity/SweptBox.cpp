@@ -9,7 +9,7 @@ namespace parking
     namespace
     {
         /** Tries the roots of A q^2 + 2 B q + C = 0 in [0, limit) through \e accept; the smallest one that it takes
-           becomes the limit. */
+            becomes the limit. */
         template <class Accept>
         void solve(double A, double B, double C, double &limit, const Accept &accept)
         {

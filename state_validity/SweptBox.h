@@ -17,14 +17,14 @@ namespace parking
     };
 
     /** \brief How far beyond the end of a motion contacts are still reported by SweepFront and EdgeIndex, in metres:
-       where a motion is cut in two, a contact at the very cut must not fall between the parts by rounding. */
+        where a motion is cut in two, a contact at the very cut must not fall between the parts by rounding. */
     constexpr double OVERRUN = 1e-6;
 
     /** \brief Metres along the arc until the moving box first touches the segment from (ax, ay) to (bx, by), given in
-       the frame of the box at the beginning; infinite when it does not within the length.
+        the frame of the box at the beginning; infinite when it does not within the length.
 
         Closed form, exact up to rounding for every curvature: contact begins either when an end of the segment crosses
-       a side of the box or when a corner of the box crosses the segment, and each of these is a quadratic equation in
+        a side of the box or when a corner of the box crosses the segment, and each of these is a quadratic equation in
         tan(turn / 2) / curvature, a length, which stays regular as the arc becomes a straight line. The box must not
         touch the segment at the beginning.
 

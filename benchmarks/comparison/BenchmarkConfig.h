@@ -60,16 +60,16 @@ namespace parking
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].
 
         Throws parking::Error naming file and line: for a section, key or planner that is not known with the nearest
-       known one, for a value out of range with what would be right. Parameters of planners are checked when the planner
-       is made. */
+        known one, for a value out of range with what would be right. Parameters of planners are checked when the
+        planner is made. */
     BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry);
 
     /** \brief Keeps only the planners of these names. Throws parking::Error for one that \e config has not. */
     void selectPlanners(BenchmarkConfig &config, const std::vector<std::string> &names);
 
     /** \brief The scenario files that a name stands for: the file itself, those of a folder that are scenarios, or
-       those that match a pattern with * or ?. Relative names are looked up in \e folder. Throws parking::Error when
-       there is none. */
+        those that match a pattern with * or ?. Relative names are looked up in \e folder. Throws parking::Error when
+        there is none. */
     std::vector<std::string> findScenarios(const std::string &name, const std::string &folder);
 
     /** \brief Applies an option of the section [problem]. Throws parking::Error without file and line. */

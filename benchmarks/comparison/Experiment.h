@@ -34,7 +34,7 @@ namespace parking
     };
 
     /** \brief The experiments of a comparison. Planners whose problem differs from others' (overrides in the .cfg) meet
-       in experiments of their own, named after scenario and setting.
+        in experiments of their own, named after scenario and setting.
 
         Reads every scenario, so that a bad one is found before hours of work. Throws parking::Error. */
     std::vector<Experiment> planExperiments(const BenchmarkConfig &config);
@@ -42,7 +42,7 @@ namespace parking
     /** \brief All runs in the order in which they are done: every planner once on every experiment, then again.
 
         A drift of the machine thus meets all planners alike. Within a round the planners of an experiment take turns in
-       an order that changes from round to round.
+        an order that changes from round to round.
 
         \param shard, shards of N shards, which together have every unit once, the one of index \e shard (from 0): a
         fixed, evenly mixed selection */
@@ -50,7 +50,7 @@ namespace parking
                                 std::size_t shard = 0, std::size_t shards = 1);
 
     /** \brief Tells comparisons apart: depends on scenarios, planners, their parameters, limits and seed, but not on
-       the number of runs, so that more can be added to what there is. */
+        the number of runs, so that more can be added to what there is. */
     std::string fingerprint(const BenchmarkConfig &config, const std::vector<Experiment> &experiments);
 
     /** \brief A digest of a file's bytes; empty when it cannot be read. */

@@ -14,8 +14,8 @@ namespace parking
     /** \brief Does single runs of a comparison, each through ompl::tools::Benchmark.
 
         Every run has a planner, a problem definition, a goal and samplers of its own, made anew from the run's own
-       seed: so it comes out the same whatever was run before it, as far as planners are deterministic (PRM and its kin
-       are not: they use two threads). Problems are loaded when first needed, and kept. */
+        seed: so it comes out the same whatever was run before it, as far as planners are deterministic (PRM and its kin
+        are not: they use two threads). Problems are loaded when first needed, and kept. */
     class UnitRunner
     {
     public:
@@ -27,8 +27,8 @@ namespace parking
             Throws parking::Error naming the planner and the experiment. */
         void checkSettings();
 
-        /** \brief Throws parking::Error when a planner refuses; what it finds, or that it does not, is in the record.
-         */
+        /** \brief Throws parking::Error when a planner refuses; what it finds, or that it does not, is in the
+            record. */
         RunRecord run(const Unit &unit);
 
         const Problem &problem(std::size_t experiment);

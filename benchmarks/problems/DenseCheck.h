@@ -27,7 +27,7 @@ namespace parking
 
         Polygons: every edge is clipped against the body, and the body's middle must be outside. Cells: the body is laid
         over each occupied cell (separating axes). A touch of up to a micrometre counts as free, since paths may end
-       where numbers round. */
+        where numbers round. */
     class DenseCheck
     {
     public:

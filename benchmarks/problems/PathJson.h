@@ -12,7 +12,7 @@ namespace parking
         [turn] when it is a turn on the spot. */
     nlohmann::json toJson(const Path &path);
 
-    /** \brief Reads what toJson() has written. Throws parking::Error or an exception of nlohmann's for anything else.
-     */
+    /** \brief Reads what toJson() has written. Throws parking::Error or an exception of nlohmann's for anything
+        else. */
     Path pathFromJson(const nlohmann::json &json);
 }  // namespace parking

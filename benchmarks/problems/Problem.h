@@ -140,12 +140,12 @@ namespace parking
     };
 
     /** \brief The settings that a planner asks for: plain SE2 space and circle for the grid models of improved A*,
-       which refuse a space of curves; otherwise the defaults. Throws what applySettings throws. */
+        which refuse a space of curves; otherwise the defaults. Throws what applySettings throws. */
     ProblemSettings suitableSettings(const PlannerEntry &entry, const PlannerSettings &settings);
 
     /** \brief Makes all planners and samplers made from now on repeat what they did after the same call before.
 
         OMPL seeds every generator from one global one. It complains when that is done more than once in a process,
-       since generators that exist already are not affected; here everything random is made anew for each run. */
+        since generators that exist already are not affected; here everything random is made anew for each run. */
     void seedRandomNumbers(std::uint_fast32_t seed);
 }  // namespace parking

@@ -36,7 +36,7 @@ namespace parking
 
         /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
             configuration count. Makes the output folder, once all settings are found to be right. A finished or
-           different comparison in the same folder is set aside first.
+            different comparison in the same folder is set aside first.
 
             \param stop once true, ends before the next run
             \return whether all are done. Throws parking::Error. */

@@ -44,7 +44,7 @@ namespace
     }
 
     /** How often the poses of a world are gone through before the next one: planners stay in one world for longer than
-       it takes to fill the caches. */
+        it takes to fill the caches. */
     constexpr std::size_t ROUNDS = 10;
 
     enum class Checker

@@ -16,7 +16,7 @@ namespace parking
     bool isProgram(const std::string &name);
 
     /** \brief Runs a program, found in PATH, with its arguments and waits for its end. Its standard output is thrown
-       away. No shell is involved. Throws parking::Error when it cannot be started. */
+        away. No shell is involved. Throws parking::Error when it cannot be started. */
     ProcessResult runProcess(const std::vector<std::string> &command);
 
     /** \brief The last line of what a program wrote that is not blank: where Python's errors say what is wrong. */

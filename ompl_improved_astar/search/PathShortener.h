@@ -21,8 +21,8 @@ namespace parking::search
     /** \brief Makes a drivable path cheaper by replacing parts of it with curves of bounded curvature.
 
         The path is cut at knots; between two knots curves that are cheaper than the part they would replace are tried,
-       and the first free one taken. The path stays free and drivable, keeps its ends and
-       never becomes more expensive. Deterministic. */
+        and the first free one taken. The path stays free and drivable, keeps its ends and never becomes more expensive.
+        Deterministic. */
     class PathShortener
     {
     public:

@@ -51,7 +51,7 @@ namespace parking
         }
 
         /** Where the centre of a turn of the last piece lies, seen from the centre of a turn of the first one, in units
-           of the turning radius, and what the words make of that distance. All symmetric forms of a word share it. */
+            of the turning radius, and what the words make of that distance. All symmetric forms of a word share it. */
         struct Centres
         {
             double distance;
@@ -82,8 +82,8 @@ namespace parking
             }
         };
 
-        /** Angles of the outer turns of L R L R, whose two middle turns are u and v (8.7, 8.8), without the symmetries.
-         */
+        /** Angles of the outer turns of L R L R, whose two middle turns are u and v (8.7, 8.8), without the
+            symmetries. */
         struct OuterTurns
         {
             bool exist{false};
@@ -132,9 +132,9 @@ namespace parking
         /** Calls emit(word, length) for each word; emit.cap() is the length above which words are of no interest.
 
             The words are those that begin with a forward left turn, under the symmetries of the article: driven
-           backwards in time (x -> -x, phi -> -phi), mirrored (y -> -y, phi -> -phi) and both; and, for words that are
-           not their own reverse, from the goal to the start. Each symmetry changes the angles of the centres in a
-           simple way. */
+            backwards in time (x -> -x, phi -> -phi), mirrored (y -> -y, phi -> -phi) and both; and, for words that are
+            not their own reverse, from the goal to the start. Each symmetry changes the angles of the centres in a
+            simple way. */
         template <class Emit>
         void enumerate(double x, double y, double phiGiven, Emit &emit)
         {

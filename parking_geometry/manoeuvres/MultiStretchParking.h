@@ -12,8 +12,8 @@
 
 namespace parking
 {
-    /** \brief Leaving a slot that is too tight for one sweep: a small planning problem, to be solved out of the slot.
-     */
+    /** \brief Leaving a slot that is too tight for one sweep: a small planning problem, to be solved out of the
+        slot. */
     struct SlotExitTask
     {
         Pose parked;  ///< where the search begins

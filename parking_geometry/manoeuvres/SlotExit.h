@@ -8,8 +8,8 @@
 
 namespace parking
 {
-    /** \brief The leaving body: what lies ahead of the rear axle in the direction of motion, behind it, and beside it.
-     */
+    /** \brief The leaving body: what lies ahead of the rear axle in the direction of motion, behind it, and beside
+        it. */
     struct ExitBody
     {
         double lead{0.0};       ///< metres

@@ -7,8 +7,8 @@
 
 namespace parking
 {
-    /** \brief What is smoothed at a time: neighbouring arcs of one stretch, and whether the car stands at their ends.
-     */
+    /** \brief What is smoothed at a time: neighbouring arcs of one stretch, and whether the car stands at their
+        ends. */
     struct StretchPart
     {
         Path arcs;                ///< all in one direction; neighbours differ in curvature

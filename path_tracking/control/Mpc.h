@@ -82,7 +82,7 @@ namespace parking
     /** \brief Model predictive control of the kinematic bicycle model (paper, "MPC Control Algorithm").
 
         States z = [x, y, v, psi], controls u = [a, delta]; single shooting over the horizon with bicycleStep(). The
-       cost is the paper's,
+        cost is the paper's,
 
             sum over k of  W1 |u_k|^2 + W2 |u_k - u_(k-1)|^2 + W3 |D_k - Z_k|^2 + m W4 (psi_k - psi_d,k)^2,
 

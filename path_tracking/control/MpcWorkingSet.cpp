@@ -8,7 +8,7 @@ namespace parking
     namespace
     {
         /** Share of the greatest change per step: closer to a limit than this is at the limit. Far less, and steps
-           would get stuck at limits that they just do not reach. */
+            would get stuck at limits that they just do not reach. */
         constexpr double AT_LIMIT = 1e-3;
 
         /** -1 near the lower limit, 1 near the upper, 0 between. */

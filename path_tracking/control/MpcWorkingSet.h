@@ -28,7 +28,7 @@ namespace parking
         A general least-squares solver knows boxes at most, and steps across active ones by cutting its step, which
         stalls where many are active: on every full-lock arc. With the active constraints taken out of the unknowns what
         is left is unconstrained nearby. Values tied to each other by an active bound on their change move together;
-       they share a direction. */
+        they share a direction. */
     class WorkingSet
     {
     public:

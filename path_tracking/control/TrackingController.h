@@ -76,14 +76,14 @@ namespace parking
     /** \brief Drives a timed path: model predictive control on the legs, steering at standstill between them.
 
         The horizon is filled from the speed profile by a clock of its own, which runs with time but waits for a car
-       that falls behind. At the end of a leg the car comes to rest; the wheels are turned to where the next leg begins
+        that falls behind. At the end of a leg the car comes to rest; the wheels are turned to where the next leg begins
         before it moves off. The pose is filtered: dead reckoning with measured speed and steering, corrected by a share
         of the difference to the measured pose.
 
         Safety: when the optimiser fails, the rest of its last answer is used for a few periods; when failures go on,
-       the pose is lost or the car strays from the path, the car brakes with its full deceleration, steered along the
-       path by a plain feedback law that needs no optimiser, and stands. Whatever happens, the command obeys the car's
-       limits. */
+        the pose is lost or the car strays from the path, the car brakes with its full deceleration, steered along the
+        path by a plain feedback law that needs no optimiser, and stands. Whatever happens, the command obeys the car's
+        limits. */
     class TrackingController
     {
     public:

@@ -23,7 +23,7 @@ namespace parking
             shunts. */
         double maxCornerCut{1.0};
         /** Turning radii of the car that the rear axle may leave a path with sharp corners at all; beyond it the path
-           is refused. Turning round on the spot, which takes shunts, needs two. */
+            is refused. Turning round on the spot, which takes shunts, needs two. */
         double maxCornerRadii{3.0};
         /** m/s at which the car shall be able to turn its wheels round the corners of such a path. */
         double cornerSpeed{0.5};

@@ -39,9 +39,9 @@ namespace parking
         On every leg the speed is the highest that the limits allow. Between two knots of the steering angle the speed
         cap is constant: that of the steering rate, and that of the larger curvature at the knots, which are no farther
         apart than maxBlendLength where the angle changes. Under a bounded acceleration the pointwise greatest
-       admissible speed is found by one pass forwards and one backwards over the squared speed, which is linear in the
-       driven length; no drive within these caps is faster. Before each leg the car stands as long as the steering rate
-       needs to turn the wheels to where the leg begins. */
+        admissible speed is found by one pass forwards and one backwards over the squared speed, which is linear in the
+        driven length; no drive within these caps is faster. Before each leg the car stands as long as the steering rate
+        needs to turn the wheels to where the leg begins. */
     class SpeedProfile
     {
     public:

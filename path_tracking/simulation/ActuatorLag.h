@@ -22,9 +22,9 @@ namespace parking
     /** \brief Learns the time constant of a first-order lag from how far a value trails its command.
 
         Over a period in which the command changes by c, a value that trailed by b before trails by c o + b q after,
-       with q = exp(-h / T) and o = T / h (1 - q); the lag T that explains what is seen is found by bisection, and a
-       share of the difference is believed. This holds for an angle behind an evenly moving command, and for the mean
-       acceleration of a period behind a stepped one. */
+        with q = exp(-h / T) and o = T / h (1 - q); the lag T that explains what is seen is found by bisection, and a
+        share of the difference is believed. This holds for an angle behind an evenly moving command, and for the mean
+        acceleration of a period behind a stepped one. */
     class LagEstimator
     {
     public:

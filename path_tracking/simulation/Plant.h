@@ -21,7 +21,7 @@ namespace parking
         std::uint64_t seed{1};        ///< of the noise
 
         /** \brief What the figures of docs/path-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
-           and 0.5 degrees, 5 % of speed bias. */
+            and 0.5 degrees, 5 % of speed bias. */
         static Disturbances everyday(std::uint64_t seed);
 
         /** \brief Throws parking::Error naming the first field out of its range. */
@@ -49,8 +49,8 @@ namespace parking
         /** \brief The next measurement; noise advances with every call. */
         Measurement measure();
 
-        /** \brief Lets the car do as commanded for \e duration seconds; \e visit is called after each integration step.
-         */
+        /** \brief Lets the car do as commanded for \e duration seconds; \e visit is called after each integration
+            step. */
         void drive(const Command &command, double duration,
                    const std::function<void(double time, const State &)> &visit);
 

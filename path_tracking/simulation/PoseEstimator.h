@@ -24,8 +24,8 @@ namespace parking
     /** \brief Where the car is: an extended Kalman filter over pose, scale of the speed and offset of the steering.
 
         Dead reckoning with the measured speed and steering angle predicts, the measured pose corrects. The two biases
-       are states, so that a wheel of another size or a bent steering are learnt on the way and can be compensated.
-       While the car stands its pose does not change, and every measurement makes it better known. */
+        are states, so that a wheel of another size or a bent steering are learnt on the way and can be compensated.
+        While the car stands its pose does not change, and every measurement makes it better known. */
     class PoseEstimator
     {
     public:

@@ -15,9 +15,9 @@ namespace parking
         heading.
 
         A state is valid when it lies within the bounds of the space and every obstacle is farther from its position
-       than the radius. The position stands for the middle of the body here, not for its rear axle: a circle has no
-       heading that could tell the one from the other, and round the middle it is smallest. So paths found with this
-       checker are paths of the car's middle.
+        than the radius. The position stands for the middle of the body here, not for its rear axle: a circle has no
+        heading that could tell the one from the other, and round the middle it is smallest. So paths found with this
+        checker are paths of the car's middle.
 
         Exact on occupancy grids and among polygons alike: the distance field decides where it can, the distance to the
         obstacles' edges elsewhere. Const members may be called from several threads at once. */
@@ -32,7 +32,7 @@ namespace parking
         /** \brief \param radius metres, positive
 
             Throws ompl::Exception naming the value that is wrong, and for spaces that hold no positions in the plane
-           with a heading. */
+            with a heading. */
         CircleValidityChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles, double radius);
 
         using ompl::base::StateValidityChecker::clearance;

@@ -49,8 +49,8 @@ namespace parking
         /** \brief The arcs that the space's interpolate() follows from one state to another, in its order.
 
             Dubins spaces made symmetric drive the curve from \e to back in reverse where that one is shorter; the
-           lengths are negative then. Pieces without length are left out. Where there is no curve (states that are not
-           finite) the length of \e curve is infinite and it has no pieces.
+            lengths are negative then. Pieces without length are left out. Where there is no curve (states that are not
+            finite) the length of \e curve is infinite and it has no pieces.
 
             Not for a plain SE2 space, whose states are joined by straight lines: throws ompl::Exception. */
         void curve(const ompl::base::State *from, const ompl::base::State *to, ReedsSheppCurve &curve) const;

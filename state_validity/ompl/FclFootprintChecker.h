@@ -15,11 +15,11 @@ namespace parking
 {
     /** \anchor FclFootprintChecker
         \brief OMPL's view of FootprintChecker: is the car's rectangle free of obstacles, in any SE2, Dubins or
-       Reeds-Shepp space?
+        Reeds-Shepp space?
 
         A state is valid when it lies within the bounds of the state space and the body, enlarged by the safety margin,
         touches no obstacle and stays inside of the world. The answer is that of FCL, reached without asking FCL
-       wherever a bound decides; see FootprintChecker for the tiers.
+        wherever a bound decides; see FootprintChecker for the tiers.
 
         The clearance is a lower bound of the distance between the enlarged body and the obstacles (specs:
         BOUNDED_APPROXIMATE); 0 for states that are not valid. No valid direction is computed.
@@ -31,7 +31,7 @@ namespace parking
         /** \brief Uses \e footprint, which may be shared with others.
 
             Throws ompl::Exception when \e footprint is empty or when the space of \e si is no SE2 space (nor derived
-           from one). */
+            from one). */
         FclFootprintChecker(const ompl::base::SpaceInformationPtr &si,
                             std::shared_ptr<const FootprintChecker> footprint);
 
@@ -65,7 +65,7 @@ namespace parking
         }
 
         /** \brief Which tier decided how many of the states asked about since construction or resetCounts(). States
-           outside of the space's bounds are not among them. */
+            outside of the space's bounds are not among them. */
         CheckCounts counts() const
         {
             return counters_.sum();

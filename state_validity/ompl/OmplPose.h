@@ -10,16 +10,15 @@
 namespace parking
 {
     /** \brief The pose that a state of an SE2, Dubins or Reeds-Shepp space stands for: all three share one type of
-     * state.
-     */
+        state. */
     inline Pose poseOf(const ompl::base::State *state)
     {
         const auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
         return {se2->getX(), se2->getY(), se2->getYaw()};
     }
 
-    /** \brief Makes \e state stand for \e pose; the yaw is wrapped into [-pi, pi), which is the range that OMPL allows.
-     */
+    /** \brief Makes \e state stand for \e pose; the yaw is wrapped into [-pi, pi), which is the range that OMPL
+        allows. */
     inline void setPose(ompl::base::State *state, const Pose &pose)
     {
         auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();

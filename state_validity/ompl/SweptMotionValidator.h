@@ -1,7 +1,7 @@
 #pragma once
 
-#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/FootprintChecker.h"
+#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/TierCounters.h"
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace parking
 
         For Reeds-Shepp and Dubins spaces the curve is computed once per motion; each of its arcs is swept exactly
         (FootprintChecker::freeLength). In a plain SE2 space, where position and yaw change linearly together, the
-       motion is covered by stretches that the clearance in their middle proves free: no point of the body moves farther
-       than the clearance there (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of rigid body
-       systems", 1996), halving what remains.
+        motion is covered by parts that the clearance in their middle proves free: no point of the body moves
+        farther than the clearance there (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of
+        rigid body systems", 1996), halving what remains.
 
         Sound, not complete: a motion during which the body touches an obstacle is never accepted. A motion may be
         rejected although it is free when the body, somewhere on the way, is nearer than 1.5 times the tolerance to an
         obstacle (and at least the tolerance away otherwise accepted). Where a motion starts nearer than that, the
-       tolerance shrinks so that a car can drive away from an obstacle that it all but touches.
+        tolerance shrinks so that a car can drive away from an obstacle that it all but touches.
 
         Motions must also stay within the bounds of the state space, and the end state must be valid by the space
         information's own state validity checker; the start is taken to be valid, as everywhere in OMPL. */
@@ -46,7 +46,7 @@ namespace parking
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
 
         /** \brief The same. When the motion is not valid, \e lastValid becomes the fraction of the motion that is
-           proven free (less the tolerance) and, unless null, the state there. */
+            proven free (less the tolerance) and, unless null, the state there. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
                          std::pair<ompl::base::State *, double> &lastValid) const override;
 

@@ -105,7 +105,7 @@ namespace parking_test
         }
 
         /** \brief A pose with a random place of the body's outline at a random place of an obstacle's, up to \e off
-           metres away from it in a random direction. */
+            metres away from it in a random direction. */
         parking::Pose touching(Random &random, const parking::Vehicle &vehicle, double off) const
         {
             const parking::Edge &edge = edges[random.index(edges.size())];

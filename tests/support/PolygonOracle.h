@@ -18,10 +18,10 @@ namespace parking_test
     /** \brief Says whether a car's rectangle touches an obstacle: the judge of all other collision tests.
 
         Written to be obviously right, with nothing of the library in it: every obstacle is carried into the frame of
-       the car in extended precision, where the body is an axis-parallel rectangle round the origin. Obstacles are solid
-       and closed, so touching is a collision; the outside of the bounds, and the bounds themselves, are an obstacle.
-       Exact up to about 1e-15 m, also where coordinates are in the billions: they are subtracted from each other before
-       anything else. */
+        the car in extended precision, where the body is an axis-parallel rectangle round the origin. Obstacles are
+        solid and closed, so touching is a collision; the outside of the bounds, and the bounds themselves, are an
+        obstacle. Exact up to about 1e-15 m, also where coordinates are in the billions: they are subtracted from each
+        other before anything else. */
     class PolygonOracle
     {
     public:
@@ -151,8 +151,8 @@ namespace parking_test
                 return {at(rear, -side), at(front, -side), at(front, side), at(rear, side)};
             }
 
-            /** Does the segment have a point in the closed body? The part of it between opposite sides, axis by axis.
-             */
+            /** Does the segment have a point in the closed body? The part of it between opposite sides, axis by
+                axis. */
             bool touches(const Point &a, const Point &b) const
             {
                 Real begin = 0.0L, end = 1.0L;

@@ -9,7 +9,7 @@
 namespace parking::search
 {
     /** \brief The open list: entries in the order of f, then h, then insertion, so that equal inputs give equal
-       searches.
+        searches.
 
         Entries are never changed in place: a node that becomes cheaper is pushed again, and the owner drops the stale
         entry when it comes out (its f is above the node's). */
@@ -69,7 +69,7 @@ namespace parking::search
         }
 
         /** \brief Sorts anew after \e key has given every entry a new f; entries for which it returns false are
-         * dropped. */
+            dropped. */
         template <class Key>
         void rekey(const Key &key)
         {
