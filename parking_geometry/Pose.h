@@ -28,6 +28,12 @@ namespace parking
         return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
     }
 
+    /** \brief Metres between the positions of two poses. */
+    inline double positionDistance(const Pose &a, const Pose &b)
+    {
+        return std::hypot(a.x - b.x, a.y - b.y);
+    }
+
     /** \brief The pose \e local, given in the frame \e frame, expressed in the frame that \e frame is given in. */
     inline Pose compose(const Pose &frame, const Pose &local)
     {

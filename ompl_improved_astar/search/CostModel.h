@@ -49,7 +49,7 @@ namespace parking::search
             if (before.length * after.length < 0.0)
                 cost += gearChangePenalty;
             if (steeringChangePenalty > 0.0)
-                cost += steeringChangePenalty * std::abs(after.curvature - before.curvature) / fullLockCurvature;
+                cost += steeringChangePenalty * std::abs(after.curvature - before.endCurvature()) / fullLockCurvature;
             return cost;
         }
     };

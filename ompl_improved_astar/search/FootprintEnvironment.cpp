@@ -112,6 +112,20 @@ namespace parking
         return checker_.field().upperBound(local.x, local.y);
     }
 
+    bool FootprintEnvironment::isMotionFree(const Pose &from, const Pose &to)
+    {
+        if (!isFree(to))
+            return false;
+        // No point of the body moves farther than this; what the clearance in the middle does not cover is halved.
+        const double turn = wrapAngle(to.yaw - from.yaw);
+        const double moved = positionDistance(from, to) + checker_.farthestPoint() * std::abs(turn);
+        const Pose middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y), wrapAngle(from.yaw + 0.5 * turn)};
+        const double covered = checker_.clearance(middle, 0.5 * moved, counts_);
+        if (covered >= 0.5 * moved)
+            return !boundsMatter_ || (isInside(bounds_, middle) && isInside(bounds_, from));
+        return moved > tolerance_ && covered > 0.0 && isMotionFree(from, middle) && isMotionFree(middle, to);
+    }
+
     bool FootprintEnvironment::acceptPath(const Path &path)
     {
         return judge_ == nullptr || judge_->acceptPath(path);

@@ -25,6 +25,8 @@ namespace parking
         double freeLength(const Pose &from, double curvature, double length) override;
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override;
         double roomAt(double x, double y) override;
+        /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
+        bool isMotionFree(const Pose &from, const Pose &to) override;
         bool acceptPath(const Path &path) override;
         bool wasInterrupted() const override
         {

@@ -53,24 +53,19 @@ namespace parking::search
         }
     }  // namespace
 
-    CurveHeuristic::CurveHeuristic(const ReedsShepp &curves) : curves_(curves)
+    void CurveHeuristic::begin(const HeuristicQuery &query)
     {
-    }
-
-    void CurveHeuristic::reset(bool backwards)
-    {
-        backwards_ = backwards;
-        targets_.clear();
+        const SearchParameters &parameters = query.parameters;
+        curves_ = ReedsShepp(parameters.turningRadius,
+                             parameters.forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
+        backwards_ = query.side == Side::Goal;
+        targets_ = query.targets;
         frames_.clear();
+        for (const Pose &target : targets_)
+            frames_.push_back({std::cos(target.yaw), std::sin(target.yaw)});
     }
 
-    void CurveHeuristic::addTarget(const Pose &target)
-    {
-        targets_.push_back(target);
-        frames_.push_back({std::cos(target.yaw), std::sin(target.yaw)});
-    }
-
-    double CurveHeuristic::exact(const Pose &pose) const
+    double CurveHeuristic::lowerBound(const Pose &pose)
     {
         double shortest = std::numeric_limits<double>::infinity();
         for (const Pose &target : targets_)
@@ -78,10 +73,8 @@ namespace parking::search
         return shortest;
     }
 
-    double CurveHeuristic::approximate(const Pose &pose) const
+    double CurveHeuristic::estimate(const Pose &pose)
     {
-        if (targets_.empty())
-            return 0.0;
         const double radius = curves_.turningRadius();
         double shortest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < targets_.size(); ++i)

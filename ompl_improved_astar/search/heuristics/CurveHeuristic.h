@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ompl_improved_astar/search/Heuristic.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
@@ -13,29 +14,18 @@ namespace parking::search
         Poses are rounded to cells in the frame of the target, finer near it, and the length of each cell is computed
        once, when first asked for: what a table made in advance for the vehicle would hold, without its seconds of
        preparation. In units of the turning radius the table is the same for all vehicles: there is one for all objects
-       in all threads, which takes no locks. The values are those of the cells' centres and therefore not a bound;
-       exact() is. */
-    class CurveHeuristic
+       in all threads, which takes no locks. The values are those of the cells' centres and
+        therefore not a bound; lowerBound() is. */
+    class CurveHeuristic final : public Heuristic
     {
     public:
-        explicit CurveHeuristic(const ReedsShepp &curves);
-
-        /** \brief Forgets the targets; also to be called when the curves have changed.
-            \param backwards false: curves from the asked pose to a target; true: from a target to the asked pose */
-        void reset(bool backwards);
-
-        void addTarget(const Pose &target);
+        void begin(const HeuristicQuery &query) override;
 
         /** \brief Length in metres, up to the rounding of the pose. */
-        double approximate(const Pose &pose) const;
+        double estimate(const Pose &pose) override;
 
         /** \brief Length in metres, exactly: never more than the length of any drivable path. */
-        double exact(const Pose &pose) const;
-
-        const std::vector<Pose> &targets() const
-        {
-            return targets_;
-        }
+        double lowerBound(const Pose &pose) override;
 
     private:
         struct Frame
@@ -45,8 +35,8 @@ namespace parking::search
 
         double tabulated(const Pose &relative) const;
 
-        const ReedsShepp &curves_;
-        bool backwards_{false};
+        ReedsShepp curves_{1.0};
+        bool backwards_{false};  // curves from a target to the asked pose, not the other way
         std::vector<Pose> targets_;
         std::vector<Frame> frames_;  // of the targets
     };

@@ -26,13 +26,33 @@ namespace parking::search
         };
     }  // namespace
 
-    void ObstacleHeuristic::reset(MotionEnvironment &environment, double resolution, double radius,
-                                  const Eigen::Vector2d &toward)
+    void ObstacleHeuristic::begin(const HeuristicQuery &query)
     {
+        const SearchParameters &parameters = query.parameters;
+        double farthest = 0.0;
+        for (const Pose &root : query.roots)
+            for (const Pose &target : query.targets)
+                farthest = std::max(farthest, positionDistance(root, target));
+        const double cell = parameters.tuning.heuristicCell * parameters.turningRadius;
+        const Pose &toward = query.roots.empty() ? query.targets.front() : query.roots.front();
+        reset(query.environment,
+              std::clamp(parameters.tuning.cellOfLongWays * farthest, cell, parameters.tuning.coarsestCell * cell),
+              parameters.inscribedRadius, {toward.x, toward.y}, query.stop);
+        if (parameters.eagerObstacles)
+            load(parameters.low, parameters.high);
+        for (const Pose &target : query.targets)
+            addTarget(target.x, target.y);
+    }
+
+    void ObstacleHeuristic::reset(MotionEnvironment &environment, double resolution, double radius,
+                                  const Eigen::Vector2d &toward, const StopFunction &stop)
+    {
+        stop_ = &stop;
+        stopped_ = false;
         environment_ = &environment;
         resolution_ = resolution;
         radius_ = radius;
-        cells_.clear();
+        states_.clear();
         open_.clear();
         settled_ = 0;
         leftGrid_ = false;
@@ -69,16 +89,16 @@ namespace parking::search
         return false;
     }
 
-    void ObstacleHeuristic::load(const Eigen::Vector2d &low, const Eigen::Vector2d &high, const StopFunction &stop)
+    void ObstacleHeuristic::load(const Eigen::Vector2d &low, const Eigen::Vector2d &high)
     {
         for (double v = std::floor((low.y() - origin_.y()) / resolution_);
-             v * resolution_ + origin_.y() < high.y() && !(stop && stop()); v += 1.0)
+             v * resolution_ + origin_.y() < high.y() && !shouldStop(); v += 1.0)
             for (double u = std::floor((low.x() - origin_.x()) / resolution_); u * resolution_ + origin_.x() < high.x();
                  u += 1.0)
                 if (TiledGrid<CellState>::contains(u, v))
                 {
                     const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-                    isOpen(cells_.at(column, row), column, row);
+                    isOpen(states_.at(column, row), column, row);
                 }
     }
 
@@ -107,7 +127,7 @@ namespace parking::search
             return;
         }
         const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-        cells_.at(column, row).g = 0.0f;
+        states_.at(column, row).g = 0.0f;
         push(0.0f, column, row);
     }
 
@@ -118,13 +138,13 @@ namespace parking::search
             std::pop_heap(open_.begin(), open_.end(), Later());
             settled = open_.back();
             open_.pop_back();
-            CellState &state = cells_.at(settled.column, settled.row);
+            CellState &state = states_.at(settled.column, settled.row);
             if (state.settled)
                 continue;
             state.settled = true;
             ++settled_;
             const float here = state.g;
-            const bool inside = cells_.forEachNeighbour(
+            const bool inside = states_.forEachNeighbour(
                 settled.column, settled.row,
                 [this, here](CellState &next, std::int32_t column, std::int32_t row, bool diagonal)
                 {
@@ -140,17 +160,21 @@ namespace parking::search
         return false;
     }
 
-    double ObstacleHeuristic::distance(double x, double y, const StopFunction &stop)
+    double ObstacleHeuristic::distance(double x, double y)
     {
+        stopped_ = false;
         const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
         if (!TiledGrid<CellState>::contains(u, v))
             return 0.0;
-        const CellState &asked = cells_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+        const CellState &asked = states_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
         Entry entry;
         while (!asked.settled)
         {
-            if (settled_ % CELLS_BETWEEN_STOPS == CELLS_BETWEEN_STOPS - 1 && stop && stop())
+            if (settled_ % CELLS_BETWEEN_STOPS == CELLS_BETWEEN_STOPS - 1 && shouldStop())
+            {
+                stopped_ = true;
                 return std::numeric_limits<double>::infinity();
+            }
             if (settled_ >= MAX_CELLS)
                 return 0.0;
             if (!settleNext(entry))
@@ -159,15 +183,28 @@ namespace parking::search
         return static_cast<double>(asked.g) * resolution_;
     }
 
-    double ObstacleHeuristic::lowerBound(double x, double y, const StopFunction &stop)
+    double ObstacleHeuristic::estimate(const Pose &pose)
     {
+        const double way = distance(pose.x, pose.y);
+        return way < std::numeric_limits<double>::infinity() ? std::max(0.0, way - resolution_) : 0.0;
+    }
+
+    double ObstacleHeuristic::lowerBound(const Pose &pose)
+    {
+        const double way = distance(pose.x, pose.y);
+        if (stopped_)
+            return 0.0;
         // Pieces of the disc's way as long as a cell is wide touch two columns and two rows at most, so that their ends
         // lie in the same cell or in neighbours: each piece costs a diagonal at most.
-        const double way = distance(x, y, stop);
         return std::max(0.0, way * (1.0 - 1e-5) / std::sqrt(2.0) - resolution_);
     }
 
-    Eigen::Vector2d ObstacleHeuristic::nearestReachable(const Eigen::Vector2d &goal, const StopFunction &stop)
+    bool ObstacleHeuristic::provesUnreachable(const Pose &pose)
+    {
+        return distance(pose.x, pose.y) == std::numeric_limits<double>::infinity() && !stopped_;
+    }
+
+    Eigen::Vector2d ObstacleHeuristic::nearestReachable(const Eigen::Vector2d &goal)
     {
         Eigen::Vector2d best = goal;
         double nearest = std::numeric_limits<double>::infinity();
@@ -181,7 +218,7 @@ namespace parking::search
                 nearest = away;
                 best = centre;
             }
-            if (settled_ % CELLS_BETWEEN_STOPS == 0 && stop && stop())
+            if (settled_ % CELLS_BETWEEN_STOPS == 0 && shouldStop())
                 break;
         }
         return best;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
@@ -21,35 +22,46 @@ namespace parking::search
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
        an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
        of the disc by a factor of sqrt(2), where it slips past the corners of cells; see lowerBound(). */
-    class ObstacleHeuristic
+    class ObstacleHeuristic final : public Heuristic
     {
     public:
+        void begin(const HeuristicQuery &query) override;
+
         /** \brief Forgets everything, for a new world or query; memory is kept.
 
             \param environment must outlive the questions
             \param resolution side of a cell in metres
             \param radius of the disc in metres
-            \param toward point that most questions will be near: guides the order in which cells are settled */
-        void reset(MotionEnvironment &environment, double resolution, double radius, const Eigen::Vector2d &toward);
+            \param toward point that most questions will be near: guides the order in which cells are settled
+            \param stop asked now and then; must outlive the questions, too */
+        void reset(MotionEnvironment &environment, double resolution, double radius, const Eigen::Vector2d &toward,
+                   const StopFunction &stop);
 
         /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. */
-        void load(const Eigen::Vector2d &low, const Eigen::Vector2d &high, const StopFunction &stop);
+        void load(const Eigen::Vector2d &low, const Eigen::Vector2d &high);
 
         /** \brief Adds a target; only before the first question. */
         void addTarget(double x, double y);
 
-        /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when \e stop said so; 0
-           when the grid does not reach far enough to tell. */
-        double distance(double x, double y, const StopFunction &stop);
+        /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when the stop function said
+            so; 0 when the grid does not reach far enough to tell. */
+        double distance(double x, double y);
 
-        /** \brief A distance that is never more than the way of the disc's centre from (x, y) to the nearest target. */
-        double lowerBound(double x, double y, const StopFunction &stop);
+        /** \brief distance(), less a cell for what the grid adds to it; 0 when there is no way. */
+        double estimate(const Pose &pose) override;
 
-        /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre
-           of a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
-        Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal, const StopFunction &stop);
+        /** \brief A distance that is never more than the way of the disc's centre to the nearest target; infinite when
+            there is no way. */
+        double lowerBound(const Pose &pose) override;
 
-        std::uint64_t settledCells() const
+        bool provesUnreachable(const Pose &pose) override;
+
+        /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre of
+            a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
+        Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal);
+
+        /** \brief Cells settled. */
+        std::uint64_t cells() const override
         {
             return settled_;
         }
@@ -82,14 +94,21 @@ namespace parking::search
         void push(float g, std::int32_t column, std::int32_t row);
         bool settleNext(Entry &settled);
 
+        bool shouldStop()
+        {
+            return *stop_ && (*stop_)();
+        }
+
         MotionEnvironment *environment_{nullptr};
+        const StopFunction *stop_{nullptr};
         double resolution_{1.0};
         double radius_{0.0};
         Eigen::Vector2d origin_{0.0, 0.0};
         float towardColumn_{0.0f}, towardRow_{0.0f};
-        TiledGrid<CellState> cells_;
+        TiledGrid<CellState> states_;
         std::vector<Entry> open_;
         std::uint64_t settled_{0};
+        bool stopped_{false};   // the last answer is what it is for want of time
         bool leftGrid_{false};  // a target or a way lies beyond the reach of the grid
     };
 }  // namespace parking::search

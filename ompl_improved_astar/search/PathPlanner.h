@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/CarSearch.h"
+#include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/PathShortener.h"
 
 #include <cstdint>
@@ -11,33 +11,33 @@
 
 namespace parking::search
 {
-    /** \brief Parameters of CarPlanner. */
-    struct CarPlannerParameters
+    /** \brief Parameters of PathPlanner. */
+    struct PathPlannerParameters
     {
-        CarParameters search;
-        bool shorten{true};   ///< replace parts of solutions by shorter curves
+        SearchParameters search;
+        bool shorten{true};   ///< replace parts of solutions by shorter curves, where the model has curves
         bool anytime{false};  ///< keep improving until stopped
     };
 
-    /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall
-        end. */
+    /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall end.
+     */
     using ImprovementFunction = std::function<bool(const Path &, double)>;
 
-    /** \brief Plans drivable paths: the search, the shortening of what it finds, and the improvement until stopped.
+    /** \brief Plans paths: the search, the shortening of what it finds, and the improvement until stopped.
 
         Knows nothing of OMPL. One object may serve many queries and keeps its memory. */
-    class CarPlanner
+    class PathPlanner
     {
     public:
         enum class Outcome
         {
             Solved,     ///< there is a solution, and it will not be improved further
-            Exhausted,  ///< there is none at the finest resolution, or no hope for one
+            Exhausted,  ///< there is none at the finest resolution, or no hope for one: see Search::exhaustion()
             Stopped     ///< stopped; there may be a solution
         };
 
         /** \brief Begins a new query in \e environment, which must outlive it. */
-        void begin(MotionEnvironment &environment, const CarPlannerParameters &parameters);
+        void begin(MotionEnvironment &environment, const PathPlannerParameters &parameters);
 
         void addStart(const Pose &pose)
         {
@@ -52,11 +52,10 @@ namespace parking::search
         /** \brief Plans; may be called again to go on after Stopped or when roots were added. */
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
 
-        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
-            axles.
+        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear axles.
 
-            Spends what is left of the time on a search of its own, unless there is none left: then what the trees have
-            seen has to do. \return false when there is no start */
+            Spends what is left of the time on a search of its own, unless there is none left or everything has been seen
+            from the start: then what the trees have seen has to do. \return false when there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         bool hasSolution() const
@@ -72,15 +71,14 @@ namespace parking::search
             return bestCost_;
         }
 
-        /** \brief Best cost over the lower bound of the cost in the discretised problem, at least 1; infinite without a
-            solution. */
+        /** \brief Best cost over Search::lowerBound(), at least 1; infinite without a solution. */
         double suboptimalityBound();
 
-        CarSearch &search()
+        Search &search()
         {
             return search_;
         }
-        const CarSearch &search() const
+        const Search &search() const
         {
             return search_;
         }
@@ -97,13 +95,12 @@ namespace parking::search
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};
-        CarPlannerParameters parameters_;
-        CarSearch search_;
-        std::unique_ptr<CarSearch> approach_;  // made when a goal cannot be reached
+        PathPlannerParameters parameters_;
+        Search search_;
+        std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
         std::vector<Pose> starts_;
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
-        double shortestCurve_{0.0};
         std::uint64_t shortenerConnections_{0};
         StopFunction stop_;
         ImprovementFunction improved_;

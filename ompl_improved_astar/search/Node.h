@@ -1,0 +1,56 @@
+#pragma once
+
+#include "ompl_improved_astar/search/containers/CellTable.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <cstdint>
+
+namespace parking::search
+{
+    /** \brief The end of the problem that a frontier grows from. */
+    enum class Side : std::uint8_t
+    {
+        Start,
+        Goal
+    };
+
+    inline Side opposite(Side side)
+    {
+        return side == Side::Start ? Side::Goal : Side::Start;
+    }
+
+    using NodeIndex = std::uint32_t;
+    constexpr NodeIndex NO_NODE = CellTable::NONE;
+
+    /** \brief What leads from a node to its child, as seen from the root outwards: a turn on the spot, then a drive.
+
+        On the goal's side the car will do it the other way round. A car model has no turns. */
+    struct Motion
+    {
+        double turn{0.0};       ///< radians, on the spot
+        double curvature{0.0};  ///< 1/m where the drive begins, positive to the left
+        double length{0.0};     ///< metres, negative when driven in reverse
+        double sharpness{0.0};  ///< 1/m^2
+
+        PathPiece drive() const
+        {
+            return {curvature, length, sharpness};
+        }
+    };
+
+    /** \brief A pose that a search has reached, and how. */
+    struct Node
+    {
+        Pose pose;
+        double g{0.0};  ///< cost of the way between root and node
+        Motion motion;  ///< from the parent
+        float h{0.0f};  ///< estimated cost of the way on
+        float mobility{0.0f};  ///< metres of the longest free motion from here, known after the first expansion
+        NodeIndex parent{NO_NODE};
+        std::uint8_t level{0};  ///< the coarsest level on which its cell was free
+        bool expanded{false};
+        bool queued{false};    ///< of roots: has been put into the open list
+        bool farthest{false};  ///< the motion ended for want of reach, not because a shorter step was wanted
+    };
+}  // namespace parking::search

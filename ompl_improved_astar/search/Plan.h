@@ -1,0 +1,78 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/PathPlanner.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking::search
+{
+    /** \brief What the search has to know of the car and the space beyond the parameters. */
+    struct CarInSpace
+    {
+        double turningRadius{3.0};    ///< metres, of the rear axle
+        bool forwardOnly{false};      ///< never drive in reverse (Dubins)
+        double inscribedRadius{0.0};  ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
+        Eigen::Vector2d low{0.0, 0.0};  ///< corners of the box of the rear axle's positions
+        Eigen::Vector2d high{0.0, 0.0};
+    };
+
+    /** \brief What PathPlanner goes by, from the user's parameters and the car. */
+    PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car);
+
+    /** \brief A planning problem. */
+    struct PlanRequest
+    {
+        std::vector<Pose> starts;  ///< one or more; those that are not free are left out
+        std::vector<Pose> goals;   ///< likewise; the cheapest to reach is reached
+        CarInSpace car;
+        PlannerParameters parameters;  ///< turning_radius among them is not looked at: car has it
+        StopFunction stop;             ///< asked now and then; true ends planning
+        ImprovementFunction improved;  ///< told of every improvement; may be empty
+    };
+
+    /** \brief How planning ended. */
+    enum class PlanOutcome
+    {
+        Solved,        ///< from a start to a goal
+        Approximate,   ///< as near to a goal as the car comes, or came in time
+        Infeasible,    ///< there is no way, as far as the motion model goes
+        Timeout,       ///< stopped without a path
+        InvalidStart,  ///< no start is free
+        InvalidGoal    ///< no goal is free, and only exact solutions are wanted
+    };
+
+    /** \brief What became of a request. */
+    struct PlanResult
+    {
+        PlanOutcome outcome{PlanOutcome::Timeout};
+        /** Why there is no solution: for Infeasible always, for Approximate where the goal was found out to be out of
+            reach, and not only out of time. */
+        std::string reason;
+        Path path;             ///< of Solved and Approximate
+        std::size_t goal{0};   ///< index into PlanRequest::goals: the one that is reached, or was aimed at
+        double cost{std::numeric_limits<double>::infinity()};  ///< metres and penalties, of Solved
+        /** cost over a bound that no path stays below, at least 1 (see Search::lowerBound()); infinite if unknown. */
+        double suboptimalityBound{std::numeric_limits<double>::infinity()};
+        SearchStatistics statistics;
+        double loadingTime{0.0};  ///< seconds spent on finding out beforehand what is free
+    };
+
+    /** \brief Plans in one call and without state: equal requests give equal results, from any thread.
+
+        \e environment serves one call at a time. Paths of the grid models are not smoothed: see smoothGridPath(). Throws
+        parking::Error for parameters out of range and for a request without start or goal. */
+    PlanResult plan(MotionEnvironment &environment, const PlanRequest &request);
+
+    /** \brief Why a search has ended without a solution, in words. */
+    std::string reasonOf(Exhaustion exhaustion, const CarInSpace &car);
+}  // namespace parking::search

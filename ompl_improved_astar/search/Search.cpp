@@ -1,0 +1,295 @@
+#include "ompl_improved_astar/search/Search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        constexpr double ROUNDING = 1e-9;  // metres of cost: nodes and entries that differ by less are equal
+    }  // namespace
+
+    Search::Search() : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)}, leastDropped_{INFINITE, INFINITE}
+    {
+    }
+
+    void Search::begin(MotionEnvironment &environment, const SearchParameters &parameters)
+    {
+        environment_ = &environment;
+        parameters_ = parameters;
+        parameters_.cost.fullLockCurvature = 1.0 / parameters.turningRadius;
+        // Made anew only when they are others: models and heuristics keep their memory.
+        if (!model_ || modelName_ != parameters.motionModel)
+            model_ = motionModels().make(parameters.motionModel);
+        modelName_ = parameters.motionModel;
+        model_->begin(environment, parameters_);
+        traits_ = model_->traits();
+        const std::string heuristic = parameters.heuristic == "default" ? model_->heuristic() : parameters.heuristic;
+        for (Guides &guides : guides_)
+        {
+            if (!guides.base || heuristicName_ != heuristic)
+                guides.base = heuristics().make(heuristic);
+            guides.roundObstacles = false;
+        }
+        heuristicName_ = heuristic;
+        for (Frontier &each : frontiers_)
+            each.begin(parameters.openList, traits_.levels, parameters.tuning.turnsRatio);
+        boundIsKept_ = parameters.weights.far <= 1.0 && parameters.weights.near <= 1.0;
+        leastDropped_ = {INFINITE, INFINITE};
+        confined_ = Side::Goal;
+        prepared_ = false;
+        loaded_ = false;
+        provenUnreachable_ = false;
+        exhaustion_ = Exhaustion::None;
+        hasTarget_ = false;
+        nearest_ = INFINITE;
+        nearestSince_ = 0;
+        sideTurn_ = 0;
+        bestCost_ = costBound_ = INFINITE;
+        bestPath_ = {};
+        improved_ = false;
+        loadingTime_ = 0.0;
+        statistics_ = {};
+    }
+
+    void Search::addRoot(Side side, const Pose &pose)
+    {
+        const NodeIndex index = frontier(side).addRoot(pose);
+        model_->addRoot(side, pose);
+        // The other side's estimates now have one more target; what had been computed no longer holds.
+        prepared_ = false;
+        for (const NodeIndex other : frontier(opposite(side)).roots())
+            if (traits_.joinsAfar ||
+                model_->cell(pose, 0) == model_->cell(frontier(opposite(side)).node(other).pose, 0))
+                side == Side::Start ? join(index, other, Side::Goal) : join(other, index, Side::Goal);
+    }
+
+    void Search::setTarget(const Pose &target)
+    {
+        hasTarget_ = true;
+        target_ = target;
+        prepared_ = false;
+    }
+
+    bool Search::load()
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        loaded_ = model_->load(stop_);
+        loadingTime_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return loaded_;
+    }
+
+    bool Search::isHopeless() const
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        if (provenUnreachable_)
+            return true;
+        if (hasTarget_)
+            return nearest_ <= tuning.leastProgress ||
+                   (!traits_.complete && statistics_.expanded > nearestSince_ + tuning.patience + nearestSince_ / 2);
+        if (hasSolution() || !parameters_.bidirectional || traits_.complete)
+            return false;
+        // With one side seen completely, the other gets as many expansions again: its joins may still reach a root that
+        // this lattice cannot leave.
+        for (const Frontier &each : frontiers_)
+            if (each.isExhausted() && !each.roots().empty())
+                return statistics_.expanded > 2 * each.expansionsWhenExhausted + tuning.patience;
+        return false;
+    }
+
+    bool Search::chooseSide(Side &side)
+    {
+        const bool startIsEmpty = frontier(Side::Start).isExhausted(), goalIsEmpty = frontier(Side::Goal).isExhausted();
+        if (!parameters_.bidirectional)
+        {
+            side = confined_;
+            return !frontier(confined_).isExhausted();
+        }
+        if (startIsEmpty && goalIsEmpty)
+            return false;
+        if (traits_.complete && (startIsEmpty || goalIsEmpty))
+        {
+            // The side that has run dry has seen everything it can reach: the other cannot be there. The start's side is
+            // searched to its end all the same, for the place nearest to the goal.
+            side = Side::Start;
+            return !startIsEmpty;
+        }
+        side = ++sideTurn_ % traits_.otherSidePeriod == 0 ? opposite(confined_) : confined_;
+        if (frontier(side).isExhausted())
+            side = opposite(side);
+        return true;
+    }
+
+    SearchOutcome Search::run(const StopFunction &stop)
+    {
+        stop_ = stop;
+        exhaustion_ = Exhaustion::None;
+        for (;;)
+        {
+            // Also what adding a root has found.
+            if (improved_)
+            {
+                improved_ = false;
+                return SearchOutcome::Improved;
+            }
+            if (stop_ && stop_())
+                return SearchOutcome::Stopped;
+            if (parameters_.eagerObstacles && !loaded_ && !load())
+                return SearchOutcome::Stopped;
+            if (!prepared_)
+                prepare();
+            Side side = confined_;
+            if (isHopeless() || !chooseSide(side))
+            {
+                exhaustion_ = provenUnreachable_ ? Exhaustion::WalledIn
+                              : hasTarget_       ? Exhaustion::NoProgress
+                                                 : Exhaustion::SearchedOut;
+                return SearchOutcome::Exhausted;
+            }
+            step(frontier(side));
+        }
+    }
+
+    void Search::close(Frontier &own, const OpenList::Entry &entry)
+    {
+        own.node(entry.node).expanded = true;
+        const Node &node = own.node(entry.node);
+        // Models that aim do so at the closed node of least cost (paper, "Bidirectional Search"), the others are joined
+        // with the one that has come farthest.
+        if (own.bestClosed != NO_NODE)
+        {
+            const Node &best = own.node(own.bestClosed);
+            const bool isBetter = traits_.aims && entry.f != own.bestClosedCost ? entry.f < own.bestClosedCost
+                                                                               : node.h < best.h;
+            if (!isBetter)
+                return;
+        }
+        own.bestClosed = entry.node;
+        own.bestClosedCost = entry.f;
+        if (traits_.aims)
+        {
+            frontier(opposite(own.side())).aim = node.pose;
+            guides(opposite(own.side())).base->aim(node.pose);
+        }
+    }
+
+    void Search::step(Frontier &own)
+    {
+        const std::size_t level = own.chooseLevel();
+        const OpenList::Entry entry = own.pop(level);
+        const Node &node = own.node(entry.node);
+        const bool first = !node.expanded;
+        // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
+        if ((!first && node.level == level) || node.g + node.h >= costBound_ ||
+            entry.f > priority(own, node) + ROUNDING)
+            return;
+        own.countTurn(level);
+        if (first)
+            close(own, entry);
+        if (first && !traits_.joinsAfar)
+        {
+            joinAround(own, entry.node);
+            if (improved_)
+                return;
+        }
+        bool whole = expand(own, entry.node, level, first);
+        if (first && traits_.joinsAfar)
+            joinAround(own, entry.node);
+        whole = whole && !environment_->wasInterrupted();
+        if (first && !whole)
+        {
+            own.node(entry.node).expanded = false;
+            push(own, level, entry.node);
+            return;
+        }
+        if (parameters_.adaptiveResolution && level + 1 < traits_.levels)
+            push(own, level + 1, entry.node);
+        if (own.isExhausted())
+            own.expansionsWhenExhausted = statistics_.expanded;
+    }
+
+    bool Search::expand(Frontier &own, NodeIndex index, std::size_t level, bool first)
+    {
+        ++statistics_.expanded;
+        expansion_.successors.clear();
+        expansion_.mobility = 0.0;
+        model_->expand(own.side(), index, own.node(index), level, first, expansion_);
+        if (first)
+            own.node(index).mobility = static_cast<float>(expansion_.mobility);
+        for (const Successor &successor : expansion_.successors)
+        {
+            addSuccessor(own, index, successor);
+            if (traits_.asksMotionByMotion && stop_ && stop_())
+                return &successor == &expansion_.successors.back();
+        }
+        return true;
+    }
+
+    void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
+    {
+        const Node &parent = own.node(parentIndex);
+        ++statistics_.generated;
+        const PathPiece drive = successor.motion.drive();
+        // On the goal's side the car will drive the motion the other way.
+        double g = parent.g + (own.side() == Side::Start
+                                   ? parameters_.cost.drive(parent.pose, drive, *environment_)
+                                   : parameters_.cost.drive(successor.pose, drive.reversed(), *environment_));
+        if (parent.parent != NO_NODE)
+            g += parameters_.cost.join(parent.motion.drive(), drive);
+        if (g >= costBound_)
+            return;
+        Node node;
+        node.pose = successor.pose;
+        node.g = g;
+        node.motion = successor.motion;
+        node.parent = parentIndex;
+        node.farthest = successor.farthest;
+
+        for (std::size_t level = 0; level < traits_.levels; ++level)
+        {
+            const std::uint64_t cell = model_->cell(node.pose, level);
+            const NodeIndex holder = own.holderOf(cell, level);
+            NodeIndex replaced = NO_NODE;
+            if (holder != NO_NODE)
+            {
+                const Node &other = own.node(holder);
+                if (other.g > g + ROUNDING && other.level == level && !other.expanded)
+                    replaced = holder;  // not yet expanded: simply replaced by the cheaper one
+                else if (!(other.g > g + model_->worthKeeping(level)))
+                {
+                    if (parameters_.adaptiveResolution && level + 1 < traits_.levels)
+                        continue;
+                    drop(own.side(), g, node.pose, other);
+                    return;
+                }
+            }
+            if (!model_->isFree(own.side(), own.node(parentIndex), successor))
+                return;
+            node.h = estimateOf(own.side(), node.pose);
+            if (g + node.h >= costBound_)
+                return;
+            node.level = static_cast<std::uint8_t>(level);
+            if (hasTarget_ && node.h < nearest_ - parameters_.tuning.leastProgress)
+            {
+                nearest_ = node.h;
+                nearestSince_ = statistics_.expanded;
+            }
+            if (replaced != NO_NODE)
+                drop(own.side(), own.node(replaced).g, own.node(replaced).pose, node);
+            push(own, level, own.place(node, replaced, cell));
+            return;
+        }
+    }
+
+    const SearchStatistics &Search::statistics() const
+    {
+        statistics_.heuristicCells = 0;
+        for (const Guides &guides : guides_)
+            if (guides.roundObstacles)
+                statistics_.heuristicCells += guides.obstacles.cells();
+        return statistics_;
+    }
+}  // namespace parking::search

@@ -1,0 +1,241 @@
+#pragma once
+
+#include "ompl_improved_astar/search/Frontier.h"
+#include "ompl_improved_astar/search/Heuristic.h"
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Why Search::run() came back. */
+    enum class SearchOutcome
+    {
+        Improved,   ///< a solution, or a cheaper one than before
+        Exhausted,  ///< nothing left to expand, or no hope: see exhaustion()
+        Stopped     ///< the stop function said so
+    };
+
+    /** \brief Why there is nothing left to search. */
+    enum class Exhaustion
+    {
+        None,         ///< there is
+        WalledIn,     ///< proven: not even a disc inside of the car finds a way round the obstacles
+        SearchedOut,  ///< one end has been left by every motion, down to the finest resolution
+        NoProgress    ///< a search for the place nearest to a goal has not come nearer for long
+    };
+
+    /** \brief Bidirectional best-first search over a motion model.
+
+        Two frontiers, one rooted at the starts and one at the goals, grow by the model's motions. Every node keeps its
+        exact pose. What is discretised is only which nodes are kept: cells, on a ladder of resolutions. A node lives on
+        the coarsest level where its cell is not yet taken by a cheaper one. Expanding it there tries that level's
+        motions; then the node is queued again on the next finer level. The levels take turns, the coarse ones getting
+        most of them, so that open areas are crossed in a few long steps while a tight slot, where long steps end at
+        once, is searched finely (after W. Du, F. Islam and M. Likhachev, "Multi-resolution A*", 2020).
+
+        The more confined frontier gets most of the turns, and is guided round the obstacles. Frontiers are joined by the
+        model: from each expanded node to the other side's roots and to its best closed node (paper, section
+        "Bidirectional Search"), or where they meet in a cell.
+
+        What is interchangeable is the motion model, the heuristic and the open list, each chosen by name. All costs come
+        from one CostModel. Equal inputs give equal outputs. Memory is kept between queries.
+
+        When both heuristic weights are at most 1, estimates are lower bounds, nothing is pruned by more than them, and
+        the search keeps account of what it drops: see lowerBound(). */
+    class Search
+    {
+    public:
+        Search();
+
+        /** \brief Forgets everything and begins a new query.
+
+            The environment must outlive the search. Throws parking::Error for a part that is not known. */
+        void begin(MotionEnvironment &environment, const SearchParameters &parameters);
+
+        /** \brief Adds a root. Poses must be free. May be called between runs. */
+        void addStart(const Pose &pose)
+        {
+            addRoot(Side::Start, pose);
+        }
+        void addGoal(const Pose &pose)
+        {
+            hasTarget_ = false;
+            addRoot(Side::Goal, pose);
+        }
+
+        /** \brief Without any goal: searches for the free pose nearest to \e target, by distance between the rear axles.
+
+            run() then ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
+        void setTarget(const Pose &target);
+
+        /** \brief Searches until the solution improves, nothing is left, or \e stop says so. */
+        SearchOutcome run(const StopFunction &stop);
+
+        Exhaustion exhaustion() const
+        {
+            return exhaustion_;
+        }
+
+        bool hasSolution() const
+        {
+            return bestCost_ < std::numeric_limits<double>::infinity();
+        }
+        /** \brief Cost of the best solution; infinite without one. */
+        double bestCost() const
+        {
+            return bestCost_;
+        }
+        /** \brief The best solution, from a start to a goal. */
+        const Path &bestPath() const
+        {
+            return bestPath_;
+        }
+
+        const MotionModel &model() const
+        {
+            return *model_;
+        }
+
+        bool hasGoal() const
+        {
+            return !frontier(Side::Goal).roots().empty();
+        }
+
+        /** \brief Length of the shortest motion between any start and any goal, obstacles or not. */
+        double shortestMotion() const;
+
+        /** \brief What the search expected of the roots of the more confined side: the least of their estimates. */
+        double estimate() const;
+
+        /** \brief From now on only solutions that cost less than \e cost are of interest. */
+        void setCostBound(double cost)
+        {
+            costBound_ = std::min(costBound_, cost);
+        }
+
+        /** \brief Changes the weights and sorts the open nodes anew. */
+        void setWeights(const HeuristicWeights &weights);
+
+        /** \brief A cost that no solution of the discretised problem stays below.
+
+            Always at least what the heuristics promise for the roots, which holds for any path that can be driven. When the
+            query was begun with both weights at most 1 it is the bound of the search, too: the least g + h of all nodes that
+            are open or were dropped (from a cell that another holds). It holds for every path made of the motions from
+            one end and one way that joins them with the other end. */
+        double lowerBound();
+
+        /** \brief The path from a start to the node whose rear axle is nearest to that of \e target.
+
+            \return false when there is no start */
+        bool nearestPath(const Pose &target, Path &path) const;
+
+        /** \brief Has the start's side been searched to its end? */
+        bool hasSeenAllFromStart() const
+        {
+            return prepared_ && frontier(Side::Start).isExhausted();
+        }
+
+        const Frontier &frontier(Side side) const
+        {
+            return frontiers_[static_cast<std::size_t>(side)];
+        }
+
+        const SearchStatistics &statistics() const;
+
+        /** \brief Seconds spent on eagerObstacles. */
+        double loadingTime() const
+        {
+            return loadingTime_;
+        }
+
+    private:
+        /** The heuristics of one side. */
+        struct Guides
+        {
+            std::unique_ptr<Heuristic> base;
+            ObstacleHeuristic obstacles;
+            bool roundObstacles{false};
+            std::vector<Pose> roots, targets;
+        };
+
+        Frontier &frontier(Side side)
+        {
+            return frontiers_[static_cast<std::size_t>(side)];
+        }
+        Guides &guides(Side side)
+        {
+            return guides_[static_cast<std::size_t>(side)];
+        }
+        const Guides &guides(Side side) const
+        {
+            return guides_[static_cast<std::size_t>(side)];
+        }
+
+        // Search.cpp: turns
+        void addRoot(Side side, const Pose &pose);
+        bool load();
+        bool isHopeless() const;
+        bool chooseSide(Side &side);
+        void step(Frontier &own);
+        bool expand(Frontier &own, NodeIndex index, std::size_t level, bool first);
+        void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
+        void close(Frontier &own, const OpenList::Entry &entry);
+
+        // SearchJoins.cpp: joining the frontiers
+        void joinAround(const Frontier &own, NodeIndex index);
+        bool join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom);
+
+        // SearchEstimates.cpp: what nodes are worth
+        void prepare();
+        void measureMobility(Frontier &own);
+        void beginGuides(Side side);
+        void guideRoundObstacles();
+        void aimAtTarget();
+        bool isProvenUnreachable();
+        void queueRoots(Frontier &own);
+        double estimate(Side side, const Pose &pose);
+        double admissible(Side side, const Pose &pose);
+        double priority(const Frontier &own, const Node &node) const;
+        void push(Frontier &own, std::size_t level, NodeIndex index);
+        void rekey(Frontier &own);
+        float estimateOf(Side side, const Pose &pose);
+        void drop(Side side, double g, const Pose &pose, const Node &keeper);
+
+        MotionEnvironment *environment_{nullptr};
+        SearchParameters parameters_;
+        std::unique_ptr<MotionModel> model_;
+        std::string modelName_, heuristicName_;
+        ModelTraits traits_;
+        std::array<Frontier, 2> frontiers_;
+        std::array<Guides, 2> guides_;
+        Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
+        bool prepared_{false};
+        bool loaded_{false};
+        bool provenUnreachable_{false};
+        Exhaustion exhaustion_{Exhaustion::None};
+        bool hasTarget_{false};
+        Pose target_;
+        double nearest_{std::numeric_limits<double>::infinity()};
+        std::uint64_t nearestSince_{0};
+        std::uint64_t sideTurn_{0};
+        double bestCost_{std::numeric_limits<double>::infinity()};
+        double costBound_{std::numeric_limits<double>::infinity()};
+        Path bestPath_;
+        bool improved_{false};
+        bool boundIsKept_{false};             // weights of at most 1: see lowerBound()
+        std::array<double, 2> leastDropped_;  // least g + lower bound of the nodes that were dropped, by side
+        StopFunction stop_;
+        double loadingTime_{0.0};
+        mutable SearchStatistics statistics_;
+        Expansion expansion_;
+    };
+}  // namespace parking::search

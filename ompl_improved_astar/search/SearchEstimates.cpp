@@ -1,0 +1,231 @@
+// What the nodes of a search are worth, and what follows from it.
+
+#include "ompl_improved_astar/search/Search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    }  // namespace
+
+    void Search::prepare()
+    {
+        for (Frontier &each : frontiers_)
+            measureMobility(each);
+        // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
+        const double startMobility = frontier(Side::Start).rootMobility, goalMobility = frontier(Side::Goal).rootMobility;
+        confined_ = traits_.joinsAfar && goalMobility <= startMobility + 0.5 * traits_.reach ? Side::Goal : Side::Start;
+        if (!parameters_.bidirectional)
+            confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;
+        for (const Side side : {Side::Start, Side::Goal})
+            beginGuides(side);
+        if (hasTarget_)
+            aimAtTarget();
+        else
+            guideRoundObstacles();
+        prepared_ = true;
+        provenUnreachable_ = isProvenUnreachable();
+        for (Frontier &each : frontiers_)
+            queueRoots(each);
+    }
+
+    void Search::measureMobility(Frontier &own)
+    {
+        for (const NodeIndex root : own.roots())
+            if (!own.node(root).queued)
+                own.rootMobility = std::min(own.rootMobility, model_->mobility(own.node(root).pose));
+    }
+
+    void Search::beginGuides(Side side)
+    {
+        Guides &own = guides(side);
+        own.roots = frontier(side).rootPoses();
+        own.targets = frontier(opposite(side)).rootPoses();
+        own.roundObstacles = false;
+        own.base->begin({*environment_, parameters_, side, own.roots, own.targets, stop_});
+        if (const std::optional<Pose> &aim = frontier(side).aim)
+            own.base->aim(*aim);
+    }
+
+    void Search::guideRoundObstacles()
+    {
+        // Of the side that gets most of the turns only: flooding the map from the other end, too, would cost more than
+        // it spares.
+        Guides &own = guides(confined_);
+        if (own.targets.empty() || !parameters_.obstacleHeuristic || !traits_.joinsAfar)
+            return;
+        const auto begin = std::chrono::steady_clock::now();
+        own.obstacles.begin({*environment_, parameters_, confined_, own.roots, own.targets, stop_});
+        if (parameters_.eagerObstacles)
+            loadingTime_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        own.roundObstacles = true;
+    }
+
+    void Search::aimAtTarget()
+    {
+        const Frontier &starts = frontier(Side::Start);
+        if (starts.roots().empty() || !parameters_.obstacleHeuristic || !traits_.joinsAfar)
+            return;
+        // Flooding from the starts finds the place to make for; the way there is then counted from that place.
+        Guides &flood = guides(Side::Goal), &way = guides(Side::Start);
+        flood.roots.assign(1, target_);
+        flood.targets = starts.rootPoses();
+        flood.obstacles.begin({*environment_, parameters_, Side::Goal, flood.roots, flood.targets, stop_});
+        flood.roundObstacles = true;
+        const Eigen::Vector2d place = flood.obstacles.nearestReachable({target_.x, target_.y});
+        way.targets.assign(1, {place.x(), place.y(), 0.0});
+        way.obstacles.begin({*environment_, parameters_, Side::Start, way.roots, way.targets, stop_});
+        way.roundObstacles = true;
+    }
+
+    bool Search::isProvenUnreachable()
+    {
+        // A disc inside of the car finds no way round the obstacles: neither will the car.
+        Guides &own = guides(confined_);
+        if (!own.roundObstacles || hasTarget_ || own.roots.empty())
+            return false;
+        for (const Pose &root : own.roots)
+            if (!own.obstacles.provesUnreachable(root) || (stop_ && stop_()))
+                return false;
+        return true;
+    }
+
+    void Search::queueRoots(Frontier &own)
+    {
+        // Roots added later change what the nodes of the other side are worth.
+        if (own.nodes().size() > own.roots().size())
+        {
+            for (NodeIndex i = 0; i < own.nodes().size(); ++i)
+                own.node(i).h = estimateOf(own.side(), own.node(i).pose);
+            rekey(own);
+        }
+        for (const NodeIndex root : own.roots())
+        {
+            Node &node = own.node(root);
+            if (node.queued)
+                continue;
+            node.queued = true;
+            node.h = estimateOf(own.side(), node.pose);
+            own.place(node, root, model_->cell(node.pose, 0));
+            push(own, 0, root);
+        }
+    }
+
+    double Search::estimate(Side side, const Pose &pose)
+    {
+        Guides &own = guides(side);
+        if (hasTarget_)
+        {
+            const double straight = positionDistance(pose, target_);
+            const double way = own.roundObstacles ? own.obstacles.distance(pose.x, pose.y) : 0.0;
+            return way < INFINITE ? std::max(straight, way) : straight;
+        }
+        if (own.targets.empty())
+            return 0.0;
+        if (boundIsKept_)
+            return traits_.aims ? own.base->estimate(pose) : admissible(side, pose);
+        const double ahead = own.base->estimate(pose);
+        return own.roundObstacles ? std::max(ahead, own.obstacles.estimate(pose)) : ahead;
+    }
+
+    float Search::estimateOf(Side side, const Pose &pose)
+    {
+        // As a bound it must not be rounded up.
+        const auto rounded = static_cast<float>(estimate(side, pose));
+        return boundIsKept_ ? std::nextafter(rounded, 0.0f) : rounded;
+    }
+
+    double Search::admissible(Side side, const Pose &pose)
+    {
+        Guides &own = guides(side);
+        const double ahead = own.base->lowerBound(pose);
+        return own.roundObstacles ? std::max(ahead, own.obstacles.lowerBound(pose)) : ahead;
+    }
+
+    double Search::priority(const Frontier &own, const Node &node) const
+    {
+        // What is estimated to an aim that moves must not depend on where it is now.
+        if (hasTarget_ || traits_.aims || traits_.complete)
+            return node.g + parameters_.weights.at(node.h) * node.h;
+        double nearest = INFINITE;
+        for (const Pose &target : guides(own.side()).targets)
+            nearest = std::min(nearest, positionDistance(node.pose, target));
+        return node.g + parameters_.weights.at(nearest) * node.h;
+    }
+
+    void Search::push(Frontier &own, std::size_t level, NodeIndex index)
+    {
+        own.push(level, priority(own, own.node(index)), index);
+    }
+
+    void Search::rekey(Frontier &own)
+    {
+        for (const std::unique_ptr<OpenList> &list : own.openLists())
+            list->rekey(
+                [this, &own](OpenList::Entry &entry)
+                {
+                    const Node &node = own.node(entry.node);
+                    entry.f = priority(own, node);
+                    return node.g + node.h < costBound_;
+                });
+    }
+
+    void Search::setWeights(const HeuristicWeights &weights)
+    {
+        parameters_.weights = weights;
+        for (Frontier &each : frontiers_)
+            rekey(each);
+    }
+
+    void Search::drop(Side side, double g, const Pose &pose, const Node &keeper)
+    {
+        double &least = leastDropped_[static_cast<std::size_t>(side)];
+        if (!boundIsKept_ || hasTarget_ || g >= least)
+            return;
+        // Nothing is lost with a node whose place another holds at no more cost.
+        const bool samePlace = pose.x == keeper.pose.x && pose.y == keeper.pose.y &&
+                               (pose.yaw == keeper.pose.yaw || !environment_->headingMatters());
+        if (!samePlace || g < keeper.g)
+            least = std::min(least, g + admissible(side, pose));
+    }
+
+    double Search::lowerBound()
+    {
+        if (hasTarget_ || !hasGoal() || frontier(Side::Start).roots().empty())
+            return 0.0;
+        if (!prepared_)
+            return std::min(shortestMotion(), costBound_);
+        double ofRoots = shortestMotion();
+        for (const Side side : {Side::Start, Side::Goal})
+        {
+            double least = INFINITE;
+            for (const Pose &root : guides(side).roots)
+                least = std::min(least, admissible(side, root));
+            ofRoots = std::max(ofRoots, least);
+        }
+        if (!boundIsKept_)
+            return std::min(ofRoots, costBound_);
+        // A complete model's motions are the same from both ends, so that either side bounds all paths; otherwise each
+        // bounds those that are made of its own motions.
+        double ofSearch = traits_.complete ? 0.0 : INFINITE;
+        for (const Side side : {Side::Start, Side::Goal})
+        {
+            if (!parameters_.bidirectional && side != confined_)
+                continue;
+            double least = leastDropped_[static_cast<std::size_t>(side)];
+            for (const std::unique_ptr<OpenList> &list : frontier(side).openLists())
+                for (const OpenList::Entry &entry : list->entries())
+                {
+                    const Node &node = frontier(side).node(entry.node);
+                    least = std::min(least, node.g + admissible(side, node.pose));
+                }
+            ofSearch = traits_.complete ? std::max(ofSearch, least) : std::min(ofSearch, least);
+        }
+        return std::min(std::max(ofRoots, ofSearch), costBound_);
+    }
+}  // namespace parking::search

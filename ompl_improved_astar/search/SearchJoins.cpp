@@ -1,0 +1,76 @@
+// Joining the two frontiers, and reading paths off them.
+
+#include "ompl_improved_astar/search/Search.h"
+
+#include <algorithm>
+
+namespace parking::search
+{
+    void Search::joinAround(const Frontier &own, NodeIndex index)
+    {
+        const Frontier &other = frontier(opposite(own.side()));
+        const Node &node = own.node(index);
+        const auto joinWith = [&](NodeIndex partner)
+        {
+            // Swept from this node, where a collision is more likely than at what the other side has reached.
+            own.side() == Side::Start ? join(index, partner, Side::Start) : join(partner, index, Side::Goal);
+        };
+        if (!traits_.joinsAfar)
+        {
+            // The other side's node must be closed, too; a root that never moved counts as such.
+            const NodeIndex partner = other.holderOf(model_->cell(node.pose, 0), 0);
+            if (partner != NO_NODE && (other.node(partner).expanded || other.node(partner).parent == NO_NODE))
+                joinWith(partner);
+            return;
+        }
+        // Curves from a node that can hardly move hardly ever get away. Leaving them out would make the bound false.
+        if (node.mobility < parameters_.tuning.confined * std::min<double>(node.h, 2.0 * traits_.reach) &&
+            !boundIsKept_)
+            return;
+        for (const NodeIndex root : other.roots())
+            joinWith(root);
+        if (parameters_.bidirectional && other.bestClosed != NO_NODE &&
+            other.node(other.bestClosed).parent != NO_NODE)
+            joinWith(other.bestClosed);
+    }
+
+    bool Search::join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom)
+    {
+        const Node &a = frontier(Side::Start).node(fromStart), &b = frontier(Side::Goal).node(fromGoal);
+        if (a.g + b.g >= costBound_)
+            return false;
+        ++statistics_.connections;
+        const MotionModel::Offer offer = [&](const PathPiece *pieces, std::size_t count, double cost)
+        {
+            Path path = frontier(Side::Start).pathTo(fromStart);
+            for (std::size_t i = 0; i < count; ++i)
+                path.append(pieces[i]);
+            frontier(Side::Goal).appendToRoot(fromGoal, path);
+            if (!environment_->acceptPath(path))
+                return false;
+            bestPath_ = std::move(path);
+            bestCost_ = costBound_ = cost;
+            improved_ = true;
+            return true;
+        };
+        return model_->join(a, b, sweptFrom, costBound_, offer);
+    }
+
+    double Search::shortestMotion() const
+    {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Pose &start : frontier(Side::Start).rootPoses())
+            for (const Pose &goal : frontier(Side::Goal).rootPoses())
+                shortest = std::min(shortest, model_->distance(start, goal));
+        return shortest;
+    }
+
+    bool Search::nearestPath(const Pose &target, Path &path) const
+    {
+        const NodeIndex nearest = frontier(Side::Start).nearestTo(target);
+        if (nearest == NO_NODE)
+            return false;
+        path = frontier(Side::Start).pathTo(nearest);
+        return true;
+    }
+}  // namespace parking::search

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace parking::search
+{
+    /** \brief The constants that the search was tuned with, none of which changes what is found free.
+
+        Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another origin
+        is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for the
+        time to the first solution and its length. */
+    struct SearchTuning
+    {
+        /** \name Motions of the car
+            @{ */
+        double reach{4.0 / 3.0};         ///< of the longest motion that is tried
+        double coarsestStep{2.0 / 3.0};  ///< of the motions on the coarsest level; each level halves it
+        double shortestMotion{0.004};    ///< shorter ones lead nowhere
+        double cell{0.1};                ///< side of a cell for steps of a metre, where xy_resolution does not say
+        /** @} */
+
+        /** \name Frontiers and levels (multi-resolution A*)
+            @{ */
+        double turnsRatio{8.0};            ///< each finer level gets so many times fewer turns than the one before
+        std::uint64_t otherSidePeriod{4};  ///< one expansion in so many goes to the less confined side
+        double worthKeeping{0.3};          ///< of a level's step: a node cheaper by that is kept beside another
+        double confined{0.15};  ///< curves from a node that can move less than this part of their length are not tried
+        std::uint64_t patience{3000};  ///< expansions without progress after which a hopeless search ends
+        double leastProgress{1e-3};    ///< metres: nearer by less is no progress
+        /** @} */
+
+        /** \name Way round the obstacles
+            @{ */
+        double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
+        double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
+        double coarsestCell{3.0};            ///< but at most so many times heuristicCell
+        /** @} */
+
+        /** \name Thinking again after the first solution
+            @{ */
+        double afterthought{0.3};             ///< share of the expansions so far that is spent on it,
+        std::uint64_t leastAfterthought{8};   ///< and at least so many,
+        double afterthoughtPerExcess{35.0};   ///< and so many more for a path twice as long as it looked,
+        double mostExcess{1.0};               ///< in proportion up to that excess
+        double weightsOfAfterthought{0.7};    ///< factor on the weights: what is cheap counts more than what is near
+        double hardlyLonger{1.03};            ///< than the bare curve: nothing to look for
+        /** @} */
+
+        /** \name Shortening
+            @{ */
+        double knotSpacing{0.5};        ///< of the first shortening
+        double mostKnots{20.0};         ///< but no more than so many on long paths
+        double stillLong{0.15};         ///< a path longer than it looked by this share is shortened once more
+        double otherKnotSpacing{0.48};  ///< then with these knots,
+        double otherKnotOffset{0.15};   ///< the first of them here
+        double widestSpan{12.0};        ///< later shortenings replace parts up to this length
+        /** @} */
+
+        /** \name Improving until stopped
+            @{ */
+        std::uint64_t expansionsPerRound{200};
+        double weightDecay{0.8};  ///< factor on the weights from round to round, down to 1
+        std::uint64_t shorteningsPerRound{3};
+        std::uint64_t leastRounds{50};  ///< before a search that finds nothing more may end
+        /** @} */
+    };
+}  // namespace parking::search

@@ -1,0 +1,166 @@
+#include "ompl_improved_astar/search/models/CarModel.h"
+
+#include "ompl_improved_astar/search/CurveCheck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace parking::search
+{
+    void CarModel::begin(MotionEnvironment &environment, const SearchParameters &parameters)
+    {
+        environment_ = &environment;
+        parameters_ = &parameters;
+        const SearchTuning &tuning = parameters.tuning;
+        const double radius = parameters.turningRadius;
+        curves_ = ReedsShepp(radius, parameters.forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
+        reach_ = tuning.reach * radius;
+        shortest_ = tuning.shortestMotion * radius;
+        // Cells are in proportion to the steps: so wide for a step of a third of the radius.
+        const double cell = parameters.xyResolution > 0.0 ? parameters.xyResolution : tuning.cell * radius;
+        for (std::size_t level = 0; level < LEVELS; ++level)
+        {
+            steps_[level] = tuning.coarsestStep * radius * std::pow(0.5, static_cast<double>(level));
+            const double scale = 3.0 * steps_[level] / radius;
+            inverseCell_[level] = 1.0 / (cell * scale);
+            headingScale_[level] = std::max(8.0, parameters.headingBins / scale) / (2.0 * PI);
+        }
+        for (std::vector<float> &lengths : freeLengths_)
+            lengths.clear();
+    }
+
+    ModelTraits CarModel::traits() const
+    {
+        ModelTraits traits;
+        traits.levels = LEVELS;
+        traits.reach = reach_;
+        traits.joinsAfar = true;
+        traits.otherSidePeriod = parameters_->tuning.otherSidePeriod;
+        return traits;
+    }
+
+    std::uint64_t CarModel::cell(const Pose &pose, std::size_t level) const
+    {
+        const double bins = headingScale_[level] * 2.0 * PI;
+        const auto column = static_cast<std::int64_t>(std::floor(pose.x * inverseCell_[level]));
+        const auto row = static_cast<std::int64_t>(std::floor(pose.y * inverseCell_[level]));
+        const double turn = (wrapAngle(pose.yaw) + PI) * headingScale_[level];
+        const auto heading = static_cast<std::int64_t>(turn < bins ? turn : 0.0);
+        // 22 bits of column and row (tens of kilometres of the finest cells), 17 of heading.
+        return ((static_cast<std::uint64_t>(column) & 0x3fffff) << 39) |
+               ((static_cast<std::uint64_t>(row) & 0x3fffff) << 17) | (static_cast<std::uint64_t>(heading) & 0x1ffff);
+    }
+
+    double CarModel::worthKeeping(std::size_t level) const
+    {
+        return parameters_->tuning.worthKeeping * steps_[level];
+    }
+
+    double CarModel::mobility(const Pose &root)
+    {
+        motions_.clear();
+        for (const double steer : {-1.0, 0.0, 1.0})
+            for (const double gear : {-1.0, 1.0})
+                motions_.push_back({steer / parameters_->turningRadius, gear * steps_[0]});
+        free_.resize(motions_.size());
+        environment_->freeLengths(root, motions_.data(), motions_.size(), free_.data());
+        return std::accumulate(free_.begin(), free_.end(), 0.0);
+    }
+
+    void CarModel::collectMotions(Side side, const Node &node)
+    {
+        motions_.clear();
+        const int half = static_cast<int>(parameters_->steeringAngles / 2);
+        for (int steer = -half; steer <= half; ++steer)
+        {
+            const double curvature = steer / (half * parameters_->turningRadius);
+            for (const double gear : {1.0, -1.0})
+            {
+                // Roots of the goal's side are left in the direction opposite to that in which the car arrives.
+                if (parameters_->forwardOnly && gear != (side == Side::Start ? 1.0 : -1.0))
+                    continue;
+                // Back along the same arc leads nowhere new; on along it does only from where reach ended.
+                if (node.parent != NO_NODE && curvature == node.motion.curvature &&
+                    (gear * node.motion.length < 0.0 || !node.farthest))
+                    continue;
+                motions_.push_back({curvature, gear * reach_});
+            }
+        }
+    }
+
+    void CarModel::expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
+                          Expansion &expansion)
+    {
+        collectMotions(side, node);
+        const std::size_t count = motions_.size(), slots = 2 * parameters_->steeringAngles;
+        std::vector<float> &lengths = freeLengths_[static_cast<std::size_t>(side)];
+        if (lengths.size() < (index + 1) * slots)
+            lengths.resize((index + 1) * slots);
+        // How far each motion is free is found out once and serves the finer levels, too.
+        float *const known = &lengths[index * slots];
+        const double step = steps_[level];
+        const auto add = [&](const Arc &motion, double length, bool farthest)
+        {
+            const double driven = std::copysign(length, motion.length);
+            const Pose pose = advance(node.pose, motion.curvature, driven);
+            expansion.successors.push_back(
+                {{0.0, motion.curvature, driven, 0.0}, {pose.x, pose.y, wrapAngle(pose.yaw)}, farthest});
+        };
+        if (!first)
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                if (static_cast<double>(known[i]) >= step)
+                    add(motions_[i], step, false);
+            return;
+        }
+        free_.resize(count);
+        environment_->freeLengths(node.pose, motions_.data(), count, free_.data());
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const double free = free_[i];
+            known[i] = std::nextafter(static_cast<float>(free), 0.0f);
+            expansion.mobility = std::max(expansion.mobility, free);
+            if (free < shortest_)
+                continue;
+            add(motions_[i], free, free >= reach_);
+            if (free > 1.1 * step)
+                add(motions_[i], step, false);
+        }
+    }
+
+    bool CarModel::join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound, const Offer &offer)
+    {
+        if (!parameters_->analyticExpansion)
+            return false;
+        const double before = fromStart.g + fromGoal.g;
+        if (before >= bound)
+            return false;
+        curves_.candidates(fromStart.pose, fromGoal.pose, candidates_, bound - before);
+        const CostModel &cost = parameters_->cost;
+        order_.clear();
+        for (std::size_t i = 0; i < candidates_.size(); ++i)
+        {
+            const ReedsSheppCurve &curve = candidates_[i];
+            double sum = before + curveCost(cost, fromStart.pose, curve, *environment_);
+            if (curve.count > 0 && fromStart.parent != NO_NODE)
+                sum += cost.join(fromStart.motion.drive(), curve.pieces[0]);
+            if (curve.count > 0 && fromGoal.parent != NO_NODE)
+                sum += cost.join(curve.pieces[curve.count - 1], fromGoal.motion.drive().reversed());
+            if (sum < bound)
+                order_.emplace_back(sum, i);
+        }
+        std::sort(order_.begin(), order_.end());
+        for (const auto &[sum, i] : order_)
+        {
+            const ReedsSheppCurve &curve = candidates_[i];
+            if (!isCurveFree(*environment_, fromStart.pose, curve, fromGoal.pose,
+                             sweptFrom == Side::Start ? CurveEnd::Start : CurveEnd::Goal))
+                continue;
+            pieces_.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
+            if (offer(pieces_.data(), pieces_.size(), sum))
+                return true;
+        }
+        return false;
+    }
+}  // namespace parking::search

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionModel.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief A car: arcs at the turning radius and straight lines, forwards and in reverse, each as far as it is free.
+
+        Poses are exact; what is discretised is which of them are kept: cells of position and heading at a ladder of
+        resolutions that halve from level to level. On each level a node is left by that level's step, and when it is
+        expanded for the first time also by motions up to just short of the first contact: in a slot that is what a driver
+        does, as far back as it goes, then full lock the other way.
+
+        Nodes are joined by Reeds-Shepp (or Dubins) curves, every word in the order of its cost until one is free. */
+    class CarModel final : public MotionModel
+    {
+    public:
+        void begin(MotionEnvironment &environment, const SearchParameters &parameters) override;
+        ModelTraits traits() const override;
+        std::string heuristic() const override
+        {
+            return "curves";
+        }
+        std::uint64_t cell(const Pose &pose, std::size_t level) const override;
+        double worthKeeping(std::size_t level) const override;
+        double mobility(const Pose &root) override;
+        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
+                    Expansion &expansion) override;
+        bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
+                  const Offer &offer) override;
+        double distance(const Pose &from, const Pose &to) const override
+        {
+            return curves_.distance(from, to);
+        }
+        const ReedsShepp *curves() const override
+        {
+            return &curves_;
+        }
+
+        static constexpr std::size_t LEVELS = 7;
+
+    private:
+        void collectMotions(Side side, const Node &node);
+
+        MotionEnvironment *environment_{nullptr};
+        const SearchParameters *parameters_{nullptr};
+        ReedsShepp curves_{1.0};
+        double reach_{0.0};
+        double shortest_{0.0};
+        std::array<double, LEVELS> steps_{};
+        std::array<double, LEVELS> inverseCell_{};
+        std::array<double, LEVELS> headingScale_{};
+        std::array<std::vector<float>, 2> freeLengths_;  // of the motions of each expanded node, signs left out
+        std::vector<Arc> motions_;                       // of the node that is expanded
+        std::vector<double> free_;
+        std::vector<ReedsSheppCurve> candidates_;
+        std::vector<std::pair<double, std::size_t>> order_;
+        std::vector<PathPiece> pieces_;
+    };
+}  // namespace parking::search

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/containers/TiledGrid.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief A step to a neighbour, in cells. */
+    struct GridStep
+    {
+        std::int32_t columns, rows;
+    };
+
+    /** \brief The paper's moves on a grid of positions ("Summary of Optimizations for Improved A* Algorithm").
+
+        The car moves from cell centre to cell centre, heading where it goes and turning on the spot in between. Whether a
+        cell is free is a matrix of three values, unknown, free and blocked, filled when first asked for, or beforehand.
+        Motions between cells are checked along their whole length, so that a long step does not jump over a small
+        obstacle. The cells of starts and goals hold their exact poses. Sides meet where their nodes share a cell. */
+    class GridModel final : public MotionModel
+    {
+    public:
+        /** \brief \param steps to the neighbours, at most 32, each with its opposite */
+        explicit GridModel(std::vector<GridStep> steps);
+
+        void begin(MotionEnvironment &environment, const SearchParameters &parameters) override;
+        ModelTraits traits() const override;
+        std::string heuristic() const override
+        {
+            return "straight";
+        }
+        void addRoot(Side side, const Pose &pose) override;
+        std::uint64_t cell(const Pose &pose, std::size_t level) const override;
+        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
+                    Expansion &expansion) override;
+        bool isFree(Side side, const Node &from, const Successor &successor) override;
+        bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
+                  const Offer &offer) override;
+        double distance(const Pose &from, const Pose &to) const override
+        {
+            return positionDistance(from, to);
+        }
+        bool load(const StopFunction &stop) override;
+
+    private:
+        static constexpr std::size_t MOST_STEPS = 32;
+
+        enum class Occupancy : std::int8_t
+        {
+            Blocked = -1,
+            Unknown = 0,
+            Free = 1
+        };
+
+        struct Cell
+        {
+            Occupancy occupancy{Occupancy::Unknown};              // whatever the heading
+            std::array<Occupancy, MOST_STEPS> byHeading{};  // by the step that arrives with it
+        };
+
+        struct Place
+        {
+            std::int32_t column, row;
+        };
+
+        Place placeOf(const Pose &pose) const;
+        Pose centre(const Place &place) const;
+        Cell &cellAt(const Place &place);
+        bool isInside(const Place &place) const
+        {
+            return place.column >= 0 && place.row >= 0 && place.column < columns_ && place.row < rows_;
+        }
+        bool isCellFree(Cell &cell, const Pose &pose, std::size_t step);
+        const Pose *rootIn(Side side, std::uint64_t cell) const;
+
+        std::vector<GridStep> steps_;
+        std::vector<std::size_t> opposite_;  // of each step
+        MotionEnvironment *environment_{nullptr};
+        const SearchParameters *parameters_{nullptr};
+        double resolution_{0.5};
+        std::int32_t columns_{0}, rows_{0};
+        TiledGrid<Cell> cells_;
+        std::array<std::vector<std::pair<std::uint64_t, Pose>>, 2> roots_;  // with their cells
+        std::int64_t loaded_{0};
+    };
+}  // namespace parking::search

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "ompl_improved_astar/search/openlists/OpenList.h"
+
+#include <algorithm>
+
+namespace parking::search
+{
+    /** \brief The best entry in logarithmic time (paper, "Binary Heap"). */
+    class BinaryHeap final : public OpenList
+    {
+    protected:
+        void pushed() override
+        {
+            std::push_heap(entries_.begin(), entries_.end(), isAfter);
+        }
+
+        void moveBestToEnd() override
+        {
+            std::pop_heap(entries_.begin(), entries_.end(), isAfter);
+        }
+
+        void arrange() override
+        {
+            std::make_heap(entries_.begin(), entries_.end(), isAfter);
+        }
+    };
+}  // namespace parking::search

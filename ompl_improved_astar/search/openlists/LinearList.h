@@ -1,0 +1,26 @@
+#pragma once
+
+#include "ompl_improved_astar/search/openlists/OpenList.h"
+
+#include <algorithm>
+
+namespace parking::search
+{
+    /** \brief A scan of the whole list for the best entry, as in the plain A* of the paper's comparison. */
+    class LinearList final : public OpenList
+    {
+    protected:
+        void pushed() override
+        {
+        }
+
+        void moveBestToEnd() override
+        {
+            std::iter_swap(std::max_element(entries_.begin(), entries_.end(), isAfter), entries_.end() - 1);
+        }
+
+        void arrange() override
+        {
+        }
+    };
+}  // namespace parking::search
