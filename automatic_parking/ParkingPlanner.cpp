@@ -1,7 +1,7 @@
 #include "automatic_parking/ParkingPlanner.h"
 
-#include "ompl_improved_astar/search/CarPlanner.h"
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
@@ -147,13 +147,13 @@ namespace parking
             {
                 ++plan_.tries;
                 FootprintEnvironment environment(checker, scenario_.bounds, SWEEP_TOLERANCE);
-                search::CarPlannerParameters car;
+                search::PathPlannerParameters car;
                 car.search.turningRadius = radius;
                 car.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
                 car.search.low = scenario_.bounds.min;
                 car.search.high = scenario_.bounds.max;
                 car.search.cost = costModel(radius);
-                search::CarPlanner planner;
+                search::PathPlanner planner;
                 planner.begin(environment, car);
                 planner.addStart(scenario_.start);
                 for (const Pose &goal : goals)

@@ -1,7 +1,7 @@
 #include "automatic_parking/SlotPlanner.h"
 
-#include "ompl_improved_astar/search/CarPlanner.h"
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/text/Require.h"
@@ -60,7 +60,7 @@ namespace parking
         Path searchPath(const FootprintChecker &checker, const SearchTask &task)
         {
             FootprintEnvironment environment(checker, task.bounds, SWEEP_TOLERANCE);
-            search::CarPlannerParameters parameters;
+            search::PathPlannerParameters parameters;
             parameters.search.turningRadius = task.radius;
             parameters.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
             parameters.search.bidirectional = task.bothSides;
@@ -69,7 +69,7 @@ namespace parking
             parameters.search.cost.steeringChangePenalty = STEERING_CHANGE;
 
             Path path{task.from, {}};
-            search::CarPlanner planner;
+            search::PathPlanner planner;
             planner.begin(environment, parameters);
             if (!environment.isFree(task.from))
                 return path;

@@ -41,7 +41,7 @@ namespace
         setup.setPlanner(planner);
         if (setup.solve(5.0) != ob::PlannerStatus::EXACT_SOLUTION)
             return false;
-        const parking::Path &arcs = *planner->solutionArcs();
+        const parking::Path &arcs = *planner->solutionPath();
         std::printf("%-12s %5.1f m, %zu changes of direction, %zu states\n", name, arcs.length(), arcs.cusps(),
                     setup.getSolutionPath().getStateCount());
         return setup.getSolutionPath().check();

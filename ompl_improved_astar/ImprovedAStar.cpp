@@ -24,7 +24,6 @@ namespace ompl::geometric
         using parking::Pose;
 
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr double GRID_RESOLUTION = 0.5;  // metres, when the user leaves the choice
 
         // Between states asked for along a motion with a checker that knows states only, in turning radii.
         constexpr double CHECK_STEP = 0.02;
@@ -81,7 +80,8 @@ namespace ompl::geometric
 
     void ImprovedAStar::requireFittingModel() const
     {
-        if (parameters_.motionModel != "car" && query_->space->kind() != parking::SpaceKind::SE2)
+        if (query_->space->kind() != parking::SpaceKind::SE2 &&
+            parking::search::turnsOnTheSpot(parameters_.motionModel))
             throw Exception(getName(), "motion_model " + parameters_.motionModel +
                                            " needs a plain SE2StateSpace: a Reeds-Shepp or Dubins space would turn its "
                                            "path into loops. Use motion_model car there");
@@ -127,53 +127,19 @@ namespace ompl::geometric
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
         query_->footprintEnvironment.reset();
-        const auto openList = parameters_.openList == "linear" ? parking::search::OpenListKind::Linear
-                                                               : parking::search::OpenListKind::BinaryHeap;
 
-        if (parameters_.motionModel != "car")
-        {
-            parking::search::GridParameters grid;
-            grid.resolution = parameters_.xyResolution > 0.0 ? parameters_.xyResolution : GRID_RESOLUTION;
-            grid.sixteenNeighbours = parameters_.motionModel == "grid16";
-            grid.low = bounds.min;
-            grid.high = bounds.max;
-            grid.weights = parameters_.weights();
-            grid.openList = openList;
-            grid.bidirectional = parameters_.bidirectional;
-            grid.eagerObstacles = parameters_.obstacleLoading == "eager";
-            query_->grid.begin(*query_->stateEnvironment, grid);
-            return;
-        }
-
-        parking::search::CarPlannerParameters car;
-        car.shorten = parameters_.shortening;
-        car.anytime = parameters_.anytime;
-        car.search.turningRadius = radius;
-        car.search.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
-        car.search.steeringAngles = parameters_.steeringAngles;
-        car.search.xyResolution = parameters_.xyResolution;
-        car.search.headingBins = parameters_.headingBins;
-        car.search.weights = parameters_.weights();
-        car.search.openList = openList;
-        car.search.bidirectional = parameters_.bidirectional;
-        car.search.searchFromGoal = parameters_.searchFrom == "goal";
-        car.search.adaptiveResolution = parameters_.adaptiveResolution;
-        car.search.analyticExpansion = parameters_.analyticExpansion;
-        car.search.obstacleHeuristic = parameters_.obstacleHeuristic;
-        car.search.eagerObstacles = parameters_.obstacleLoading == "eager";
-        car.search.low = bounds.min;
-        car.search.high = bounds.max;
-        car.search.cost = {parameters_.reversePenalty,
-                           parameters_.gearChangePenalty,
-                           parameters_.steeringChangePenalty,
-                           parameters_.clearanceWeight,
-                           1.0,
-                           1.0 / radius};
+        parking::search::CarInSpace &car = query_->car;
+        car.turningRadius = radius;
+        car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
+        car.low = bounds.min;
+        car.high = bounds.max;
+        car.inscribedRadius = 0.0;
+        query_->turnsOnTheSpot = parking::search::turnsOnTheSpot(parameters_.motionModel);
         parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();
-        if (footprint)
+        if (footprint && !query_->turnsOnTheSpot)
         {
             const parking::FootprintChecker &checker = footprint->footprint();
-            car.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
+            car.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
             // The motion validator has the last word unless it asks the same questions of the same checker.
             const auto *validator =
                 dynamic_cast<const parking::SweptMotionValidator *>(si_->getMotionValidator().get());
@@ -184,7 +150,7 @@ namespace ompl::geometric
                 footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
             environment = query_->footprintEnvironment.get();
         }
-        query_->car.begin(*environment, car);
+        query_->planner.begin(*environment, parking::search::plannerParameters(parameters_, car));
     }
 
     bool ImprovedAStar::readInputs(const ob::PlannerTerminationCondition &ptc, ob::PlannerStatus &failure)
@@ -198,18 +164,40 @@ namespace ompl::geometric
         }
         prepareQuery();
         query_->stateEnvironment->setStop([&ptc] { return ptc(); });
-        const bool car = query_->isCar();
-        while (const ob::State *state = pis_.nextStart())
-        {
-            query_->starts.push_back(parking::poseOf(state));
-            car ? query_->car.addStart(query_->starts.back()) : query_->grid.addStart(query_->starts.back());
-        }
-        if (query_->starts.empty())
+        if (!readStarts())
         {
             OMPL_ERROR("%s: There are no valid initial states", getName().c_str());
             failure = ob::PlannerStatus::INVALID_START;
+            query_->outcome = parking::search::PlanOutcome::InvalidStart;
             return false;
         }
+        if (!readGoals(*region, ptc))
+        {
+            query_->fallbackTarget = anyGoal(*pdef_->getGoal(), si_);
+            query_->outcome = parking::search::PlanOutcome::InvalidGoal;
+            query_->reason = "no goal is valid";
+            if (!query_->fallbackTarget || !parameters_.approximate)
+            {
+                OMPL_ERROR("%s: Unable to find a valid goal state", getName().c_str());
+                failure = ob::PlannerStatus::INVALID_GOAL;
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool ImprovedAStar::readStarts()
+    {
+        while (const ob::State *state = pis_.nextStart())
+        {
+            query_->starts.push_back(parking::poseOf(state));
+            query_->planner.addStart(query_->starts.back());
+        }
+        return !query_->starts.empty();
+    }
+
+    bool ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region, const ob::PlannerTerminationCondition &ptc)
+    {
         const auto add = [&](const ob::State *state)
         {
             const Pose pose = parking::poseOf(state);
@@ -217,9 +205,9 @@ namespace ompl::geometric
                 if (known.x == pose.x && known.y == pose.y && known.yaw == pose.yaw)
                     return;
             query_->goals.push_back(pose);
-            car ? query_->car.addGoal(pose) : query_->grid.addGoal(pose);
+            query_->planner.addGoal(pose);
         };
-        const bool finite = region->maxSampleCount() < std::numeric_limits<unsigned int>::max();
+        const bool finite = region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
         for (unsigned int attempt = 0; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && !ptc; ++attempt)
         {
             if (!finite && query_->goals.size() >= MAX_GOALS)
@@ -232,22 +220,12 @@ namespace ompl::geometric
         // Lazily sampled goals may be on their way. A list of goals that are all taken grows no longer: OMPL would wait
         // for it until the time is up. So would it for a region whose samples are all invalid: after so many attempts
         // the time is better spent on coming near to it.
-        const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(region);
-        const bool mayHaveMore = lazy != nullptr ? lazy->isSampling() : !finite && !region->canSample();
-        if (query_->goals.empty() && region->couldSample() && mayHaveMore)
+        const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(&region);
+        const bool mayHaveMore = lazy != nullptr ? lazy->isSampling() : !finite && !region.canSample();
+        if (query_->goals.empty() && region.couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
                 add(state);
-        if (query_->goals.empty())
-        {
-            query_->fallbackTarget = anyGoal(*pdef_->getGoal(), si_);
-            if (!query_->fallbackTarget || !parameters_.approximate)
-            {
-                OMPL_ERROR("%s: Unable to find a valid goal state", getName().c_str());
-                failure = ob::PlannerStatus::INVALID_GOAL;
-                return false;
-            }
-        }
-        return true;
+        return !query_->goals.empty();
     }
 
     ob::PlannerStatus ImprovedAStar::solve(const ob::PlannerTerminationCondition &ptc)
@@ -255,11 +233,13 @@ namespace ompl::geometric
         checkValidity();
         if (query_->begun && (query_->goal != pdef_->getGoal() || query_->parameters != parameters_))
             clearQuery();
-        ob::PlannerStatus failure;
-        if (ptc && !query_->hasSolution())
+        query_->outcome = parking::search::PlanOutcome::Timeout;
+        query_->reason.clear();
+        if (ptc && !query_->hasSolution)
             return ob::PlannerStatus::TIMEOUT;
-        const bool ready = readInputs(ptc, failure);
-        const ob::PlannerStatus status = !ready ? failure : query_->isCar() ? solveCar(ptc) : solveGrid(ptc);
+        ob::PlannerStatus status;
+        if (readInputs(ptc, status))
+            status = search(ptc);
         if (query_->stateEnvironment)
             query_->stateEnvironment->setStop(nullptr);
         return status;
@@ -267,12 +247,12 @@ namespace ompl::geometric
 
     double ImprovedAStar::mapLoadingTime() const
     {
-        return query_->isCar() ? query_->car.search().loadingTime() : query_->grid.loadingTime();
+        return query_->planner.search().loadingTime();
     }
 
     parking::search::SearchStatistics ImprovedAStar::statistics() const
     {
-        return query_->isCar() ? query_->car.statistics() : query_->grid.statistics();
+        return query_->planner.statistics();
     }
 
     std::uint64_t ImprovedAStar::checkedStates() const
@@ -288,13 +268,23 @@ namespace ompl::geometric
         return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byContactTest : 0;
     }
 
-    const parking::Path *ImprovedAStar::solutionArcs() const
+    const parking::Path *ImprovedAStar::solutionPath() const
     {
-        return query_->hasArcs ? &query_->bestArcs : nullptr;
+        return query_->hasSolution && !query_->isSmoothed ? &query_->path : nullptr;
+    }
+
+    parking::search::PlanOutcome ImprovedAStar::outcome() const
+    {
+        return query_->outcome;
+    }
+
+    const std::string &ImprovedAStar::reason() const
+    {
+        return query_->reason;
     }
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return query_->isCar() ? query_->car.suboptimalityBound() : INFINITE;
+        return query_->planner.suboptimalityBound();
     }
 }  // namespace ompl::geometric

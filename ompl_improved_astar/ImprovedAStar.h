@@ -1,10 +1,12 @@
 #pragma once
 
-#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <ompl/base/Planner.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
 
 #include <atomic>
 #include <memory>
@@ -101,10 +103,19 @@ namespace ompl::geometric
         std::uint64_t checkedStates() const;
         std::uint64_t exactChecks() const;
 
-        /** \brief The best solution of the car model in exact form; nullptr without one or with a grid model. */
-        const parking::Path *solutionArcs() const;
+        /** \brief The best solution in exact form; nullptr without one, and where the B-spline has smoothed it. */
+        const parking::Path *solutionPath() const;
 
-        /** \brief Best cost over the lower bound of any cost in the discretised problem; see heuristic weights. */
+        /** \brief How the last solve() ended, more exactly than its status can say before OMPL 1.6: Infeasible where
+            nothing was left to try, whatever path was reported. */
+        parking::search::PlanOutcome outcome() const;
+
+        /** \brief One line on why there is no solution, when that is known and not only for want of time. */
+        const std::string &reason() const;
+
+        /** \brief Best cost over a bound that no path stays below, at least 1: see
+         * parking::search::Search::lowerBound().
+         */
         double suboptimalityBound();
 
     private:
@@ -112,12 +123,14 @@ namespace ompl::geometric
 
         void declareParameters();
         void requireFittingModel() const;
-        base::PlannerStatus solveCar(const base::PlannerTerminationCondition &ptc);
-        base::PlannerStatus solveGrid(const base::PlannerTerminationCondition &ptc);
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
-        std::vector<parking::Pose> smoothed(const std::vector<parking::Pose> &poses,
-                                            const base::PlannerTerminationCondition &ptc) const;
+        bool readStarts();
+        bool readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
+        base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
+        base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc);
+        std::vector<parking::Pose> statesOf(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
+        bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
         base::Cost costOf(const base::PathPtr &path) const;
 

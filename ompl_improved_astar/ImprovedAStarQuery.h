@@ -4,9 +4,7 @@
 
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
-#include "ompl_improved_astar/search/CarPlanner.h"
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
-#include "ompl_improved_astar/search/GridSearch.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"
 
@@ -16,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,16 +30,20 @@ namespace ompl::geometric
         std::optional<parking::CurveSpace> space;
         std::unique_ptr<parking::FootprintEnvironment> footprintEnvironment;
         std::unique_ptr<parking::StateSpaceEnvironment> stateEnvironment;
-        parking::search::CarPlanner car;
-        parking::search::GridSearch grid;
+        parking::search::PathPlanner planner;
+        parking::search::CarInSpace car;
+        bool turnsOnTheSpot{false};  ///< the motion model's paths do
         bool begun{false};
         parking::PlannerParameters parameters;  ///< those that the query was begun with
         base::GoalPtr goal;                     ///< the one that the query was begun for
-        bool gridDone{false};
         std::vector<parking::Pose> starts, goals;
         std::optional<parking::Pose> fallbackTarget;
-        parking::Path bestArcs;
-        bool hasArcs{false};
+        parking::search::PlanOutcome outcome{parking::search::PlanOutcome::Timeout};
+        std::string reason;
+        bool hasSolution{false};
+        parking::Path path;                 ///< the best one by the problem's objective
+        std::vector<parking::Pose> states;  ///< of it, for OMPL
+        bool isSmoothed{false};             ///< the states are those of a B-spline and not of the path
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length
         std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
@@ -57,16 +60,6 @@ namespace ompl::geometric
         ~Query()
         {
             freeDataStates();
-        }
-
-        bool isCar() const
-        {
-            return parameters.motionModel == "car";
-        }
-
-        bool hasSolution() const
-        {
-            return begun && (hasArcs || gridDone);
         }
 
         bool isPlain() const
@@ -90,11 +83,12 @@ namespace ompl::geometric
             freeDataStates();
             begun = false;
             goal.reset();
-            gridDone = false;
             starts.clear();
             goals.clear();
             fallbackTarget.reset();
-            hasArcs = false;
+            hasSolution = false;
+            outcome = parking::search::PlanOutcome::Timeout;
+            reason.clear();
             solution.clear();
             bestCost = base::Cost(std::numeric_limits<double>::infinity());
             objective.reset();
@@ -102,12 +96,12 @@ namespace ompl::geometric
 
         void freeDataStates()
         {
-            for (std::vector<base::State *> &states : dataStates)
+            for (std::vector<base::State *> &group : dataStates)
             {
-                for (base::State *state : states)
+                for (base::State *state : group)
                     if (state != nullptr)
                         si->freeState(state);
-                states.clear();
+                group.clear();
             }
         }
 
@@ -115,13 +109,13 @@ namespace ompl::geometric
             stays valid until the query ends. */
         base::State *dataState(std::size_t group, std::size_t index, const parking::Pose &pose)
         {
-            std::vector<base::State *> &states = dataStates[group];
-            if (states.size() <= index)
-                states.resize(index + 1, nullptr);
-            if (states[index] == nullptr)
-                states[index] = si->allocState();
-            parking::setPose(states[index], pose);
-            return states[index];
+            std::vector<base::State *> &known = dataStates[group];
+            if (known.size() <= index)
+                known.resize(index + 1, nullptr);
+            if (known[index] == nullptr)
+                known[index] = si->allocState();
+            parking::setPose(known[index], pose);
+            return known[index];
         }
     };
 }  // namespace ompl::geometric

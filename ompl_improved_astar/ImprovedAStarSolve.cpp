@@ -1,7 +1,8 @@
 // What ImprovedAStar does with its searches: runs them, and hands OMPL what they found.
 
 #include "ompl_improved_astar/ImprovedAStarQuery.h"
-#include "parking_geometry/smoothing/BsplineSmoother.h"
+#include "ompl_improved_astar/search/planning/GridSmoothing.h"
+#include "state_validity/ompl/OmplCompatibility.h"
 
 #include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/PlannerData.h>
@@ -22,9 +23,7 @@ namespace ompl::geometric
     {
         using parking::Path;
         using parking::Pose;
-        using parking::search::GridSearch;
-
-        constexpr unsigned int STATES_BETWEEN_STOPS = 8;  // while smoothing
+        using parking::search::PlanOutcome;
 
         bool isSamePose(const Pose &pose, const ob::State *state)
         {
@@ -41,134 +40,105 @@ namespace ompl::geometric
         return ob::Cost(path->length());
     }
 
-    ob::PlannerStatus ImprovedAStar::solveCar(const ob::PlannerTerminationCondition &ptc)
+    std::vector<Pose> ImprovedAStar::statesOf(const Path &path, const ob::PlannerTerminationCondition &ptc)
     {
-        const parking::StateSpacing spacing = query_->stateSpacing();
+        query_->isSmoothed = false;
+        if (query_->turnsOnTheSpot && parameters_.smoothing == "bspline")
+        {
+            std::vector<Pose> smooth = parking::search::smoothGridPath(
+                path, *query_->stateEnvironment, query_->car.turningRadius, [&ptc] { return ptc(); });
+            query_->isSmoothed = !smooth.empty();
+            if (query_->isSmoothed)
+                return smooth;
+        }
+        return parking::pathStates(path, query_->stateSpacing());
+    }
+
+    bool ImprovedAStar::takeImprovement(const Path &path, const ob::PlannerTerminationCondition &ptc)
+    {
+        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
+        std::vector<Pose> states = statesOf(path, ptc);
+        auto geometric = std::make_shared<PathGeometric>(si_);
+        ob::ScopedState<> state(si_);
+        for (const Pose &pose : states)
+        {
+            parking::setPose(state.get(), pose);
+            geometric->append(state.get());
+        }
+        const ob::Cost cost = costOf(geometric);
+        if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
+                                               : cost.value() < query_->bestCost.value()))
+            return false;
+        query_->hasSolution = true;
+        query_->path = path;
+        query_->states = std::move(states);
+        query_->bestCost = cost;
+        query_->objective = objective;
+        bestCost_.store(cost.value(), std::memory_order_relaxed);
+        if (const ob::ReportIntermediateSolutionFn &report = pdef_->getIntermediateSolutionCallback())
+        {
+            // Goal first, without the ends, as OMPL's planners do.
+            std::vector<const ob::State *> reported;
+            for (std::size_t i = geometric->getStateCount(); i-- > 0;)
+                reported.push_back(geometric->getState(i));
+            report(this, reported, cost);
+        }
+        return objective && objective->isSatisfied(cost);
+    }
+
+    ob::PlannerStatus ImprovedAStar::search(const ob::PlannerTerminationCondition &ptc)
+    {
         const auto stop = [this, &ptc]
         {
-            expanded_.store(query_->car.statistics().expanded, std::memory_order_relaxed);
+            expanded_.store(query_->planner.statistics().expanded, std::memory_order_relaxed);
             return ptc();
         };
-        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
-        const auto improved = [&](const Path &arcs, double)
+        const auto improved = [this, &ptc](const Path &path, double)
         {
-            auto path = std::make_shared<PathGeometric>(si_);
-            std::vector<const ob::State *> states;
-            ob::ScopedState<> state(si_);
-            for (const Pose &pose : parking::pathStates(arcs, spacing))
-            {
-                parking::setPose(state.get(), pose);
-                path->append(state.get());
-            }
-            const ob::Cost cost = costOf(path);
-            if (query_->hasArcs && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
-                                               : cost.value() < query_->bestCost.value()))
-                return false;
-            query_->hasArcs = true;
-            query_->bestArcs = arcs;
-            query_->bestCost = cost;
-            query_->objective = objective;
-            bestCost_.store(cost.value(), std::memory_order_relaxed);
-            if (const ob::ReportIntermediateSolutionFn &report = pdef_->getIntermediateSolutionCallback())
-            {
-                // Goal first, without the ends, as OMPL's planners do.
-                for (std::size_t i = path->getStateCount(); i-- > 0;)
-                    states.push_back(path->getState(i));
-                report(this, states, cost);
-            }
-            return objective && objective->isSatisfied(cost);
+            return takeImprovement(path, ptc);
         };
-        if (!query_->goals.empty())
-            query_->car.solve(stop, improved);
-        expanded_ = query_->car.statistics().expanded;
-        if (query_->hasArcs)
-            return report(parking::pathStates(query_->bestArcs, spacing), false);
+        using Outcome = parking::search::PathPlanner::Outcome;
+        if (!query_->goals.empty() && query_->planner.solve(stop, improved) == Outcome::Exhausted)
+        {
+            query_->outcome = PlanOutcome::Infeasible;
+            query_->reason = parking::search::reasonOf(query_->planner.search().exhaustion(), query_->car);
+        }
+        expanded_ = query_->planner.statistics().expanded;
+        if (query_->hasSolution)
+        {
+            query_->outcome = PlanOutcome::Solved;
+            query_->reason.clear();
+            return report(query_->states, false);
+        }
+        if (parameters_.approximate)
+            if (const ob::PlannerStatus status = approach(ptc))
+                return status;
+        return query_->outcome == PlanOutcome::Infeasible
+                   ? parking::ompl_compatibility::infeasible<ob::PlannerStatus>(0)
+                   : ob::PlannerStatus(ob::PlannerStatus::TIMEOUT);
+    }
+
+    ob::PlannerStatus ImprovedAStar::approach(const ob::PlannerTerminationCondition &ptc)
+    {
         Path nearest;
         const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
-        if (parameters_.approximate && query_->car.approximate(target, stop, nearest))
+        const auto stop = [this, &ptc]
         {
-            std::vector<Pose> poses = parking::pathStates(nearest, spacing);
-            // Up to where the motion validator agrees. With a checker that takes long there is no time for that once
-            // the planner has been told to stop.
-            if (query_->footprintEnvironment || !ptc)
-                for (std::size_t i = 1; i < poses.size(); ++i)
-                    if (!query_->stateEnvironment->isMotionFree(poses[i - 1], poses[i]))
-                        poses.resize(i);
-            return report(poses, true);
-        }
-        return ob::PlannerStatus::TIMEOUT;
-    }
-
-    ob::PlannerStatus ImprovedAStar::solveGrid(const ob::PlannerTerminationCondition &ptc)
-    {
-        GridSearch &grid = query_->grid;
-        const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
-        grid.setTarget(target.x, target.y);
-        if (!query_->gridDone)
-        {
-            const GridSearch::Outcome outcome = grid.run(
-                [this, &ptc]
-                {
-                    expanded_.store(query_->grid.statistics().expanded, std::memory_order_relaxed);
-                    return ptc();
-                });
-            query_->gridDone = outcome == GridSearch::Outcome::Found;
-        }
-        expanded_ = grid.statistics().expanded;
-        if (query_->gridDone)
-            return report(smoothed(grid.path(), ptc), false);
-        if (parameters_.approximate)
-            if (const std::vector<Pose> poses = grid.nearestPath(target.x, target.y); !poses.empty())
-                return report(smoothed(poses, ptc), true);
-        return ob::PlannerStatus::TIMEOUT;
-    }
-
-    std::vector<Pose> ImprovedAStar::smoothed(const std::vector<Pose> &poses,
-                                              const ob::PlannerTerminationCondition &ptc) const
-    {
-        if (parameters_.smoothing == "none" || ptc)
-            return poses;
-        std::vector<Eigen::Vector2d> points;
-        for (const Pose &pose : poses)
-            if (points.empty() || (points.back() - Eigen::Vector2d(pose.x, pose.y)).norm() > 1e-9)
-                points.emplace_back(pose.x, pose.y);
-        if (points.size() < 3)
-            return poses;
-        parking::FootprintQueries world;
-        world.isFree = [this, &ptc, asked = 0u, stopped = false](const Pose &pose) mutable
-        {
-            stopped = stopped || (++asked % STATES_BETWEEN_STOPS == 0 && ptc);
-            return !stopped && query_->stateEnvironment->isFree(pose);
+            expanded_.store(query_->planner.statistics().expanded, std::memory_order_relaxed);
+            return ptc();
         };
-        parking::BsplineOptions options;
-        options.maxCurvature = 1.0 / parameters_.turningRadius;
-        // Between control points so far apart a turn to the next neighbour's direction just keeps the radius.
-        double length = 0.0;
-        for (std::size_t i = 1; i < points.size(); ++i)
-            length += (points[i] - points[i - 1]).norm();
-        const double spacing = length / static_cast<double>(points.size() - 1);
-        const std::size_t usual = options.sampling;
-        options.sampling = std::max(usual, static_cast<std::size_t>(std::ceil(parameters_.turningRadius / spacing)));
-        parking::BsplineResult smooth = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
-        if (smooth.polylineSpans > 0 && options.sampling > usual)
-        {
-            options.sampling = usual;
-            parking::BsplineResult closer = parking::bsplineSmooth(points, options, parking::Vehicle(), world);
-            if (closer.polylineSpans * smooth.spans < smooth.polylineSpans * closer.spans)
-                smooth = std::move(closer);
-        }
-        std::vector<Pose> result{poses.front()};
-        for (const parking::PathState &state : smooth.path.sample(0.5 * options.step))
-            result.push_back(state.pose);
-        // It ends where the path does, up to rounding; what is left is to turn.
-        result.back().x = poses.back().x;
-        result.back().y = poses.back().y;
-        result.push_back(poses.back());
-        // The spline was checked at its states; the motion validator has the last word.
-        for (std::size_t i = 1; i < result.size(); ++i)
-            if (ptc || !query_->stateEnvironment->isMotionFree(result[i - 1], result[i]))
-                return poses;
-        return result;
+        if (!query_->planner.approximate(target, stop, nearest))
+            return ob::PlannerStatus::TIMEOUT;
+        std::vector<Pose> states = statesOf(nearest, ptc);
+        // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
+        // planner has been told to stop.
+        if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
+            for (std::size_t i = 1; i < states.size(); ++i)
+                if (!query_->stateEnvironment->isMotionFree(states[i - 1], states[i]))
+                    states.resize(i);
+        if (query_->outcome == PlanOutcome::Timeout)
+            query_->outcome = PlanOutcome::Approximate;
+        return report(states, true);
     }
 
     ob::PlannerStatus ImprovedAStar::report(const std::vector<Pose> &poses, bool approximate)
@@ -197,8 +167,6 @@ namespace ompl::geometric
         query_->solution.clear();
         for (std::size_t i = 0; i < path->getStateCount() && !approximate; ++i)
             query_->solution.push_back(parking::poseOf(path->getState(i)));
-        if (!approximate && !query_->isCar())
-            bestCost_ = costOf(path).value();
         double difference = 0.0;
         if (approximate)
             pdef_->getGoal()->isSatisfied(path->getState(path->getStateCount() - 1), &difference);
@@ -208,8 +176,8 @@ namespace ompl::geometric
             solution.setApproximate(difference);
         if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
         {
-            // Of the car's path it is known already, and takes its time on a curve space.
-            const bool known = !approximate && query_->isCar() && query_->objective == objective;
+            // Of a solution it is known already, and takes its time on a curve space.
+            const bool known = !approximate && query_->objective == objective;
             const ob::Cost cost = known ? query_->bestCost : path->cost(objective);
             solution.setOptimized(objective, cost, !approximate && objective->isSatisfied(cost));
         }
@@ -232,14 +200,14 @@ namespace ompl::geometric
             std::uint32_t parent;
         };
         std::vector<Node> trees[2];
-        const auto visit = [&](const Pose &pose, std::uint32_t parent, std::uint32_t index, bool fromStart)
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
         {
-            std::vector<Node> &tree = trees[fromStart ? 0 : 1];
-            if (tree.size() <= index)
-                tree.resize(index + 1, {nullptr, GridSearch::NO_NODE});
-            tree[index] = {query_->dataState(fromStart ? 0 : 1, index, pose), parent};
-        };
-        query_->isCar() ? query_->car.search().forEachNode(visit) : query_->grid.forEachNode(visit);
+            const parking::search::Search &search = std::as_const(query_->planner).search();
+            const auto &nodes =
+                search.frontier(side == 0 ? parking::search::Side::Start : parking::search::Side::Goal).nodes();
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                trees[side].push_back({query_->dataState(side, i, nodes[i].pose), nodes[i].parent});
+        }
 
         ob::State *ends[2] = {nullptr, nullptr};
         for (int side = 0; side < 2; ++side)
@@ -248,7 +216,7 @@ namespace ompl::geometric
                 if (node.state == nullptr)
                     continue;
                 const ob::PlannerDataVertex vertex(node.state, side + 1);
-                if (node.parent == GridSearch::NO_NODE)
+                if (node.parent == parking::search::NO_NODE)
                 {
                     side == 0 ? data.addStartVertex(vertex) : data.addGoalVertex(vertex);
                     const std::vector<Pose> &solution = query_->solution;

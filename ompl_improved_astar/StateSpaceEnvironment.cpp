@@ -21,23 +21,24 @@ namespace parking
         bool forEachState(const Path &path, const StateSpacing &spacing, const Visit &visit)
         {
             Pose pose = path.start;
-            for (const PathPiece &segment : path.pieces)
+            for (const PathPiece &piece : path.pieces)
             {
-                double pieces = std::ceil(std::abs(segment.length * segment.curvature) / RADIANS_PER_STATE);
+                const double sharpest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+                double states = std::ceil(piece.driven() * sharpest / RADIANS_PER_STATE);
                 const bool gentle =
-                    segment.curvature != 0.0 && std::abs(segment.curvature) < (1.0 - 1e-9) * spacing.sharpestCurvature;
-                const double dense = gentle ? spacing.onGentleArcs : spacing.everywhere;
+                    sharpest > 0.0 && (sharpest < (1.0 - 1e-9) * spacing.sharpestCurvature || piece.sharpness != 0.0);
+                const double dense = gentle ? spacing.onGentleArcs : sharpest > 0.0 ? spacing.onArcs : 0.0;
                 if (dense > 0.0)
-                    pieces = std::max(pieces, std::ceil(std::abs(segment.length) / dense));
-                pieces = std::max(pieces, 1.0);
-                for (double i = 1.0; i <= pieces; i += 1.0)
+                    states = std::max(states, std::ceil(piece.driven() / dense));
+                states = std::max(states, 1.0);
+                for (double i = 1.0; i <= states; i += 1.0)
                 {
-                    Pose next = advance(pose, segment.curvature, segment.length * i / pieces);
+                    Pose next = advance(pose, piece, piece.driven() * i / states);
                     next.yaw = wrapAngle(next.yaw);
                     if (!visit(next))
                         return false;
                 }
-                pose = advance(pose, segment.curvature, segment.length);
+                pose = advance(pose, piece);
             }
             return true;
         }

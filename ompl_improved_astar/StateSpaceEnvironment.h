@@ -1,6 +1,5 @@
 #pragma once
 
-#include "ompl_improved_astar/search/GridEnvironment.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "parking_geometry/Scenario.h"
@@ -15,11 +14,12 @@ namespace parking
 {
     /** \brief How far apart the states of a path may be for the space's own interpolation to follow the path.
 
-        Spaces of curves go from state to state along straight lines and arcs at their turning radius, of which the ends
-        suffice. An arc that turns less they would replace by a sharper one and a line. */
+        Of straight lines and turns on the spot the ends suffice everywhere. Spaces of curves go from state to state
+       along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
+       arc and a line. */
     struct StateSpacing
     {
-        double everywhere{0.0};         ///< metres; 0 where the ends of straight lines and short arcs suffice
+        double onArcs{0.0};             ///< metres; 0 where the ends of short arcs suffice
         double onGentleArcs{0.0};       ///< metres; 0 as above
         double sharpestCurvature{0.0};  ///< 1/m; arcs that turn less are gentle
     };
@@ -31,7 +31,7 @@ namespace parking
 
         Motions are tried by asking for the validity of states along them; paths found are then put to the motion
        validator, motion by motion, in the direction in which they will be driven. */
-    class StateSpaceEnvironment final : public search::MotionEnvironment, public search::GridEnvironment
+    class StateSpaceEnvironment final : public search::MotionEnvironment
     {
     public:
         /** \brief \param step metres between states asked for along a motion

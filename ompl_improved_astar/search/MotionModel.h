@@ -45,7 +45,7 @@ namespace parking::search
         bool aims{false};
         /** isFree() is asked motion by motion and may be slow: the clock is looked at in between. */
         bool asksMotionByMotion{false};
-        /** Does this model need OMPL's plain SE2 space, since its heading jumps? */
+        /** Its heading jumps: a space of curves cannot follow its paths. */
         bool turnsOnTheSpot{false};
         /** One expansion in so many goes to the side whose roots are less confined. */
         std::uint64_t otherSidePeriod{2};
@@ -63,6 +63,7 @@ namespace parking::search
         /** \brief Begins a query. The environment and the parameters outlive it. */
         virtual void begin(MotionEnvironment &environment, const SearchParameters &parameters) = 0;
 
+        /** \brief Before begin() only what does not depend on parameters is right. */
         virtual ModelTraits traits() const = 0;
 
         /** \brief The name of the heuristic that suits the model. */
@@ -138,4 +139,7 @@ namespace parking::search
 
     /** \brief The motion models by name. */
     Registry<MotionModel> &motionModels();
+
+    /** \brief Do the paths of this motion model turn on the spot? Throws parking::Error for one that is not known. */
+    bool turnsOnTheSpot(const std::string &motionModel);
 }  // namespace parking::search

@@ -116,6 +116,14 @@ namespace parking::search
         }
     }
 
+    double Search::estimate() const
+    {
+        double least = INFINITE;
+        for (const NodeIndex root : frontier(confined_).roots())
+            least = std::min<double>(least, frontier(confined_).node(root).h);
+        return least;
+    }
+
     double Search::estimate(Side side, const Pose &pose)
     {
         Guides &own = guides(side);

@@ -53,6 +53,20 @@ namespace parking
             return (*kinds)[index];
         }
 
+        /** \brief The status of a problem without solution: INFEASIBLE where OMPL has it (1.6 and later), else TIMEOUT.
+         */
+        template <class Status>
+        auto infeasible(int /*preferred*/) -> decltype(Status(Status::INFEASIBLE))
+        {
+            return Status::INFEASIBLE;
+        }
+
+        template <class Status>
+        Status infeasible(long /*otherwise*/)
+        {
+            return Status::TIMEOUT;
+        }
+
         /** \brief Counts one up. OMPL's counters of checked motions are plain integers that several threads write. */
         inline void countUp(unsigned int &counter)
         {

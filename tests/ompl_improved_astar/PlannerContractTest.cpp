@@ -125,7 +125,7 @@ namespace
         const auto expanded = problem.planner->statistics().expanded;
         problem.planner->clear();
         EXPECT_EQ(problem.planner->statistics().expanded, 0u);
-        EXPECT_EQ(problem.planner->solutionArcs(), nullptr);
+        EXPECT_EQ(problem.planner->solutionPath(), nullptr);
         EXPECT_FALSE(problem.planner->isSetup());
         problem.pdef->clearSolutionPaths();
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
@@ -224,10 +224,10 @@ namespace
         PlanningProblem problem(Space::SE2, openSite(15.0));
         problem.from(AISLE).to({{8.0, 5.0, 0.0}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_NE(problem.planner->solutionArcs(), nullptr);
+        EXPECT_NE(problem.planner->solutionPath(), nullptr);
         problem.set("motion_model", "grid8");
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_EQ(problem.planner->solutionArcs(), nullptr);
+        EXPECT_EQ(problem.planner->solutionPath(), nullptr);
         EXPECT_GT(problem.planner->statistics().expanded, 0u);
     }
 

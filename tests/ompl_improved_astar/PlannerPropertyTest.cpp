@@ -114,8 +114,8 @@ namespace
             ++exact;
             ASSERT_EQ(status, Status::EXACT_SOLUTION);
             EXPECT_TRUE(isAt(poses.back(), *goal, 1e-15));
-            ASSERT_NE(problem.planner->solutionArcs(), nullptr);
-            const Path &arcs = *problem.planner->solutionArcs();
+            ASSERT_NE(problem.planner->solutionPath(), nullptr);
+            const Path &arcs = *problem.planner->solutionPath();
             EXPECT_TRUE(isAt(arcs.start, *start));
             EXPECT_TRUE(isAt(arcs.end(), *goal, 1e-9));
             expectDrivable(problem, world, arcs);

@@ -72,7 +72,7 @@ namespace
             PlanningProblem problem(kind, openSite(20.0));
             problem.from({-8.0, -3.0, 0.0}).to({{5.0, 6.0, -2.0}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            const parking::Path &arcs = *problem.planner->solutionArcs();
+            const parking::Path &arcs = *problem.planner->solutionPath();
             og::PathGeometric path = problem.path();
             EXPECT_NEAR(kind == Space::SE2 ? arcs.length() : path.length(), arcs.length(), 1e-6);
             path.interpolate(2000);
@@ -115,7 +115,7 @@ namespace
                 const Pose goal{12.0, -8.0 + 2.0 * i, 0.8 * i - parking::PI};
                 problem.from({-10.0, 0.0, 0.4 * i}).to({goal});
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << i;
-                for (const PathPiece &segment : problem.planner->solutionArcs()->pieces)
+                for (const PathPiece &segment : problem.planner->solutionPath()->pieces)
                     EXPECT_GT(segment.length, 0.0);
                 EXPECT_TRUE(isAt(problem.poses().back(), goal));
                 EXPECT_TRUE(problem.path().check());
@@ -228,7 +228,7 @@ namespace
         problem.makePlanner();
         problem.from({-8.0, 0.0, 0.0}).to({{-8.0, 1.0, parking::PI}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        for (const parking::PathState &state : problem.planner->solutionArcs()->sample(0.01))
+        for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.01))
             EXPECT_TRUE(std::abs(state.pose.x) <= 10.0 + 1e-9 && std::abs(state.pose.y) <= 4.0 + 1e-9);
         EXPECT_TRUE(problem.path().check());
     }

@@ -81,7 +81,7 @@ namespace
             problem.planner->params().setParam(name, value);
             problem.from(start).to({goal});
             EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            return *problem.planner->solutionArcs();
+            return *problem.planner->solutionPath();
         };
         EXPECT_GT(reverse(plan(aslant, "reverse_penalty", "0")), 7.0);
         EXPECT_LT(reverse(plan(aslant, "reverse_penalty", "10")), 4.0);
@@ -92,7 +92,7 @@ namespace
         {
             return steering(*planned(Space::ReedsShepp, openSite(20.0), start, aside,
                                      {{"steering_change_penalty", value}, {"steering_angles", "7"}, {"anytime", "0"}})
-                                 .planner->solutionArcs());
+                                 .planner->solutionPath());
         };
         EXPECT_LE(shift("10"), shift("0"));
     }
@@ -107,7 +107,7 @@ namespace
                 planned(Space::ReedsShepp, site, {-9.0, 0.0, 0.0}, {9.0, 0.0, 0.0}, {{"clearance_weight", weight}});
             double least = 1e9;
             const parking::FootprintChecker checker(site.set(), problem.vehicle);
-            for (const parking::PathState &state : problem.planner->solutionArcs()->sample(0.05))
+            for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.05))
                 least = std::min(least, checker.clearance(state.pose));
             return least;
         };
@@ -346,7 +346,7 @@ namespace
             problem.from({0.0, 0.0, 0.0}).to({{0.0, 3.0, parking::PI}});
             ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             double sharpest = 0.0;
-            for (const PathPiece &segment : problem.planner->solutionArcs()->pieces)
+            for (const PathPiece &segment : problem.planner->solutionPath()->pieces)
                 sharpest = std::max(sharpest, std::abs(segment.curvature));
             EXPECT_NEAR(sharpest, 1.0 / radius, 1e-9);
         }

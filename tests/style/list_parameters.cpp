@@ -1,5 +1,5 @@
 // Prints the README's table of the planner's parameters, in Markdown.
-#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/text/Text.h"
 
 #include <iostream>

@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/search/models/CarModel.h"
 
-#include "ompl_improved_astar/search/CurveCheck.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ namespace parking::search
         traits.levels = LEVELS;
         traits.reach = reach_;
         traits.joinsAfar = true;
-        traits.otherSidePeriod = parameters_->tuning.otherSidePeriod;
+        traits.otherSidePeriod = parameters_ != nullptr ? parameters_->tuning.otherSidePeriod : 1;
         return traits;
     }
 

@@ -14,7 +14,7 @@ namespace parking::search
         // Often, since a checker may take a tenth of a millisecond for each of the states that these ask for.
         constexpr std::int64_t CELLS_BETWEEN_STOPS = 8;
         constexpr double SAME_HEADING = 1e-9;  // radians
-    }  // namespace
+    }                                          // namespace
 
     GridModel::GridModel(std::vector<GridStep> steps) : steps_(std::move(steps))
     {
@@ -22,7 +22,8 @@ namespace parking::search
             throw Error("a grid model has at most 32 steps, not " + std::to_string(steps_.size()));
         for (const GridStep &step : steps_)
         {
-            const auto opposite = std::find_if(steps_.begin(), steps_.end(), [&step](const GridStep &other)
+            const auto opposite = std::find_if(steps_.begin(), steps_.end(),
+                                               [&step](const GridStep &other)
                                                { return other.columns == -step.columns && other.rows == -step.rows; });
             if (opposite == steps_.end())
                 throw Error("a grid model needs the opposite of each step");
@@ -52,7 +53,7 @@ namespace parking::search
     {
         ModelTraits traits;
         traits.complete = true;
-        traits.aims = parameters_->bidirectional;
+        traits.aims = parameters_ != nullptr && parameters_->bidirectional;
         traits.asksMotionByMotion = true;
         traits.turnsOnTheSpot = true;
         return traits;
@@ -141,10 +142,10 @@ namespace parking::search
             // On the goal's side the car comes the other way, and its heading is that with which it leaves.
             to.yaw = side == Side::Start ? std::atan2(dy, dx) : std::atan2(-dy, -dx);
             const double turn = wrapAngle(to.yaw - node.pose.yaw);
-            expansion.successors.push_back({{std::abs(turn) > SAME_HEADING ? turn : 0.0, 0.0,
-                                             side == Side::Start ? length : -length, 0.0},
-                                            to,
-                                            false});
+            expansion.successors.push_back(
+                {{std::abs(turn) > SAME_HEADING ? turn : 0.0, 0.0, side == Side::Start ? length : -length, 0.0},
+                 to,
+                 false});
         }
     }
 

@@ -10,11 +10,30 @@ namespace parking::search
 {
     Registry<MotionModel> &motionModels()
     {
-        static Registry<MotionModel> registry("motion_model",
-                                              {{"car", [] { return std::make_unique<CarModel>(); }},
-                                               {"grid8", [] { return std::make_unique<GridModel>(grid8Steps()); }},
-                                               {"grid16", [] { return std::make_unique<GridModel>(grid16Steps()); }},
-                                               {"grid32", [] { return std::make_unique<GridModel>(grid32Steps()); }}});
+        static Registry<MotionModel> registry("motion_model", {{"car",
+                                                                []
+                                                                {
+                                                                    return std::make_unique<CarModel>();
+                                                                }},
+                                                               {"grid8",
+                                                                []
+                                                                {
+                                                                    return std::make_unique<GridModel>(grid8Steps());
+                                                                }},
+                                                               {"grid16",
+                                                                []
+                                                                {
+                                                                    return std::make_unique<GridModel>(grid16Steps());
+                                                                }},
+                                                               {"grid32", []
+                                                                {
+                                                                    return std::make_unique<GridModel>(grid32Steps());
+                                                                }}});
         return registry;
+    }
+
+    bool turnsOnTheSpot(const std::string &motionModel)
+    {
+        return motionModels().make(motionModel)->traits().turnsOnTheSpot;
     }
 }  // namespace parking::search

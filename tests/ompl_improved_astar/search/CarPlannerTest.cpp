@@ -1,6 +1,6 @@
 // The planner without OMPL: shortening, anytime improvement, bounds, approximate ends.
 
-#include "ompl_improved_astar/search/CarPlanner.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
 
 #include <gtest/gtest.h>
@@ -12,21 +12,21 @@
 using namespace parking;
 using namespace parking::search;
 using namespace parking_test;
-using Outcome = CarPlanner::Outcome;
+using Outcome = PathPlanner::Outcome;
 
 namespace
 {
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-    CarPlannerParameters parametersFor(const CarProblem &problem)
+    PathPlannerParameters parametersFor(const CarProblem &problem)
     {
-        CarPlannerParameters parameters;
+        PathPlannerParameters parameters;
         parameters.search = carParameters();
         parameters.search.inscribedRadius = problem.world.radius;
         return parameters;
     }
 
-    void begin(CarPlanner &planner, CarProblem &problem, const CarPlannerParameters &parameters)
+    void begin(PathPlanner &planner, CarProblem &problem, const PathPlannerParameters &parameters)
     {
         planner.begin(problem.world, parameters);
         for (const Pose &start : problem.starts)
@@ -35,7 +35,7 @@ namespace
             planner.addGoal(goal);
     }
 
-    CostModel costModel(const CarPlannerParameters &parameters)
+    CostModel costModel(const PathPlannerParameters &parameters)
     {
         CostModel cost = parameters.search.cost;
         cost.fullLockCurvature = 1.0 / parameters.search.turningRadius;
@@ -51,15 +51,15 @@ namespace
     }
 }  // namespace
 
-TEST(CarPlanner, solvesAndReportsWhatItReturns)
+TEST(PathPlanner, solvesAndReportsWhatItReturns)
 {
     int solved = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
-        const CarPlannerParameters parameters = parametersFor(problem);
-        CarPlanner planner;
+        const PathPlannerParameters parameters = parametersFor(problem);
+        PathPlanner planner;
         begin(planner, problem, parameters);
         std::vector<double> costs;
         const Outcome outcome =
@@ -87,16 +87,16 @@ TEST(CarPlanner, solvesAndReportsWhatItReturns)
     EXPECT_GT(solved, 30);
 }
 
-TEST(CarPlanner, shorteningNeverCostsAnything)
+TEST(PathPlanner, shorteningNeverCostsAnything)
 {
     int cheaper = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
-        CarPlannerParameters parameters = parametersFor(problem);
+        PathPlannerParameters parameters = parametersFor(problem);
         parameters.search.cost.clearanceWeight = seed % 2 ? 1.0 : 0.0;
-        CarPlanner with, without;
+        PathPlanner with, without;
         begin(with, problem, parameters);
         const Outcome outcome = with.solve(afterAsking(3000), nullptr);
         parameters.shorten = false;
@@ -111,20 +111,20 @@ TEST(CarPlanner, shorteningNeverCostsAnything)
     EXPECT_GT(cheaper, 5);
 }
 
-TEST(CarPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
+TEST(PathPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
 {
     int improvements = 0;
     for (std::uint64_t seed = 0; seed < 12; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = seed < 2 ? maze(2 + static_cast<int>(seed)) : randomProblem(seed);
-        CarPlannerParameters parameters = parametersFor(problem);
-        CarPlanner once;
+        PathPlannerParameters parameters = parametersFor(problem);
+        PathPlanner once;
         begin(once, problem, parameters);
         if (once.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         parameters.anytime = true;
-        CarPlanner planner;
+        PathPlanner planner;
         begin(planner, problem, parameters);
         std::vector<double> costs;
         const auto record = [&](const Path &path, double cost)
@@ -152,48 +152,48 @@ TEST(CarPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
     EXPECT_GT(improvements, 5);
 }
 
-TEST(CarPlanner, endsWhenTheSolutionIsGoodEnough)
+TEST(PathPlanner, endsWhenTheSolutionIsGoodEnough)
 {
     CarProblem problem = maze(2);
-    CarPlannerParameters parameters = parametersFor(problem);
+    PathPlannerParameters parameters = parametersFor(problem);
     parameters.anytime = true;
-    CarPlanner planner;
+    PathPlanner planner;
     begin(planner, problem, parameters);
     int reports = 0;
     EXPECT_EQ(planner.solve(nullptr, [&](const Path &, double) { return ++reports == 2; }), Outcome::Solved);
     EXPECT_EQ(reports, 2);
 }
 
-TEST(CarPlanner, endsByItselfWithTheBareCurve)
+TEST(PathPlanner, endsByItselfWithTheBareCurve)
 {
     CarProblem problem{DiscCarWorld({-30.0, -30.0, 30.0, 30.0}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
-    CarPlannerParameters parameters = parametersFor(problem);
+    PathPlannerParameters parameters = parametersFor(problem);
     parameters.search.cost = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0};
     parameters.anytime = true;
-    CarPlanner planner;
+    PathPlanner planner;
     begin(planner, problem, parameters);
     EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
     EXPECT_NEAR(planner.bestCost(), ReedsShepp(TURNING_RADIUS).distance(problem.starts[0], problem.goals[0]), 1e-9);
     EXPECT_NEAR(planner.suboptimalityBound(), 1.0, 1e-9);
 }
 
-TEST(CarPlanner, theBoundHoldsForTheBestThatIsEverFound)
+TEST(PathPlanner, theBoundHoldsForTheBestThatIsEverFound)
 {
     int bounded = 0;
     for (std::uint64_t seed = 0; seed < 16; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
-        CarPlannerParameters parameters = parametersFor(problem);
+        PathPlannerParameters parameters = parametersFor(problem);
         parameters.search.weights = {1.0, 1.0, 0.0, 0.0};
         parameters.shorten = false;  // what it finds is outside of the discretised problem
-        CarPlanner planner;
+        PathPlanner planner;
         begin(planner, problem, parameters);
         if (planner.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         const double cost = planner.bestCost(), bound = planner.suboptimalityBound();
         parameters.anytime = true;
-        CarPlanner longer;
+        PathPlanner longer;
         begin(longer, problem, parameters);
         longer.solve(afterAsking(10000), nullptr);
         EXPECT_LE(cost / bound, longer.bestCost() + 1e-6);
@@ -202,10 +202,10 @@ TEST(CarPlanner, theBoundHoldsForTheBestThatIsEverFound)
     EXPECT_GT(bounded, 5);
 }
 
-TEST(CarPlanner, solvedOnceIsSolvedAgain)
+TEST(PathPlanner, solvedOnceIsSolvedAgain)
 {
     CarProblem problem = maze(2);
-    CarPlanner planner;
+    PathPlanner planner;
     begin(planner, problem, parametersFor(problem));
     EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
     const double cost = planner.bestCost();
@@ -219,11 +219,11 @@ TEST(CarPlanner, solvedOnceIsSolvedAgain)
     EXPECT_LT(planner.bestCost(), 0.5 * cost);
 }
 
-TEST(CarPlanner, stoppedItGoesOn)
+TEST(PathPlanner, stoppedItGoesOn)
 {
     CarProblem problem = maze(3);
-    const CarPlannerParameters parameters = parametersFor(problem);
-    CarPlanner whole, pieces;
+    const PathPlannerParameters parameters = parametersFor(problem);
+    PathPlanner whole, pieces;
     begin(whole, problem, parameters);
     ASSERT_EQ(whole.solve(nullptr, nullptr), Outcome::Solved);
     begin(pieces, problem, parameters);
@@ -236,11 +236,11 @@ TEST(CarPlanner, stoppedItGoesOn)
     EXPECT_EQ(faultOf(pieces.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
 }
 
-TEST(CarPlanner, askingForTheBoundAfterwardsDoesNotNeedTheStopFunctionAnyMore)
+TEST(PathPlanner, askingForTheBoundAfterwardsDoesNotNeedTheStopFunctionAnyMore)
 {
     CarProblem problem = maze(3);
-    CarPlannerParameters parameters = parametersFor(problem);
-    CarPlanner planner;
+    PathPlannerParameters parameters = parametersFor(problem);
+    PathPlanner planner;
     begin(planner, problem, parameters);
     {
         const auto alive = std::make_unique<bool>(true);
@@ -256,7 +256,7 @@ TEST(CarPlanner, askingForTheBoundAfterwardsDoesNotNeedTheStopFunctionAnyMore)
     EXPECT_GE(planner.suboptimalityBound(), 1.0);  // the address sanitizer would tell
 }
 
-TEST(CarPlanner, approximatePathsEndAsNearAsTheCarComes)
+TEST(PathPlanner, approximatePathsEndAsNearAsTheCarComes)
 {
     // The goal stands free, but behind a door that is closed or too narrow; or there is no goal at all.
     const std::vector<CarProblem> problems{{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}},
@@ -274,9 +274,9 @@ TEST(CarPlanner, approximatePathsEndAsNearAsTheCarComes)
                     const Pose target = problem.goals.front();
                     if (!goalKnown)
                         problem.goals.clear();
-                    CarPlannerParameters parameters = parametersFor(problem);
+                    PathPlannerParameters parameters = parametersFor(problem);
                     parameters.search.bidirectional = bidirectional;
-                    CarPlanner planner;
+                    PathPlanner planner;
                     begin(planner, problem, parameters);
                     if (goalKnown)
                     {

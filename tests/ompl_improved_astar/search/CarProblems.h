@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/CarSearch.h"
+#include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace parking_test
         std::vector<parking::Pose> starts, goals;
 
         /** \brief Begins the query; the problem must outlive it. */
-        void begin(parking::search::CarSearch &search, const parking::search::CarParameters &parameters)
+        void begin(parking::search::Search &search, const parking::search::SearchParameters &parameters)
         {
             search.begin(world, parameters);
             for (const parking::Pose &start : starts)
@@ -46,9 +46,9 @@ namespace parking_test
         parking::Pose target;
     };
 
-    inline parking::search::CarParameters carParameters()
+    inline parking::search::SearchParameters carParameters()
     {
-        parking::search::CarParameters parameters;
+        parking::search::SearchParameters parameters;
         parameters.turningRadius = TURNING_RADIUS;
         parameters.cost = {0.0, 1.0, 0.1, 0.0, 1.0, 1.0 / TURNING_RADIUS};
         return parameters;

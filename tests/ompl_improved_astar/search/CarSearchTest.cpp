@@ -1,6 +1,6 @@
 // The search over drivable motions: what it returns, and every switch by itself.
 
-#include "ompl_improved_astar/search/CarSearch.h"
+#include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
 
 #include <gtest/gtest.h>
@@ -27,9 +27,9 @@ namespace
         SearchStatistics statistics;
     };
 
-    Result solve(CarProblem problem, const CarParameters &parameters)
+    Result solve(CarProblem problem, const SearchParameters &parameters)
     {
-        CarSearch search;
+        Search search;
         problem.begin(search, parameters);
         const SearchOutcome outcome = search.run([&] { return search.statistics().expanded >= MOST_EXPANSIONS; });
         return {outcome, search.bestPath(), search.bestCost(), search.statistics()};
@@ -49,7 +49,7 @@ namespace
     }
 }  // namespace
 
-TEST(CarSearch, pathsAreDrivableFreeAndCostWhatIsSaid)
+TEST(Search, pathsAreDrivableFreeAndCostWhatIsSaid)
 {
     int searched = 0;
     for (std::uint64_t seed = 0; seed < 80; ++seed)
@@ -57,12 +57,12 @@ TEST(CarSearch, pathsAreDrivableFreeAndCostWhatIsSaid)
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
         TestRandom random(seed);
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.steeringAngles = 3 + 2 * random.index(3);
         parameters.bidirectional = random.chance(0.5);
         parameters.searchFromGoal = random.chance(0.5);
         parameters.cost = {random.between(0.0, 1.0), random.between(0.0, 2.0), random.between(0.0, 0.3), 0.0, 1.0, 1.0};
-        CarSearch search;
+        Search search;
         problem.begin(search, parameters);
         CostModel cost = parameters.cost;
         cost.fullLockCurvature = 1.0 / TURNING_RADIUS;
@@ -82,9 +82,9 @@ TEST(CarSearch, pathsAreDrivableFreeAndCostWhatIsSaid)
     EXPECT_GT(searched, 40);
 }
 
-TEST(CarSearch, isDeterministicAndAnObjectServesManyQueries)
+TEST(Search, isDeterministicAndAnObjectServesManyQueries)
 {
-    CarSearch reused;
+    Search reused;
     for (std::uint64_t seed = 0; seed < 25; ++seed)
     {
         CarProblem problem = randomProblem(seed);
@@ -96,18 +96,18 @@ TEST(CarSearch, isDeterministicAndAnObjectServesManyQueries)
     }
 }
 
-TEST(CarSearch, forwardOnlyNeverReverses)
+TEST(Search, forwardOnlyNeverReverses)
 {
     int found = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed, 4);
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.forwardOnly = true;
         parameters.bidirectional = seed % 2 == 0;
         parameters.searchFromGoal = seed % 4 < 2;
-        CarSearch search;
+        Search search;
         problem.begin(search, parameters);
         if (search.run([&] { return search.statistics().expanded > 3000; }) != SearchOutcome::Improved)
             continue;
@@ -117,31 +117,31 @@ TEST(CarSearch, forwardOnlyNeverReverses)
     EXPECT_GT(found, 15);
     // A goal just behind the car: it has to go round.
     CarProblem behind{DiscCarWorld({-20.0, -20.0, 20.0, 20.0}), {{0.0, 0.0, 0.0}}, {{-1.0, 0.0, 0.0}}};
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     EXPECT_NEAR(solve(behind, parameters).path.length(), 1.0, 1e-9);
     parameters.forwardOnly = true;
     EXPECT_GT(solve(behind, parameters).path.length(), 2.0 * PI * TURNING_RADIUS);
 }
 
-TEST(CarSearch, heapAndLinearListAreTheSameSearch)
+TEST(Search, heapAndLinearListAreTheSameSearch)
 {
     for (std::uint64_t seed = 0; seed < 25; ++seed)
     {
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         const Result heap = solve(randomProblem(seed), parameters);
         parameters.openList = OpenListKind::Linear;
         expectSame(heap, solve(randomProblem(seed), parameters));
     }
 }
 
-TEST(CarSearch, everyDirectionOfSearchReachesTheSame)
+TEST(Search, everyDirectionOfSearchReachesTheSame)
 {
     for (const NamedProblem &each : namedProblems())
         for (const bool bidirectional : {true, false})
             for (const bool fromGoal : {true, false})
             {
                 SCOPED_TRACE(each.name);
-                CarParameters parameters = carParameters();
+                SearchParameters parameters = carParameters();
                 parameters.bidirectional = bidirectional;
                 parameters.searchFromGoal = fromGoal;
                 const Result result = solve(each.problem, parameters);
@@ -155,10 +155,10 @@ TEST(CarSearch, everyDirectionOfSearchReachesTheSame)
             }
 }
 
-TEST(CarSearch, aClosedDoorIsRecognisedByTheRoomThereIs)
+TEST(Search, aClosedDoorIsRecognisedByTheRoomThereIs)
 {
     CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}};
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     parameters.inscribedRadius = problem.world.radius;
     const Result result = solve(problem, parameters);
     EXPECT_EQ(result.outcome, SearchOutcome::Exhausted);
@@ -168,15 +168,15 @@ TEST(CarSearch, aClosedDoorIsRecognisedByTheRoomThereIs)
     EXPECT_EQ(solve(problem, parameters).outcome, SearchOutcome::Improved);
 }
 
-TEST(CarSearch, withoutAnalyticExpansionNothingIsJoined)
+TEST(Search, withoutAnalyticExpansionNothingIsJoined)
 {
     for (const NamedProblem &each : namedProblems())
     {
         SCOPED_TRACE(each.name);
         CarProblem problem = each.problem;
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.analyticExpansion = false;
-        CarSearch search;
+        Search search;
         problem.begin(search, parameters);
         EXPECT_NE(search.run([&] { return search.statistics().expanded > 300; }), SearchOutcome::Improved);
         EXPECT_EQ(search.statistics().connections, 0u);
@@ -184,10 +184,10 @@ TEST(CarSearch, withoutAnalyticExpansionNothingIsJoined)
     }
 }
 
-TEST(CarSearch, adaptiveResolutionFindsTheWayOutOfATightSlot)
+TEST(Search, adaptiveResolutionFindsTheWayOutOfATightSlot)
 {
     CarProblem tight = tightParallelSlot();
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     EXPECT_EQ(solve(tight, parameters).outcome, SearchOutcome::Improved);
     parameters.adaptiveResolution = false;
     EXPECT_NE(solve(tight, parameters).outcome, SearchOutcome::Improved);
@@ -195,13 +195,13 @@ TEST(CarSearch, adaptiveResolutionFindsTheWayOutOfATightSlot)
     EXPECT_EQ(solve(wide, parameters).outcome, SearchOutcome::Improved);
 }
 
-TEST(CarSearch, obstacleHeuristicGuidesAndCanBeLeftOut)
+TEST(Search, obstacleHeuristicGuidesAndCanBeLeftOut)
 {
     std::uint64_t with = 0, without = 0;
     for (int wall = 0; wall < 3; ++wall)
     {
         CarProblem problem = maze(wall);
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.inscribedRadius = problem.world.radius;
         const Result guided = solve(problem, parameters);
         EXPECT_EQ(guided.outcome, SearchOutcome::Improved);
@@ -216,19 +216,19 @@ TEST(CarSearch, obstacleHeuristicGuidesAndCanBeLeftOut)
     EXPECT_LT(with, without);
 }
 
-TEST(CarSearch, eagerLoadingIsTheSameSearchButForTheLoading)
+TEST(Search, eagerLoadingIsTheSameSearchButForTheLoading)
 {
     for (std::uint64_t seed = 0; seed < 15; ++seed)
     {
         const CarProblem problem = randomProblem(seed);
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.low = {-12.0, -12.0};
         parameters.high = {12.0, 12.0};
         parameters.inscribedRadius = problem.world.radius;
         const Result lazy = solve(problem, parameters);
         parameters.eagerObstacles = true;
         CarProblem copy = problem;
-        CarSearch search;
+        Search search;
         copy.begin(search, parameters);
         const auto enough = [&]
         {
@@ -247,14 +247,14 @@ TEST(CarSearch, eagerLoadingIsTheSameSearchButForTheLoading)
     }
 }
 
-TEST(CarSearch, stopsAndGoesOnToTheSamePath)
+TEST(Search, stopsAndGoesOnToTheSamePath)
 {
     for (const NamedProblem &each : namedProblems())
     {
         SCOPED_TRACE(each.name);
         const Result whole = solve(each.problem, carParameters());
         CarProblem problem = each.problem;
-        CarSearch search;
+        Search search;
         problem.begin(search, carParameters());
         SearchOutcome outcome;
         int pieces = 0;
@@ -275,10 +275,10 @@ TEST(CarSearch, stopsAndGoesOnToTheSamePath)
     }
 }
 
-TEST(CarSearch, aStopIsHeededBeforeTheNextExpansion)
+TEST(Search, aStopIsHeededBeforeTheNextExpansion)
 {
     CarProblem problem = maze(2);
-    CarSearch search;
+    Search search;
     problem.begin(search, carParameters());
     EXPECT_EQ(search.run([] { return true; }), SearchOutcome::Stopped);
     EXPECT_EQ(search.statistics().expanded, 0u);
@@ -286,7 +286,7 @@ TEST(CarSearch, aStopIsHeededBeforeTheNextExpansion)
     EXPECT_EQ(search.statistics().expanded, 7u);
 }
 
-TEST(CarSearch, joinsTheCheapestPairOfRootsInTheOpen)
+TEST(Search, joinsTheCheapestPairOfRootsInTheOpen)
 {
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
@@ -308,7 +308,7 @@ TEST(CarSearch, joinsTheCheapestPairOfRootsInTheOpen)
     }
 }
 
-TEST(CarSearch, goalsAddedLaterAreReached)
+TEST(Search, goalsAddedLaterAreReached)
 {
     for (const bool bidirectional : {true, false})
         for (const double nearWeight : {3.0, 0.5})
@@ -317,11 +317,11 @@ TEST(CarSearch, goalsAddedLaterAreReached)
             CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
             // The new goal stands behind a wall in the start's own room.
             problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
-            CarParameters parameters = carParameters();
+            SearchParameters parameters = carParameters();
             parameters.bidirectional = bidirectional;
             parameters.searchFromGoal = false;
             parameters.weights = {3.0, nearWeight, 30.0, 1e-3};
-            CarSearch search;
+            Search search;
             problem.begin(search, parameters);
             EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 30; }), SearchOutcome::Stopped);
             const Pose goal{-3.5, -4.0, 0.5 * PI};
@@ -332,30 +332,30 @@ TEST(CarSearch, goalsAddedLaterAreReached)
         }
 }
 
-TEST(CarSearch, changedHeuristicsDoNotLoseOpenNodes)
+TEST(Search, changedHeuristicsDoNotLoseOpenNodes)
 {
     // With a weight that falls near the goal, a goal added close by lowers what the open nodes are worth.
     CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
     problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     parameters.bidirectional = false;
     parameters.searchFromGoal = false;
     parameters.adaptiveResolution = false;
     parameters.weights = {3.0, 0.1, 9.0, 0.0};
-    CarSearch search;
+    Search search;
     problem.begin(search, parameters);
     EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 1; }), SearchOutcome::Stopped);
     search.addGoal({-3.5, -4.0, 0.5 * PI});
     EXPECT_EQ(search.run(nullptr), SearchOutcome::Improved);
 }
 
-TEST(CarSearch, startsAddedLaterAreUsed)
+TEST(Search, startsAddedLaterAreUsed)
 {
     CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{9.0, -2.0, 0.5 * PI}}};
     problem.world.boxes.push_back({5.6, -6.0, 6.0, 2.2});
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     parameters.inscribedRadius = problem.world.radius;
-    CarSearch search;
+    Search search;
     problem.begin(search, parameters);
     EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
     const Pose start{3.5, -4.0, 0.5 * PI};
@@ -364,10 +364,10 @@ TEST(CarSearch, startsAddedLaterAreUsed)
     EXPECT_EQ(faultOf(search.bestPath(), problem.world, {start}, problem.goals, TURNING_RADIUS), "");
 }
 
-TEST(CarSearch, aGoalAfterATargetIsReached)
+TEST(Search, aGoalAfterATargetIsReached)
 {
     CarProblem problem{twoRooms(3.0), {{-9.0, 0.0, 0.0}}, {}};
-    CarSearch search;
+    Search search;
     problem.begin(search, carParameters());
     search.setTarget({-11.9, -5.9, 0.0});
     EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 200; }), SearchOutcome::Stopped);
@@ -377,29 +377,29 @@ TEST(CarSearch, aGoalAfterATargetIsReached)
     EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {goal}, TURNING_RADIUS), "");
 }
 
-TEST(CarSearch, farGoalsOfASmallCarAreNotTakenForUnreachable)
+TEST(Search, farGoalsOfASmallCarAreNotTakenForUnreachable)
 {
     // 150 m are 750 turning radii of a model car.
     CarProblem problem{DiscCarWorld({-20.0, -20.0, 200.0, 20.0}), {{0.0, 0.0, 0.0}}, {{150.0, 0.0, 0.0}}};
     problem.world.offsets = {0.0, 0.1};
     problem.world.radius = 0.1;
     problem.world.boxes.push_back({70.0, -1.0, 71.0, 1.0});
-    CarParameters parameters = carParameters();
+    SearchParameters parameters = carParameters();
     parameters.turningRadius = 0.2;
     parameters.inscribedRadius = 0.1;
-    CarSearch search;
+    Search search;
     problem.begin(search, parameters);
     ASSERT_EQ(search.run([&] { return search.statistics().expanded >= 20000; }), SearchOutcome::Improved);
     EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, 0.2), "");
 }
 
-TEST(CarSearch, comesAsNearToATargetAsTheCarCan)
+TEST(Search, comesAsNearToATargetAsTheCarCan)
 {
     for (const auto &[name, problem, target] : targetProblems())
     {
         SCOPED_TRACE(name);
         DiscCarWorld world = problem.world;
-        CarSearch search;
+        Search search;
         search.begin(world, carParameters());
         search.addStart(problem.starts.front());
         search.setTarget(target);
@@ -412,24 +412,24 @@ TEST(CarSearch, comesAsNearToATargetAsTheCarCan)
     }
     Path path;
     DiscCarWorld world = twoRooms(3.0);
-    CarSearch search;
+    Search search;
     search.begin(world, carParameters());
     EXPECT_FALSE(search.nearestPath({}, path)) << "without a start";
 }
 
-TEST(CarSearch, lowerBoundIsNeverAboveWhatIsFoundLater)
+TEST(Search, lowerBoundIsNeverAboveWhatIsFoundLater)
 {
     int compared = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
-        CarParameters parameters = carParameters();
+        SearchParameters parameters = carParameters();
         parameters.weights = {1.0, 1.0, 0.0, 0.0};
         parameters.bidirectional = seed % 2 == 0;
         parameters.searchFromGoal = seed % 4 < 2;
         parameters.inscribedRadius = problem.world.radius;
-        CarSearch search;
+        Search search;
         problem.begin(search, parameters);
         double largest = 0.0;
         for (std::uint64_t end = 5; end < 4000; end += end)
@@ -453,13 +453,13 @@ TEST(CarSearch, lowerBoundIsNeverAboveWhatIsFoundLater)
     EXPECT_GT(compared, 20);
 }
 
-TEST(CarSearch, nodesFormTreesOfFreeMotions)
+TEST(Search, nodesFormTreesOfFreeMotions)
 {
     for (const NamedProblem &each : namedProblems())
     {
         SCOPED_TRACE(each.name);
         CarProblem problem = each.problem;
-        CarSearch search;
+        Search search;
         problem.begin(search, carParameters());
         search.run([&] { return search.statistics().expanded > 300; });
         std::vector<std::uint32_t> parents[2];
@@ -477,7 +477,7 @@ TEST(CarSearch, nodesFormTreesOfFreeMotions)
             for (std::size_t i = 0; i < parents[side].size(); ++i)
             {
                 std::uint32_t at = static_cast<std::uint32_t>(i);
-                for (std::size_t steps = 0; parents[side][at] != CarSearch::NO_NODE; ++steps)
+                for (std::size_t steps = 0; parents[side][at] != Search::NO_NODE; ++steps)
                 {
                     ASSERT_LT(steps, parents[side].size()) << "a circle";
                     at = parents[side][at];

@@ -2,9 +2,9 @@
 //
 // Effort is counted in expansions, not in time, so that the outcome does not depend on the machine.
 
-#include "ompl_improved_astar/search/CarPlanner.h"
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
-#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/support/ProblemFiles.h"
 
@@ -38,14 +38,14 @@ namespace
         FootprintEnvironment environment(checker, scenario.bounds, 1e-3);
         const PlannerParameters usual;
         const Vehicle &vehicle = scenario.vehicle;
-        CarPlannerParameters parameters;
+        PathPlannerParameters parameters;
         parameters.search.turningRadius = vehicle.minTurningRadius();
         parameters.search.inscribedRadius = vehicle.inscribedRadius();
         parameters.search.cost.gearChangePenalty = usual.gearChangePenalty;
         parameters.search.cost.steeringChangePenalty = usual.steeringChangePenalty;
         parameters.anytime = true;
 
-        CarPlanner planner;
+        PathPlanner planner;
         planner.begin(environment, parameters);
         planner.addStart(scenario.start);
         for (const Pose &goal : scenario.goals)

@@ -2,8 +2,8 @@
 // other checker.
 
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
-#include "ompl_improved_astar/search/CurveCheck.h"
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 #include "tests/state_validity/RandomWorlds.h"
 

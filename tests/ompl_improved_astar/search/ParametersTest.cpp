@@ -1,6 +1,6 @@
 // The one table of parameters: what each row promises holds, for every row that is in it.
 
-#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 

@@ -1,6 +1,6 @@
 // The shortening of paths: never worse, ends kept, free and drivable.
 
-#include "ompl_improved_astar/search/PathShortener.h"
+#include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <gtest/gtest.h>

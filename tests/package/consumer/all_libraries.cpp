@@ -2,7 +2,7 @@
 #include <iostream>
 #include <string>
 
-#include <ompl_improved_astar/search/Parameters.h>
+#include <ompl_improved_astar/search/planning/Parameters.h>
 #include <parking_geometry/Error.h>
 #include <parking_geometry/curves/Path.h>
 #include <parking_geometry/io/ScenarioReader.h>

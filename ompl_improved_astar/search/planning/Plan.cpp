@@ -1,4 +1,4 @@
-#include "ompl_improved_astar/search/Plan.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -50,8 +50,10 @@ namespace parking::search
             case Exhaustion::SearchedOut:
                 return "nothing is left to try: every motion of the motion model, down to its finest resolution, has "
                        "been followed from one end";
-            case Exhaustion::NoProgress: return "the search has not come nearer to the goal for long";
-            case Exhaustion::None: break;
+            case Exhaustion::NoProgress:
+                return "the search has not come nearer to the goal for long";
+            case Exhaustion::None:
+                break;
         }
         return {};
     }
@@ -106,10 +108,10 @@ namespace parking::search
             {
                 return positionDistance(goal, end) + std::abs(wrapAngle(goal.yaw - end.yaw));
             };
-            result.goal = static_cast<std::size_t>(
-                std::min_element(request.goals.begin(), request.goals.end(),
-                                 [&off](const Pose &a, const Pose &b) { return off(a) < off(b); }) -
-                request.goals.begin());
+            result.goal = static_cast<std::size_t>(std::min_element(request.goals.begin(), request.goals.end(),
+                                                                    [&off](const Pose &a, const Pose &b)
+                                                                    { return off(a) < off(b); }) -
+                                                   request.goals.begin());
         }
         else if (request.parameters.approximate &&
                  planner.approximate(request.goals.front(), request.stop, result.path))

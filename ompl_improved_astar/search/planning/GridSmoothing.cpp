@@ -1,4 +1,4 @@
-#include "ompl_improved_astar/search/GridSmoothing.h"
+#include "ompl_improved_astar/search/planning/GridSmoothing.h"
 
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 

@@ -1,4 +1,4 @@
-#include "ompl_improved_astar/search/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 
 #include "state_validity/SweptBox.h"
 

@@ -1,4 +1,4 @@
-#include "ompl_improved_astar/search/CurveCheck.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
 
 #include "parking_geometry/curves/Path.h"
 

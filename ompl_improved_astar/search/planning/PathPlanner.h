@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
-#include "ompl_improved_astar/search/PathShortener.h"
+#include "ompl_improved_astar/search/planning/PathShortener.h"
 
 #include <cstdint>
 #include <functional>
@@ -52,10 +52,11 @@ namespace parking::search
         /** \brief Plans; may be called again to go on after Stopped or when roots were added. */
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
 
-        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear axles.
+        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
+           axles.
 
-            Spends what is left of the time on a search of its own, unless there is none left or everything has been seen
-            from the start: then what the trees have seen has to do. \return false when there is no start */
+            Spends what is left of the time on a search of its own, unless there is none left or everything has been
+           seen from the start: then what the trees have seen has to do. \return false when there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         bool hasSolution() const

@@ -1,4 +1,4 @@
-#include "ompl_improved_astar/search/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,8 @@ namespace parking::search
         return true;
     }
 
-    bool PathPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice)
+    bool PathPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest,
+                              CurveChoice choice)
     {
         PathShortener shortener(*environment_, *search_.model().curves(), parameters_.search.cost);
         Path shorter = path;
@@ -120,8 +121,8 @@ namespace parking::search
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
             if (best.length() > (1.0 + tuning.stillLong) * expected)
-                shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest), tuning.otherKnotOffset * radius, tuning.widestSpan * radius,
-                        CurveChoice::Cheapest);
+                shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
+                        tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
         }
         take(best, cost);
     }
@@ -137,8 +138,8 @@ namespace parking::search
         weights_.near = lower(weights_.near);
         search_.setWeights(weights_);
         const std::uint64_t spent = search_.statistics().expanded;
-        const double more =
-            tuning.afterthought * static_cast<double>(spent) + tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
+        const double more = tuning.afterthought * static_cast<double>(spent) +
+                            tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
         const std::uint64_t end = spent + tuning.leastAfterthought + static_cast<std::uint64_t>(more);
         const StopFunction enough = [this, end]
         {

@@ -1,6 +1,6 @@
-#include "ompl_improved_astar/search/PathShortener.h"
+#include "ompl_improved_astar/search/planning/PathShortener.h"
 
-#include "ompl_improved_astar/search/CurveCheck.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,8 @@
-#include "ompl_improved_astar/search/Parameters.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
 
+#include "ompl_improved_astar/search/Heuristic.h"
+#include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/openlists/OpenList.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
@@ -36,14 +39,21 @@ namespace parking
             return {};
         }
 
-        Names motionModels()
+        Names motionModelNames()
         {
-            return {"car", "grid8", "grid16"};
+            return search::motionModels().names();
         }
 
-        Names openLists()
+        Names heuristicNames()
         {
-            return {"binary_heap", "linear"};
+            Names names = search::heuristics().names();
+            names.insert(names.begin(), "default");
+            return names;
+        }
+
+        Names openListNames()
+        {
+            return search::openLists().names();
         }
 
         Names sides()
@@ -181,7 +191,7 @@ namespace parking
             {"parameter_set", &P::parameterSet, oneOf(parameterSetNames), "",
              "sets the others but for `turning_radius`, `xy_resolution` and `heading_bins`; the `experiment_` sets are "
              "the paper's ablation, `hybrid_astar` is the car model without this project's additions"},
-            {"motion_model", &P::motionModel, oneOf(motionModels), "",
+            {"motion_model", &P::motionModel, oneOf(motionModelNames), "",
              "`car`: drivable motions; the `grid` models: the paper's moves between grid cells, for a plain SE2 space"},
             {"turning_radius", &P::turningRadius, between(0.01, 1000.0, 0.1), "m",
              "on a plain SE2 space only, others bring their own"},
@@ -193,13 +203,16 @@ namespace parking
             {"steering_angles", &P::steeringAngles, between(3.0, 21.0, 2.0), "", "of the car model, straight included"},
             {"bidirectional", &P::bidirectional, yesOrNo(), "", "search from the start and from the goal"},
             {"search_from", &P::searchFrom, oneOf(sides), "", "the side of a search that is not bidirectional"},
-            {"open_list", &P::openList, oneOf(openLists), "",
+            {"open_list", &P::openList, oneOf(openListNames), "",
              "how the best node is found; `linear` is that of the plain A* of the paper's comparison"},
             {"heuristic_weight_far", &P::heuristicWeightFar, between(0.0, 10.0, 0.1), "",
              "w of f = g + (w + p) h, farther from the target than `near_goal_distance`"},
             {"heuristic_weight_near", &P::heuristicWeightNear, between(0.0, 10.0, 0.1), "", "w nearer to the target"},
             {"near_goal_distance", &P::nearGoalDistance, between(0.0, 1000.0, 1.0), "m", "where w changes"},
             {"tie_break", &P::tieBreak, between(0.0, 1.0, 0.001), "", "p of f = g + (w + p) h"},
+            {"heuristic", &P::heuristic, oneOf(heuristicNames), "",
+             "what is thought to lie ahead: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to "
+             "eight neighbours); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
              "guide the search round obstacles (car model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",

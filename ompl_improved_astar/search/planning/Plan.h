@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/Parameters.h"
-#include "ompl_improved_astar/search/PathPlanner.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
@@ -19,9 +19,9 @@ namespace parking::search
     /** \brief What the search has to know of the car and the space beyond the parameters. */
     struct CarInSpace
     {
-        double turningRadius{3.0};    ///< metres, of the rear axle
-        bool forwardOnly{false};      ///< never drive in reverse (Dubins)
-        double inscribedRadius{0.0};  ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
+        double turningRadius{3.0};      ///< metres, of the rear axle
+        bool forwardOnly{false};        ///< never drive in reverse (Dubins)
+        double inscribedRadius{0.0};    ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
         Eigen::Vector2d low{0.0, 0.0};  ///< corners of the box of the rear axle's positions
         Eigen::Vector2d high{0.0, 0.0};
     };
@@ -58,8 +58,8 @@ namespace parking::search
         /** Why there is no solution: for Infeasible always, for Approximate where the goal was found out to be out of
             reach, and not only out of time. */
         std::string reason;
-        Path path;             ///< of Solved and Approximate
-        std::size_t goal{0};   ///< index into PlanRequest::goals: the one that is reached, or was aimed at
+        Path path;            ///< of Solved and Approximate
+        std::size_t goal{0};  ///< index into PlanRequest::goals: the one that is reached, or was aimed at
         double cost{std::numeric_limits<double>::infinity()};  ///< metres and penalties, of Solved
         /** cost over a bound that no path stays below, at least 1 (see Search::lowerBound()); infinite if unknown. */
         double suboptimalityBound{std::numeric_limits<double>::infinity()};
@@ -69,8 +69,8 @@ namespace parking::search
 
     /** \brief Plans in one call and without state: equal requests give equal results, from any thread.
 
-        \e environment serves one call at a time. Paths of the grid models are not smoothed: see smoothGridPath(). Throws
-        parking::Error for parameters out of range and for a request without start or goal. */
+        \e environment serves one call at a time. Paths of the grid models are not smoothed: see smoothGridPath().
+       Throws parking::Error for parameters out of range and for a request without start or goal. */
     PlanResult plan(MotionEnvironment &environment, const PlanRequest &request);
 
     /** \brief Why a search has ended without a solution, in words. */

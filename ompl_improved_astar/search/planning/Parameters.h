@@ -16,6 +16,7 @@ namespace parking
     {
         std::string parameterSet{"default"};  ///< a name only: parameterSet() makes the values that belong to it
         std::string motionModel{"car"};
+        std::string heuristic{"default"};
         double turningRadius{3.0};
         double xyResolution{0.0};
         unsigned int headingBins{72};
