@@ -40,22 +40,23 @@ namespace parking::search
             when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
-        /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is up.
+        /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is
+         * up.
          */
         virtual bool isPassable(const Pose &pose)
         {
             return isFree(pose);
         }
 
-        /** \brief Did freeLength(), isPassable() or acceptPath() say less than they would have, because the time was up?
-            The search then comes back to what it was at. */
+        /** \brief Did freeLength(), isPassable() or acceptPath() say less than they would have, because the time was
+           up? The search then comes back to what it was at. */
         virtual bool wasInterrupted() const
         {
             return false;
         }
 
-        /** \brief Is the motion free along which position and heading change evenly: a straight line, a turn on the spot,
-            or both at once? \e from is known to be free, \e to may not be. */
+        /** \brief Is the motion free along which position and heading change evenly: a straight line, a turn on the
+           spot, or both at once? \e from is known to be free, \e to may not be. */
         virtual bool isMotionFree(const Pose &from, const Pose &to) = 0;
 
         /** \brief Does isFree() depend on the heading? Not so for the paper's circle round the car. */

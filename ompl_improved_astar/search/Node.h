@@ -43,9 +43,9 @@ namespace parking::search
     struct Node
     {
         Pose pose;
-        double g{0.0};  ///< cost of the way between root and node
-        Motion motion;  ///< from the parent
-        float h{0.0f};  ///< estimated cost of the way on
+        double g{0.0};         ///< cost of the way between root and node
+        Motion motion;         ///< from the parent
+        float h{0.0f};         ///< estimated cost of the way on
         float mobility{0.0f};  ///< metres of the longest free motion from here, known after the first expansion
         NodeIndex parent{NO_NODE};
         std::uint8_t level{0};  ///< the coarsest level on which its cell was free

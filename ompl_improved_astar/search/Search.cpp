@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace parking::search
 {
@@ -10,7 +11,7 @@ namespace parking::search
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr double ROUNDING = 1e-9;  // metres of cost: nodes and entries that differ by less are equal
-    }  // namespace
+    }                                      // namespace
 
     Search::Search() : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)}, leastDropped_{INFINITE, INFINITE}
     {
@@ -51,6 +52,7 @@ namespace parking::search
         bestCost_ = costBound_ = INFINITE;
         bestPath_ = {};
         improved_ = false;
+        underWay_.node = NO_NODE;
         loadingTime_ = 0.0;
         statistics_ = {};
     }
@@ -61,10 +63,10 @@ namespace parking::search
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
         prepared_ = false;
+        if (!traits_.joinsAfar)
+            return;
         for (const NodeIndex other : frontier(opposite(side)).roots())
-            if (traits_.joinsAfar ||
-                model_->cell(pose, 0) == model_->cell(frontier(opposite(side)).node(other).pose, 0))
-                side == Side::Start ? join(index, other, Side::Goal) : join(other, index, Side::Goal);
+            side == Side::Start ? join(index, other, Side::Goal) : join(other, index, Side::Goal);
     }
 
     void Search::setTarget(const Pose &target)
@@ -112,8 +114,8 @@ namespace parking::search
             return false;
         if (traits_.complete && (startIsEmpty || goalIsEmpty))
         {
-            // The side that has run dry has seen everything it can reach: the other cannot be there. The start's side is
-            // searched to its end all the same, for the place nearest to the goal.
+            // The side that has run dry has seen everything it can reach: the other cannot be there. The start's side
+            // is searched to its end all the same, for the place nearest to the goal.
             side = Side::Start;
             return !startIsEmpty;
         }
@@ -135,9 +137,9 @@ namespace parking::search
                 improved_ = false;
                 return SearchOutcome::Improved;
             }
-            if (stop_ && stop_())
-                return SearchOutcome::Stopped;
             if (parameters_.eagerObstacles && !loaded_ && !load())
+                return SearchOutcome::Stopped;
+            if (!finishExpansion() || (stop_ && stop_()))
                 return SearchOutcome::Stopped;
             if (!prepared_)
                 prepare();
@@ -162,8 +164,8 @@ namespace parking::search
         if (own.bestClosed != NO_NODE)
         {
             const Node &best = own.node(own.bestClosed);
-            const bool isBetter = traits_.aims && entry.f != own.bestClosedCost ? entry.f < own.bestClosedCost
-                                                                               : node.h < best.h;
+            const bool isBetter =
+                traits_.aims && entry.f != own.bestClosedCost ? entry.f < own.bestClosedCost : node.h < best.h;
             if (!isBetter)
                 return;
         }
@@ -195,36 +197,40 @@ namespace parking::search
             if (improved_)
                 return;
         }
-        bool whole = expand(own, entry.node, level, first);
-        if (first && traits_.joinsAfar)
-            joinAround(own, entry.node);
-        whole = whole && !environment_->wasInterrupted();
-        if (first && !whole)
-        {
-            own.node(entry.node).expanded = false;
-            push(own, level, entry.node);
-            return;
-        }
-        if (parameters_.adaptiveResolution && level + 1 < traits_.levels)
-            push(own, level + 1, entry.node);
-        if (own.isExhausted())
-            own.expansionsWhenExhausted = statistics_.expanded;
-    }
-
-    bool Search::expand(Frontier &own, NodeIndex index, std::size_t level, bool first)
-    {
         ++statistics_.expanded;
         expansion_.successors.clear();
         expansion_.mobility = 0.0;
-        model_->expand(own.side(), index, own.node(index), level, first, expansion_);
+        model_->expand(own.side(), entry.node, own.node(entry.node), level, first, expansion_);
         if (first)
-            own.node(index).mobility = static_cast<float>(expansion_.mobility);
-        for (const Successor &successor : expansion_.successors)
+            own.node(entry.node).mobility = static_cast<float>(expansion_.mobility);
+        underWay_ = {own.side(), entry.node, level, first, 0};
+        finishExpansion();
+    }
+
+    bool Search::finishExpansion()
+    {
+        if (underWay_.node == NO_NODE)
+            return true;
+        Frontier &own = frontier(underWay_.side);
+        for (; underWay_.next < expansion_.successors.size(); ++underWay_.next)
         {
-            addSuccessor(own, index, successor);
-            if (traits_.asksMotionByMotion && stop_ && stop_())
-                return &successor == &expansion_.successors.back();
+            if (underWay_.next > 0 && traits_.asksMotionByMotion && stop_ && stop_())
+                return false;
+            addSuccessor(own, underWay_.node, expansion_.successors[underWay_.next]);
         }
+        const NodeIndex index = std::exchange(underWay_.node, NO_NODE);
+        if (underWay_.first && traits_.joinsAfar)
+            joinAround(own, index);
+        if (underWay_.first && environment_->wasInterrupted())
+        {
+            own.node(index).expanded = false;
+            push(own, underWay_.level, index);
+            return true;
+        }
+        if (parameters_.adaptiveResolution && underWay_.level + 1 < traits_.levels)
+            push(own, underWay_.level + 1, index);
+        if (own.isExhausted())
+            own.expansionsWhenExhausted = statistics_.expanded;
         return true;
     }
 

@@ -42,12 +42,12 @@ namespace parking::search
         most of them, so that open areas are crossed in a few long steps while a tight slot, where long steps end at
         once, is searched finely (after W. Du, F. Islam and M. Likhachev, "Multi-resolution A*", 2020).
 
-        The more confined frontier gets most of the turns, and is guided round the obstacles. Frontiers are joined by the
-        model: from each expanded node to the other side's roots and to its best closed node (paper, section
+        The more confined frontier gets most of the turns, and is guided round the obstacles. Frontiers are joined by
+       the model: from each expanded node to the other side's roots and to its best closed node (paper, section
         "Bidirectional Search"), or where they meet in a cell.
 
-        What is interchangeable is the motion model, the heuristic and the open list, each chosen by name. All costs come
-        from one CostModel. Equal inputs give equal outputs. Memory is kept between queries.
+        What is interchangeable is the motion model, the heuristic and the open list, each chosen by name. All costs
+       come from one CostModel. Equal inputs give equal outputs. Memory is kept between queries.
 
         When both heuristic weights are at most 1, estimates are lower bounds, nothing is pruned by more than them, and
         the search keeps account of what it drops: see lowerBound(). */
@@ -72,7 +72,8 @@ namespace parking::search
             addRoot(Side::Goal, pose);
         }
 
-        /** \brief Without any goal: searches for the free pose nearest to \e target, by distance between the rear axles.
+        /** \brief Without any goal: searches for the free pose nearest to \e target, by distance between the rear
+           axles.
 
             run() then ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
         void setTarget(const Pose &target);
@@ -127,10 +128,10 @@ namespace parking::search
 
         /** \brief A cost that no solution of the discretised problem stays below.
 
-            Always at least what the heuristics promise for the roots, which holds for any path that can be driven. When the
-            query was begun with both weights at most 1 it is the bound of the search, too: the least g + h of all nodes that
-            are open or were dropped (from a cell that another holds). It holds for every path made of the motions from
-            one end and one way that joins them with the other end. */
+            Always at least what the heuristics promise for the roots, which holds for any path that can be driven. When
+           the query was begun with both weights at most 1 it is the bound of the search, too: the least g + h of all
+           nodes that are open or were dropped (from a cell that another holds). It holds for every path made of the
+           motions from one end and one way that joins them with the other end. */
         double lowerBound();
 
         /** \brief The path from a start to the node whose rear axle is nearest to that of \e target.
@@ -167,6 +168,16 @@ namespace parking::search
             std::vector<Pose> roots, targets;
         };
 
+        /** An expansion that goes on with this successor; none without a node. */
+        struct UnderWay
+        {
+            Side side{Side::Start};
+            NodeIndex node{NO_NODE};
+            std::size_t level{0};
+            bool first{true};
+            std::size_t next{0};
+        };
+
         Frontier &frontier(Side side)
         {
             return frontiers_[static_cast<std::size_t>(side)];
@@ -186,7 +197,7 @@ namespace parking::search
         bool isHopeless() const;
         bool chooseSide(Side &side);
         void step(Frontier &own);
-        bool expand(Frontier &own, NodeIndex index, std::size_t level, bool first);
+        bool finishExpansion();
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, const OpenList::Entry &entry);
 
@@ -236,6 +247,7 @@ namespace parking::search
         StopFunction stop_;
         double loadingTime_{0.0};
         mutable SearchStatistics statistics_;
-        Expansion expansion_;
+        Expansion expansion_;  // of the node under way
+        UnderWay underWay_;
     };
 }  // namespace parking::search

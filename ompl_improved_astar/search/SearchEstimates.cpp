@@ -18,7 +18,8 @@ namespace parking::search
         for (Frontier &each : frontiers_)
             measureMobility(each);
         // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
-        const double startMobility = frontier(Side::Start).rootMobility, goalMobility = frontier(Side::Goal).rootMobility;
+        const double startMobility = frontier(Side::Start).rootMobility,
+                     goalMobility = frontier(Side::Goal).rootMobility;
         confined_ = traits_.joinsAfar && goalMobility <= startMobility + 0.5 * traits_.reach ? Side::Goal : Side::Start;
         if (!parameters_.bidirectional)
             confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;

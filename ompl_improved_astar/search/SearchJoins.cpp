@@ -29,15 +29,14 @@ namespace parking::search
             return;
         for (const NodeIndex root : other.roots())
             joinWith(root);
-        if (parameters_.bidirectional && other.bestClosed != NO_NODE &&
-            other.node(other.bestClosed).parent != NO_NODE)
+        if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.node(other.bestClosed).parent != NO_NODE)
             joinWith(other.bestClosed);
     }
 
     bool Search::join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom)
     {
         const Node &a = frontier(Side::Start).node(fromStart), &b = frontier(Side::Goal).node(fromGoal);
-        if (a.g + b.g >= costBound_)
+        if (a.g + b.g >= costBound_ || (traits_.joinsAfar && !parameters_.analyticExpansion))
             return false;
         ++statistics_.connections;
         const MotionModel::Offer offer = [&](const PathPiece *pieces, std::size_t count, double cost)

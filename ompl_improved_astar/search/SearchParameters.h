@@ -31,17 +31,17 @@ namespace parking::search
     /** \brief What a search goes by. The names are those of the parts' registries. */
     struct SearchParameters
     {
-        std::string motionModel{"car"};        ///< see motionModels()
-        std::string heuristic{"default"};      ///< see heuristics(); `default`: the one that suits the motion model
-        std::string openList{"binary_heap"};   ///< see openLists()
-        double turningRadius{1.0};             ///< metres, of the rear axle
-        bool forwardOnly{false};               ///< never drive in reverse (Dubins)
-        unsigned int steeringAngles{3};        ///< odd: straight and as many to the left as to the right
-        double xyResolution{0.0};              ///< metres, side of a cell; 0: the motion model chooses
-        unsigned int headingBins{72};          ///< cells of heading for steps of one metre
-        double inscribedRadius{0.0};           ///< metres: no obstacle can be nearer to the rear axle than this
-        Eigen::Vector2d low{0.0, 0.0};         ///< corners of the box that is searched by the grids, and looked at
-        Eigen::Vector2d high{0.0, 0.0};        ///< beforehand with eagerObstacles
+        std::string motionModel{"car"};       ///< see motionModels()
+        std::string heuristic{"default"};     ///< see heuristics(); `default`: the one that suits the motion model
+        std::string openList{"binary_heap"};  ///< see openLists()
+        double turningRadius{1.0};            ///< metres, of the rear axle
+        bool forwardOnly{false};              ///< never drive in reverse (Dubins)
+        unsigned int steeringAngles{3};       ///< odd: straight and as many to the left as to the right
+        double xyResolution{0.0};             ///< metres, side of a cell; 0: the motion model chooses
+        unsigned int headingBins{72};         ///< cells of heading for steps of one metre
+        double inscribedRadius{0.0};          ///< metres: no obstacle can be nearer to the rear axle than this
+        Eigen::Vector2d low{0.0, 0.0};        ///< corners of the box that is searched by the grids, and looked at
+        Eigen::Vector2d high{0.0, 0.0};       ///< beforehand with eagerObstacles
         HeuristicWeights weights;
         bool bidirectional{true};       ///< search from the goal and the start; otherwise from one side only
         bool searchFromGoal{true};      ///< the side, when not bidirectional

@@ -7,9 +7,9 @@ namespace parking::search
 {
     /** \brief The constants that the search was tuned with, none of which changes what is found free.
 
-        Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another origin
-        is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for the
-        time to the first solution and its length. */
+        Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another
+       origin is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for
+       the time to the first solution and its length. */
     struct SearchTuning
     {
         /** \name Motions of the car
@@ -39,12 +39,12 @@ namespace parking::search
 
         /** \name Thinking again after the first solution
             @{ */
-        double afterthought{0.3};             ///< share of the expansions so far that is spent on it,
-        std::uint64_t leastAfterthought{8};   ///< and at least so many,
-        double afterthoughtPerExcess{35.0};   ///< and so many more for a path twice as long as it looked,
-        double mostExcess{1.0};               ///< in proportion up to that excess
-        double weightsOfAfterthought{0.7};    ///< factor on the weights: what is cheap counts more than what is near
-        double hardlyLonger{1.03};            ///< than the bare curve: nothing to look for
+        double afterthought{0.3};            ///< share of the expansions so far that is spent on it,
+        std::uint64_t leastAfterthought{8};  ///< and at least so many,
+        double afterthoughtPerExcess{35.0};  ///< and so many more for a path twice as long as it looked,
+        double mostExcess{1.0};              ///< in proportion up to that excess
+        double weightsOfAfterthought{0.7};   ///< factor on the weights: what is cheap counts more than what is near
+        double hardlyLonger{1.03};           ///< than the bare curve: nothing to look for
         /** @} */
 
         /** \name Shortening

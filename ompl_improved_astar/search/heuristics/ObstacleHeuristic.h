@@ -22,7 +22,7 @@ namespace parking::search
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
        an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
        of the disc by a factor of sqrt(2), where it slips past the corners of cells; see lowerBound(). */
-    class ObstacleHeuristic final : public Heuristic
+    class ObstacleHeuristic : public Heuristic
     {
     public:
         void begin(const HeuristicQuery &query) override;

@@ -131,8 +131,6 @@ namespace parking::search
 
     bool CarModel::join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound, const Offer &offer)
     {
-        if (!parameters_->analyticExpansion)
-            return false;
         const double before = fromStart.g + fromGoal.g;
         if (before >= bound)
             return false;

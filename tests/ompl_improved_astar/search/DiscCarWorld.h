@@ -91,6 +91,11 @@ namespace parking_test
             return gap(advance(from, curvature, length)) >= 1e-4 ? whole : whole - 1e-6;
         }
 
+        bool isMotionFree(const parking::Pose & /*from*/, const parking::Pose &to) override
+        {
+            return isFree(to);  // cars do not ask
+        }
+
         double roomAt(double x, double y) override
         {
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();

@@ -2,9 +2,9 @@
 //
 // Effort is counted in expansions, not in time, so that the outcome does not depend on the machine.
 
-#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/support/ProblemFiles.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/GridSearch.h"
+#include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace parking_test
 {
     /** \brief Square cells of one metre, free or blocked, with a robot that is a point, or two points one behind the
         other so that its heading matters. The outside is blocked. */
-    class GridWorld : public parking::search::GridEnvironment
+    class GridWorld : public parking::search::MotionEnvironment
     {
     public:
         GridWorld(int columnCount, int rowCount)
@@ -101,12 +101,29 @@ namespace parking_test
             }
         }
 
-        parking::search::GridParameters parameters() const
+        /** rief Of the paper's search on this grid; from the start where it is from one side. */
+        parking::search::SearchParameters parameters() const
         {
-            parking::search::GridParameters result;
-            result.resolution = 1.0;
+            parking::search::SearchParameters result;
+            result.motionModel = "grid8";
+            result.searchFromGoal = false;
+            result.xyResolution = 1.0;
             result.high = {columns, rows};
             return result;
+        }
+
+        // What only cars ask.
+        double clearance(const parking::Pose & /*pose*/) override
+        {
+            return 0.0;
+        }
+        double freeLength(const parking::Pose & /*from*/, double /*curvature*/, double /*length*/) override
+        {
+            return 0.0;
+        }
+        double roomAt(double /*x*/, double /*y*/) override
+        {
+            return std::numeric_limits<double>::infinity();
         }
     };
 
@@ -117,6 +134,24 @@ namespace parking_test
         for (char &cell : world.blocked)
             cell = random.chance(density);
         return world;
+    }
+
+    /** \brief The poses where the pieces of a path end; those on centres of cells exactly, so that rounding does not push
+        a diagonal step against the corner that it touches. */
+    inline std::vector<parking::Pose> posesOf(const parking::Path &path)
+    {
+        const auto snapped = [](double value)
+        {
+            const double centre = std::floor(value) + 0.5;
+            return std::abs(value - centre) < 1e-9 ? centre : value;
+        };
+        std::vector<parking::Pose> poses{path.start};
+        for (const parking::PathPiece &piece : path.pieces)
+        {
+            const parking::Pose pose = advance(poses.back(), piece);
+            poses.push_back({snapped(pose.x), snapped(pose.y), parking::wrapAngle(pose.yaw)});
+        }
+        return poses;
     }
 
     inline double lengthOf(const std::vector<parking::Pose> &path)
@@ -133,7 +168,7 @@ namespace parking_test
     {
         const auto same = [](const parking::Pose &a, const parking::Pose &b)
         {
-            return a.x == b.x && a.y == b.y && std::abs(parking::wrapAngle(a.yaw - b.yaw)) < 1e-9;
+            return parking::positionDistance(a, b) < 1e-9 && std::abs(parking::wrapAngle(a.yaw - b.yaw)) < 1e-9;
         };
         if (path.size() < 2)
             return "has no two poses";
@@ -149,10 +184,8 @@ namespace parking_test
             if (!world.isBetweenFree(path[i - 1], path[i]))
                 return "has a motion through an obstacle";
             const double dx = path[i].x - path[i - 1].x, dy = path[i].y - path[i - 1].y;
-            // Within one cell the car may move and turn at once.
-            if (path.size() > 2 && (dx != 0.0 || dy != 0.0) &&
-                (std::abs(parking::wrapAngle(path[i].yaw - std::atan2(dy, dx))) > 1e-9 ||
-                 std::abs(parking::wrapAngle(path[i - 1].yaw - path[i].yaw)) > 1e-9))
+            if (std::hypot(dx, dy) > 1e-9 && (std::abs(parking::wrapAngle(path[i].yaw - std::atan2(dy, dx))) > 1e-9 ||
+                                              std::abs(parking::wrapAngle(path[i - 1].yaw - path[i].yaw)) > 1e-9))
                 return "does not head where it goes";
         }
         return {};

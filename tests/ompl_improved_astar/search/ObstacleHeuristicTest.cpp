@@ -182,8 +182,10 @@ namespace
     public:
         HeuristicIn(DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward)
         {
-            reset(world, resolution, radius, toward);
+            reset(world, resolution, radius, toward, stop);
         }
+
+        StopFunction stop;
     };
 }  // namespace
 
@@ -206,7 +208,7 @@ TEST(ObstacleHeuristic, isDijkstrasDistance)
         for (int i = 0; i < 200; ++i)
         {
             const Eigen::Vector2d p = anywhere(random);
-            expectSame(heuristic.distance(p.x(), p.y(), nullptr), oracle.distance(p.x(), p.y()));
+            expectSame(heuristic.distance(p.x(), p.y()), oracle.distance(p.x(), p.y()));
         }
     }
 }
@@ -227,12 +229,12 @@ TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
         lazy.addTarget(target.x(), target.y());
         reverse.addTarget(target.x(), target.y());
         for (const Eigen::Vector2d &p : points)
-            forwards.push_back(lazy.distance(p.x(), p.y(), nullptr));
+            forwards.push_back(lazy.distance(p.x(), p.y()));
         for (std::size_t i = points.size(); i-- > 0;)
-            backwards[i] = reverse.distance(points[i].x(), points[i].y(), nullptr);
+            backwards[i] = reverse.distance(points[i].x(), points[i].y());
         EXPECT_EQ(forwards, backwards);
         for (std::size_t i = 0; i < points.size(); ++i)
-            EXPECT_EQ(lazy.distance(points[i].x(), points[i].y(), nullptr), forwards[i]);
+            EXPECT_EQ(lazy.distance(points[i].x(), points[i].y()), forwards[i]);
     }
 }
 
@@ -241,11 +243,11 @@ TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
     DiscCarWorld world({-300.0, -300.0, 300.0, 300.0});
     HeuristicIn heuristic(world, 0.5, 1.0, {0.0, 0.0});
     heuristic.addTarget(10.0, 0.0);
-    heuristic.distance(0.0, 0.0, nullptr);
-    EXPECT_LT(heuristic.settledCells(), 1000u) << "of 1.4 million";
-    const std::uint64_t before = heuristic.settledCells();
-    heuristic.distance(0.0, 0.0, nullptr);
-    EXPECT_EQ(heuristic.settledCells(), before);
+    heuristic.distance(0.0, 0.0);
+    EXPECT_LT(heuristic.cells(), 1000u) << "of 1.4 million";
+    const std::uint64_t before = heuristic.cells();
+    heuristic.distance(0.0, 0.0);
+    EXPECT_EQ(heuristic.cells(), before);
 }
 
 TEST(ObstacleHeuristic, stopsAndGoesOn)
@@ -254,10 +256,16 @@ TEST(ObstacleHeuristic, stopsAndGoesOn)
     HeuristicIn heuristic(world, 0.3, 0.5, {50.0, 10.0}), other(world, 0.3, 0.5, {50.0, 10.0});
     heuristic.addTarget(50.0, -10.0);
     other.addTarget(50.0, -10.0);
-    EXPECT_EQ(heuristic.distance(50.0, 10.0, [] { return true; }), INFINITE);
-    EXPECT_LE(heuristic.settledCells(), 2000u);
-    const double distance = heuristic.distance(50.0, 10.0, nullptr);
-    EXPECT_EQ(distance, other.distance(50.0, 10.0, nullptr));
+    heuristic.stop = []
+    {
+        return true;
+    };
+    EXPECT_EQ(heuristic.distance(50.0, 10.0), INFINITE);
+    EXPECT_FALSE(heuristic.provesUnreachable({50.0, 10.0, 0.0})) << "it has only been stopped";
+    heuristic.stop = nullptr;
+    EXPECT_LE(heuristic.cells(), 2000u);
+    const double distance = heuristic.distance(50.0, 10.0);
+    EXPECT_EQ(distance, other.distance(50.0, 10.0));
     EXPECT_GT(distance, 200.0) << "round the wall";
 }
 
@@ -267,13 +275,13 @@ TEST(ObstacleHeuristic, resetForgetsTheWorldAndTheTargets)
     DiscCarWorld world = closed;
     HeuristicIn heuristic(world, 0.3, 0.9, {-6.0, 0.0});
     heuristic.addTarget(6.0, 0.0);
-    EXPECT_EQ(heuristic.distance(-6.0, 0.0, nullptr), INFINITE);
+    EXPECT_EQ(heuristic.distance(-6.0, 0.0), INFINITE);
     world.boxes = open.boxes;
-    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0});
-    EXPECT_EQ(heuristic.distance(-6.0, 0.0, nullptr), INFINITE) << "without a target";
-    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0});
+    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0}, heuristic.stop);
+    EXPECT_EQ(heuristic.distance(-6.0, 0.0), INFINITE) << "without a target";
+    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0}, heuristic.stop);
     heuristic.addTarget(6.0, 0.0);
-    EXPECT_NEAR(heuristic.distance(-6.0, 0.0, nullptr), 12.0, 0.6);
+    EXPECT_NEAR(heuristic.distance(-6.0, 0.0), 12.0, 0.6);
 }
 
 TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
@@ -282,14 +290,14 @@ TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
     {
         DiscCarWorld world = smallWorld(seed);
         HeuristicIn lazy(world, 0.25, 0.5, {0.0, 0.0}), eager(world, 0.25, 0.5, {0.0, 0.0});
-        eager.load({-6.0, -6.0}, {6.0, 6.0}, nullptr);
+        eager.load({-6.0, -6.0}, {6.0, 6.0});
         lazy.addTarget(5.0, 5.0);
         eager.addTarget(5.0, 5.0);
         TestRandom random(seed);
         for (int i = 0; i < 100; ++i)
         {
             const Eigen::Vector2d p = anywhere(random);
-            EXPECT_EQ(lazy.distance(p.x(), p.y(), nullptr), eager.distance(p.x(), p.y(), nullptr));
+            EXPECT_EQ(lazy.distance(p.x(), p.y()), eager.distance(p.x(), p.y()));
         }
     }
 }
@@ -314,7 +322,7 @@ TEST(ObstacleHeuristic, lowerBoundIsNeverAboveTheWayOfTheDisc)
             const double way = wayOfDisc(world, radius, p, target);
             if (way == INFINITE)
                 continue;
-            const double bound = heuristic.lowerBound(p.x(), p.y(), nullptr);
+            const double bound = heuristic.lowerBound({p.x(), p.y(), 0.0});
             ASSERT_LE(bound, way + 1e-6) << "seed " << seed << ", point " << i;
             tightest = std::max(tightest, bound / way);
             ++compared;
@@ -342,7 +350,7 @@ TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
     heuristic.addTarget(to.x(), to.y());
     const double way = wayOfDisc(world, RADIUS, from, to);
     ASSERT_LT(way, 1.1 * (to - from).norm());
-    EXPECT_LE(heuristic.lowerBound(from.x(), from.y(), nullptr), way);
+    EXPECT_LE(heuristic.lowerBound({from.x(), from.y(), 0.0}), way);
 }
 
 TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
@@ -350,5 +358,5 @@ TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
     DiscCarWorld world({-1e6, -1e6, 1e6, 1e6});
     HeuristicIn heuristic(world, 0.03, 0.1, {0.0, 0.0});
     heuristic.addTarget(500.0, 0.0);
-    EXPECT_LT(heuristic.lowerBound(0.0, 0.0, nullptr), 500.0) << "infinite would say that there is no way";
+    EXPECT_LT(heuristic.lowerBound({0.0, 0.0, 0.0}), 500.0) << "infinite would say that there is no way";
 }

@@ -1,18 +1,19 @@
 // The paper's search on a grid: against plain Dijkstra, and every switch by itself.
 
-#include "ompl_improved_astar/search/GridSearch.h"
+#include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/search/GridWorld.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 using namespace parking;
 using namespace parking::search;
 using namespace parking_test;
-using Outcome = GridSearch::Outcome;
+using Outcome = SearchOutcome;
 
 namespace
 {
@@ -25,20 +26,27 @@ namespace
         SearchStatistics statistics;
     };
 
-    Result solve(GridWorld &world, const GridParameters &parameters, const Pose &start, const Pose &goal)
+    Result solve(GridWorld &world, const SearchParameters &parameters, const Pose &start, const Pose &goal)
     {
-        GridSearch grid;
+        Search grid;
         grid.begin(world, parameters);
         grid.addStart(start);
         grid.addGoal(goal);
         const Outcome outcome = grid.run(nullptr);
-        return {outcome, grid.path(), grid.statistics()};
+        return {outcome, posesOf(grid.bestPath()), grid.statistics()};
+    }
+
+    /** The poses of the path that ends nearest to a target; none when there is no start. */
+    std::vector<Pose> nearest(const Search &search, const Pose &target)
+    {
+        Path path;
+        return search.nearestPath(target, path) ? posesOf(path) : std::vector<Pose>();
     }
 
     /** No weighting, no tie-breaking, one direction: plain A*. */
-    GridParameters plain(const GridWorld &world)
+    SearchParameters plain(const GridWorld &world)
     {
-        GridParameters parameters = world.parameters();
+        SearchParameters parameters = world.parameters();
         parameters.weights = {1.0, 1.0, 0.0, 0.0};
         parameters.bidirectional = false;
         return parameters;
@@ -52,7 +60,7 @@ namespace
     }
 }  // namespace
 
-TEST(GridSearch, plainSearchFindsTheOptimum)
+TEST(GridModel, plainSearchFindsTheOptimum)
 {
     int reachable = 0, unreachable = 0;
     for (const bool sixteen : {false, true})
@@ -62,11 +70,11 @@ TEST(GridSearch, plainSearchFindsTheOptimum)
             GridWorld world = randomGrid(seed, 0.1 + 0.3 * static_cast<double>(seed % 4) / 3.0);
             TestRandom random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
-            GridParameters parameters = plain(world);
-            parameters.sixteenNeighbours = sixteen;
+            SearchParameters parameters = plain(world);
+            parameters.motionModel = sixteen ? "grid16" : "grid8";
             const Result result = solve(world, parameters, start, goal);
             const double best = shortestByDijkstra(world, start, goal, sixteen);
-            ASSERT_EQ(result.outcome, best == INFINITE ? Outcome::Exhausted : Outcome::Found);
+            ASSERT_EQ(result.outcome, best == INFINITE ? Outcome::Exhausted : Outcome::Improved);
             if (best == INFINITE)
             {
                 ++unreachable;
@@ -80,7 +88,7 @@ TEST(GridSearch, plainSearchFindsTheOptimum)
     EXPECT_GT(unreachable, 10);
 }
 
-TEST(GridSearch, weightBoundsTheLength)
+TEST(GridModel, weightBoundsTheLength)
 {
     double longest = 1.0;
     for (std::uint64_t seed = 0; seed < 100; ++seed)
@@ -88,11 +96,11 @@ TEST(GridSearch, weightBoundsTheLength)
         GridWorld world = randomGrid(seed, 0.3);
         TestRandom random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
-        GridParameters parameters = plain(world);
+        SearchParameters parameters = plain(world);
         parameters.weights = {2.0, 2.0, 5.0, 1e-3};
         const Result result = solve(world, parameters, start, goal);
         const double best = shortestByDijkstra(world, start, goal, false);
-        ASSERT_EQ(result.outcome == Outcome::Found, best < INFINITE);
+        ASSERT_EQ(result.outcome == Outcome::Improved, best < INFINITE);
         if (best == INFINITE || best == 0.0)
             continue;
         ASSERT_LE(lengthOf(result.path), (2.0 + 1e-3) * best + 1e-9);
@@ -101,7 +109,7 @@ TEST(GridSearch, weightBoundsTheLength)
     EXPECT_GT(longest, 1.001) << "the weight does nothing";
 }
 
-TEST(GridSearch, weightsLessenTheExpansions)
+TEST(GridModel, weightsLessenTheExpansions)
 {
     std::uint64_t plainly = 0, weighted = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed)
@@ -109,7 +117,7 @@ TEST(GridSearch, weightsLessenTheExpansions)
         GridWorld world = randomGrid(seed, 0.15, 40);
         TestRandom random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
-        GridParameters parameters = plain(world);
+        SearchParameters parameters = plain(world);
         plainly += solve(world, parameters, start, goal).statistics.expanded;
         parameters.weights = {1.5, 0.9, 5.0, 1e-3};
         weighted += solve(world, parameters, start, goal).statistics.expanded;
@@ -117,7 +125,7 @@ TEST(GridSearch, weightsLessenTheExpansions)
     EXPECT_LT(2 * weighted, plainly);
 }
 
-TEST(GridSearch, bothWaysReachTheSame)
+TEST(GridModel, bothWaysReachTheSame)
 {
     int reachable = 0, unreachable = 0;
     for (const bool sixteen : {false, true})
@@ -127,15 +135,15 @@ TEST(GridSearch, bothWaysReachTheSame)
             GridWorld world = randomGrid(seed, 0.25 + 0.15 * static_cast<double>(seed % 2), 14);
             TestRandom random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
-            GridParameters parameters = world.parameters();
-            parameters.sixteenNeighbours = sixteen;
+            SearchParameters parameters = world.parameters();
+            parameters.motionModel = sixteen ? "grid16" : "grid8";
             const Result both = solve(world, parameters, start, goal);
             parameters.bidirectional = false;
             const Result one = solve(world, parameters, start, goal);
             ASSERT_EQ(both.outcome, one.outcome);
-            ASSERT_EQ(one.outcome == Outcome::Found, shortestByDijkstra(world, start, goal, sixteen) < INFINITE);
-            ++(both.outcome == Outcome::Found ? reachable : unreachable);
-            if (both.outcome == Outcome::Found)
+            ASSERT_EQ(one.outcome == Outcome::Improved, shortestByDijkstra(world, start, goal, sixteen) < INFINITE);
+            ++(both.outcome == Outcome::Improved ? reachable : unreachable);
+            if (both.outcome == Outcome::Improved)
             {
                 ASSERT_EQ(faultOf(both.path, world, start, goal), "");
                 ASSERT_EQ(faultOf(one.path, world, start, goal), "");
@@ -145,13 +153,13 @@ TEST(GridSearch, bothWaysReachTheSame)
     EXPECT_GT(unreachable, 50);
 }
 
-TEST(GridSearch, searchFromBothEndsLooksAtLess)
+TEST(GridModel, searchFromBothEndsLooksAtLess)
 {
     std::uint64_t both = 0, one = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.2, 40);
-        GridParameters parameters = plain(world);
+        SearchParameters parameters = plain(world);
         const Pose start{1.5, 1.5, 0.0}, goal{38.5, 38.5, 0.0};
         world.at(1, 1) = world.at(38, 38) = 0;
         one += solve(world, parameters, start, goal).statistics.expanded;
@@ -162,7 +170,7 @@ TEST(GridSearch, searchFromBothEndsLooksAtLess)
     EXPECT_GT(both, 0u);
 }
 
-TEST(GridSearch, heapAndLinearListGiveTheSamePath)
+TEST(GridModel, heapAndLinearListGiveTheSamePath)
 {
     for (const bool both : {false, true})
         for (std::uint64_t seed = 0; seed < 60; ++seed)
@@ -170,10 +178,10 @@ TEST(GridSearch, heapAndLinearListGiveTheSamePath)
             GridWorld world = randomGrid(seed, 0.25, 24);
             TestRandom random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
-            GridParameters parameters = world.parameters();
+            SearchParameters parameters = world.parameters();
             parameters.bidirectional = both;
             const Result heap = solve(world, parameters, start, goal);
-            parameters.openList = OpenListKind::Linear;
+            parameters.openList = "linear";
             const Result linear = solve(world, parameters, start, goal);
             ASSERT_EQ(heap.outcome, linear.outcome);
             ASSERT_EQ(heap.statistics.expanded, linear.statistics.expanded);
@@ -181,7 +189,7 @@ TEST(GridSearch, heapAndLinearListGiveTheSamePath)
         }
 }
 
-TEST(GridSearch, eagerLoadingGivesTheSamePathAndAsksForEveryCell)
+TEST(GridModel, eagerLoadingGivesTheSamePathAndAsksForEveryCell)
 {
     for (const double nose : {0.0, 0.7})
         for (const bool both : {false, true})
@@ -192,7 +200,7 @@ TEST(GridSearch, eagerLoadingGivesTheSamePathAndAsksForEveryCell)
                 world.nose = nose;
                 TestRandom random(seed);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
-                GridParameters parameters = world.parameters();
+                SearchParameters parameters = world.parameters();
                 parameters.bidirectional = both;
                 world.states = 0;
                 const Result lazy = solve(world, parameters, start, goal);
@@ -207,7 +215,7 @@ TEST(GridSearch, eagerLoadingGivesTheSamePathAndAsksForEveryCell)
             }
 }
 
-TEST(GridSearch, rootsInCellsWithABlockedCentreAreReachedLazilyAndEagerly)
+TEST(GridModel, rootsInCellsWithABlockedCentreAreReachedLazilyAndEagerly)
 {
     // A post stands on the centre of the goal's cell; start and goal stand beside such posts.
     class Posts : public GridWorld
@@ -224,14 +232,14 @@ TEST(GridSearch, rootsInCellsWithABlockedCentreAreReachedLazilyAndEagerly)
     for (const bool eager : {false, true})
         for (const bool both : {false, true})
         {
-            GridParameters parameters = world.parameters();
+            SearchParameters parameters = world.parameters();
             parameters.eagerObstacles = eager;
             parameters.bidirectional = both;
-            EXPECT_EQ(solve(world, parameters, start, goal).outcome, Outcome::Found) << eager << both;
+            EXPECT_EQ(solve(world, parameters, start, goal).outcome, Outcome::Improved) << eager << both;
         }
 }
 
-TEST(GridSearch, sixteenNeighboursDoNotJumpOverAWallOfOneCell)
+TEST(GridModel, sixteenNeighboursDoNotJumpOverAWallOfOneCell)
 {
     const std::vector<std::vector<std::string>> walls{
         {".....#.....", ".....#.....", ".....#.....", ".....#.....", ".....#....."},
@@ -245,8 +253,8 @@ TEST(GridSearch, sixteenNeighboursDoNotJumpOverAWallOfOneCell)
             {
                 GridWorld world(picture);
                 world.nose = nose;
-                GridParameters parameters = world.parameters();
-                parameters.sixteenNeighbours = true;
+                SearchParameters parameters = world.parameters();
+                parameters.motionModel = "grid16";
                 parameters.bidirectional = both;
                 const Pose start{0.5, 4.5, 0.0}, goal{10.5, 0.5, 0.0};
                 ASSERT_TRUE(world.isPoseFree(start));
@@ -256,12 +264,12 @@ TEST(GridSearch, sixteenNeighboursDoNotJumpOverAWallOfOneCell)
                 parameters.weights = {1.0, 1.0, 0.0, 0.0};
                 parameters.bidirectional = false;
                 const double sixteen = lengthOf(solve(world, parameters, start, goal).path);
-                parameters.sixteenNeighbours = false;
+                parameters.motionModel = "grid8";
                 EXPECT_LT(sixteen, lengthOf(solve(world, parameters, start, goal).path) - 0.5);
             }
 }
 
-TEST(GridSearch, pathsAreFreeWhereTheHeadingMatters)
+TEST(GridModel, pathsAreFreeWhereTheHeadingMatters)
 {
     int found = 0;
     for (const bool sixteen : {false, true})
@@ -273,11 +281,11 @@ TEST(GridSearch, pathsAreFreeWhereTheHeadingMatters)
                 TestRandom random(seed);
                 world.nose = random.between(0.3, 1.5);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
-                GridParameters parameters = world.parameters();
-                parameters.sixteenNeighbours = sixteen;
+                SearchParameters parameters = world.parameters();
+                parameters.motionModel = sixteen ? "grid16" : "grid8";
                 parameters.bidirectional = both;
                 const Result result = solve(world, parameters, start, goal);
-                if (result.outcome != Outcome::Found)
+                if (result.outcome != Outcome::Improved)
                     continue;
                 ++found;
                 ASSERT_EQ(faultOf(result.path, world, start, goal), "");
@@ -285,7 +293,7 @@ TEST(GridSearch, pathsAreFreeWhereTheHeadingMatters)
     EXPECT_GT(found, 300);
 }
 
-TEST(GridSearch, stopsAndGoesOnToTheSamePath)
+TEST(GridModel, stopsAndGoesOnToTheSamePath)
 {
     for (const bool both : {false, true})
         for (const bool eager : {false, true})
@@ -294,11 +302,11 @@ TEST(GridSearch, stopsAndGoesOnToTheSamePath)
                 GridWorld world = randomGrid(seed, 0.25, 40);
                 TestRandom random(seed);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
-                GridParameters parameters = world.parameters();
+                SearchParameters parameters = world.parameters();
                 parameters.bidirectional = both;
                 parameters.eagerObstacles = eager;
                 const Result whole = solve(world, parameters, start, goal);
-                GridSearch grid;
+                Search grid;
                 grid.begin(world, parameters);
                 grid.addStart(start);
                 grid.addGoal(goal);
@@ -313,21 +321,21 @@ TEST(GridSearch, stopsAndGoesOnToTheSamePath)
                 ASSERT_EQ(outcome, whole.outcome);
                 ASSERT_EQ(grid.statistics().expanded, whole.statistics.expanded);
                 ASSERT_EQ(grid.statistics().generated, whole.statistics.generated);
-                expectSamePath(grid.path(), whole.path);
+                expectSamePath(posesOf(grid.bestPath()), whole.path);
                 // In the midst of expansions, too.
                 EXPECT_TRUE(eager || whole.statistics.expanded < 3 ||
                             pieces > 4 * static_cast<int>(whole.statistics.expanded));
             }
 }
 
-TEST(GridSearch, aStopIsHeededSoon)
+TEST(GridModel, aStopIsHeededSoon)
 {
     GridWorld world(200, 200);
     world.at(199, 199) = 0;
     for (int i = 1; i < 200; ++i)
         world.at(198, i) = 1;
     world.at(198, 0) = 1;
-    GridSearch grid;
+    Search grid;
     grid.begin(world, world.parameters());
     grid.addStart({0.5, 0.5, 0.0});
     grid.addGoal({199.5, 199.5, 0.0});
@@ -335,7 +343,7 @@ TEST(GridSearch, aStopIsHeededSoon)
     EXPECT_LE(grid.statistics().expanded, 64u);
 }
 
-TEST(GridSearch, endsAsNearAsTheMapAllows)
+TEST(GridModel, endsAsNearAsTheMapAllows)
 {
     // The goal's room is closed, and small or large; the start's side must be searched to its end all the same.
     const std::vector<std::vector<std::string>> rooms{
@@ -348,15 +356,15 @@ TEST(GridSearch, endsAsNearAsTheMapAllows)
         {
             SCOPED_TRACE(i);
             GridWorld world(rooms[i]);
-            GridParameters parameters = world.parameters();
+            SearchParameters parameters = world.parameters();
             parameters.bidirectional = both;
             const Pose start{0.5, 4.5, 0.0}, &goal = goals[i];
-            GridSearch grid;
+            Search grid;
             grid.begin(world, parameters);
             grid.addStart(start);
             grid.addGoal(goal);
             ASSERT_EQ(grid.run(nullptr), Outcome::Exhausted);
-            const std::vector<Pose> path = grid.nearestPath(goal.x, goal.y);
+            const std::vector<Pose> path = nearest(grid, goal);
             ASSERT_FALSE(path.empty());
             EXPECT_EQ(faultOf(path, world, start, path.back()), "");
             double nearest = INFINITE;
@@ -370,24 +378,24 @@ TEST(GridSearch, endsAsNearAsTheMapAllows)
         }
 }
 
-TEST(GridSearch, withoutAGoalItGoesNearTheTarget)
+TEST(GridModel, withoutAGoalItGoesNearTheTarget)
 {
     GridWorld world({"..........", "....####..", "....#..#..", "....####..", ".........."});
-    GridSearch grid;
+    Search grid;
     grid.begin(world, world.parameters());
     grid.addStart({0.5, 0.5, 0.0});
-    grid.setTarget(5.5, 2.5);
+    grid.setTarget({5.5, 2.5, 0.0});
     EXPECT_EQ(grid.run(nullptr), Outcome::Exhausted);
-    const std::vector<Pose> path = grid.nearestPath(5.5, 2.5);
+    const std::vector<Pose> path = nearest(grid, {5.5, 2.5, 0.0});
     ASSERT_FALSE(path.empty());
     EXPECT_NEAR(std::hypot(path.back().x - 5.5, path.back().y - 2.5), 2.0, 1e-9);
-    GridSearch empty;
+    Search empty;
     empty.begin(world, world.parameters());
     EXPECT_EQ(empty.run(nullptr), Outcome::Exhausted);
-    EXPECT_TRUE(empty.nearestPath(0.0, 0.0).empty());
+    EXPECT_TRUE(nearest(empty, {}).empty());
 }
 
-TEST(GridSearch, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
+TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
 {
     for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
@@ -395,7 +403,7 @@ TEST(GridSearch, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
         GridWorld world = randomGrid(seed, 0.25);
         TestRandom random(seed);
         std::vector<Pose> starts, goals;
-        GridSearch grid;
+        Search grid;
         grid.begin(world, plain(world));
         for (int i = 0; i < 3; ++i)
         {
@@ -413,17 +421,17 @@ TEST(GridSearch, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
         for (const Pose &start : starts)
             for (const Pose &goal : goals)
                 best = std::min(best, shortestByDijkstra(world, start, goal, false));
-        ASSERT_EQ(grid.run(nullptr) == Outcome::Found, best < INFINITE);
+        ASSERT_EQ(grid.run(nullptr) == Outcome::Improved, best < INFINITE);
         if (best < INFINITE)
         {
-            ASSERT_NEAR(lengthOf(grid.path()), best, 1e-9);
+            ASSERT_NEAR(lengthOf(posesOf(grid.bestPath())), best, 1e-9);
         }
     }
 }
 
-TEST(GridSearch, oneObjectServesManyQueries)
+TEST(GridModel, oneObjectServesManyQueries)
 {
-    GridSearch reused;
+    Search reused;
     for (std::uint64_t seed = 0; seed < 30; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.2, 8 + static_cast<int>(seed));
@@ -434,37 +442,39 @@ TEST(GridSearch, oneObjectServesManyQueries)
         reused.addStart(start);
         reused.addGoal(goal);
         ASSERT_EQ(reused.run(nullptr), fresh.outcome);
-        expectSamePath(reused.path(), fresh.path);
+        expectSamePath(posesOf(reused.bestPath()), fresh.path);
         ASSERT_EQ(reused.statistics().expanded, fresh.statistics.expanded);
     }
 }
 
-TEST(GridSearch, nodesFormTreesOfFreeEdges)
+TEST(GridModel, nodesFormTreesOfFreeEdges)
 {
     for (std::uint64_t seed = 0; seed < 20; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.2, 24);
         TestRandom random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
-        GridSearch grid;
+        Search grid;
         grid.begin(world, world.parameters());
         grid.addStart(start);
         grid.addGoal(goal);
         grid.run(nullptr);
-        std::vector<std::pair<Pose, std::uint32_t>> nodes;
+        std::vector<std::pair<Pose, NodeIndex>> nodes;
         std::vector<char> sides;
-        grid.forEachNode(
-            [&](const Pose &pose, std::uint32_t parent, std::uint32_t index, bool fromStart)
+        for (const Side side : {Side::Start, Side::Goal})
+        {
+            const auto first = static_cast<NodeIndex>(nodes.size());
+            for (const Node &node : std::as_const(grid).frontier(side).nodes())
             {
-                ASSERT_EQ(index, nodes.size());
-                nodes.emplace_back(pose, parent);
-                sides.push_back(fromStart);
-            });
+                nodes.emplace_back(node.pose, node.parent == NO_NODE ? NO_NODE : node.parent + first);
+                sides.push_back(side == Side::Start);
+            }
+        }
         ASSERT_GE(nodes.size(), 2u);
         for (std::size_t i = 0; i < nodes.size(); ++i)
         {
-            std::uint32_t at = static_cast<std::uint32_t>(i);
-            for (std::size_t steps = 0; nodes[at].second != GridSearch::NO_NODE; ++steps)
+            NodeIndex at = static_cast<NodeIndex>(i);
+            for (std::size_t steps = 0; nodes[at].second != NO_NODE; ++steps)
             {
                 ASSERT_LT(steps, nodes.size()) << "a circle";
                 ASSERT_LT(nodes[at].second, nodes.size());

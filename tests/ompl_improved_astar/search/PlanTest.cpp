@@ -1,0 +1,137 @@
+// The stateless call: every outcome, and that equal requests give equal results.
+
+#include "ompl_improved_astar/search/planning/Plan.h"
+#include "parking_geometry/Error.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    PlanRequest requestFor(const CarProblem &problem)
+    {
+        PlanRequest request;
+        request.starts = problem.starts;
+        request.goals = problem.goals;
+        request.car.turningRadius = TURNING_RADIUS;
+        request.car.inscribedRadius = problem.world.radius;
+        return request;
+    }
+
+    CarProblem openField()
+    {
+        return {DiscCarWorld({-30.0, -30.0, 30.0, 30.0}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
+    }
+
+    /** The goal is in a room without a door. */
+    CarProblem walledIn()
+    {
+        CarProblem problem = openField();
+        problem.world.boxes = {
+            {10.0, 10.0, 25.0, 10.5}, {10.0, 25.0, 25.0, 25.5}, {10.0, 10.0, 10.5, 25.0}, {25.0, 10.0, 25.5, 25.5}};
+        problem.goals = {{17.0, 17.0, 0.0}};
+        return problem;
+    }
+}  // namespace
+
+TEST(Plan, solvesAndSaysWhichGoalItReached)
+{
+    CarProblem problem = openField();
+    problem.goals.insert(problem.goals.begin(), {25.0, 25.0, 0.0});
+    const PlanResult result = plan(problem.world, requestFor(problem));
+    ASSERT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
+    EXPECT_EQ(result.goal, 1u) << "the nearer one";
+    EXPECT_EQ(faultOf(result.path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+    EXPECT_GE(result.cost, result.path.length() - 1e-9);
+    EXPECT_GE(result.suboptimalityBound, 1.0);
+    EXPECT_LT(result.suboptimalityBound, 2.0);
+    EXPECT_TRUE(result.reason.empty());
+}
+
+TEST(Plan, saysWhyThereIsNoWay)
+{
+    CarProblem problem = walledIn();
+    PlanRequest request = requestFor(problem);
+    PlanResult result = plan(problem.world, request);
+    EXPECT_EQ(result.outcome, PlanOutcome::Approximate);
+    EXPECT_NE(result.reason.find("disc"), std::string::npos) << result.reason;
+    EXPECT_EQ(faultOf(result.path, problem.world, problem.starts, {result.path.end()}, TURNING_RADIUS), "");
+    request.parameters.approximate = false;
+    result = plan(problem.world, request);
+    EXPECT_EQ(result.outcome, PlanOutcome::Infeasible);
+    EXPECT_NE(result.reason.find("disc"), std::string::npos) << result.reason;
+    EXPECT_TRUE(result.path.pieces.empty());
+    EXPECT_EQ(result.cost, std::numeric_limits<double>::infinity());
+}
+
+TEST(Plan, tellsATimeoutFromAnEndlessTask)
+{
+    CarProblem problem = walledIn();
+    problem.world.tellsRoom = false;  // nothing is proven, so the search is stopped
+    PlanRequest request = requestFor(problem);
+    request.parameters.approximate = false;
+    int asked = 0;
+    request.stop = [&asked]
+    {
+        return ++asked > 50;
+    };
+    const PlanResult result = plan(problem.world, request);
+    EXPECT_EQ(result.outcome, PlanOutcome::Timeout);
+    EXPECT_TRUE(result.reason.empty());
+}
+
+TEST(Plan, namesInvalidEnds)
+{
+    CarProblem problem = openField();
+    problem.world.boxes = {{5.0, 0.0, 12.0, 8.0}};
+    PlanRequest request = requestFor(problem);
+    request.parameters.approximate = false;
+    EXPECT_EQ(plan(problem.world, request).outcome, PlanOutcome::InvalidGoal);
+    request.starts = {{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, {6.0, 4.0, 0.0}};
+    EXPECT_EQ(plan(problem.world, request).outcome, PlanOutcome::InvalidStart);
+}
+
+TEST(Plan, refusesWhatIsNoRequest)
+{
+    CarProblem problem = openField();
+    PlanRequest request = requestFor(problem);
+    request.goals.clear();
+    EXPECT_THROW(plan(problem.world, request), Error);
+    request = requestFor(problem);
+    request.parameters.heuristicWeightFar = -1.0;
+    EXPECT_THROW(plan(problem.world, request), Error);
+    request = requestFor(problem);
+    request.parameters.heuristic = "crystal_ball";
+    EXPECT_THROW(plan(problem.world, request), Error);
+}
+
+TEST(Plan, equalRequestsGiveEqualPathsInAnyThread)
+{
+    for (std::uint64_t seed = 0; seed < 4; ++seed)
+    {
+        CarProblem problem = randomProblem(seed);
+        PlanRequest request = requestFor(problem);
+        std::vector<PlanResult> results(3);
+        std::vector<CarProblem> copies(3, problem);
+        std::vector<std::thread> threads;
+        for (std::size_t i = 0; i < results.size(); ++i)
+            threads.emplace_back([&, i] { results[i] = plan(copies[i].world, request); });
+        for (std::thread &thread : threads)
+            thread.join();
+        for (const PlanResult &result : results)
+        {
+            ASSERT_EQ(result.outcome, results[0].outcome);
+            ASSERT_EQ(result.cost, results[0].cost);
+            ASSERT_EQ(result.path.pieces.size(), results[0].path.pieces.size());
+            ASSERT_EQ(result.statistics.expanded, results[0].statistics.expanded);
+        }
+    }
+}
