@@ -196,10 +196,10 @@ namespace parking::search
         double &least = leastDropped_[static_cast<std::size_t>(side)];
         if (!boundIsKept_ || hasTarget_ || g >= least)
             return;
-        // Nothing is lost with a node whose place another holds at no more cost.
+        // Nothing is lost with a node whose place another holds at no more cost, but for rounding.
         const bool samePlace = pose.x == keeper.pose.x && pose.y == keeper.pose.y &&
                                (pose.yaw == keeper.pose.yaw || !environment_->headingMatters());
-        if (!samePlace || g < keeper.g)
+        if (!samePlace || g < keeper.g - 1e-9)
             least = std::min(least, g + admissible(side, pose));
     }
 
@@ -227,11 +227,12 @@ namespace parking::search
             if (!parameters_.bidirectional && side != confined_)
                 continue;
             double least = leastDropped_[static_cast<std::size_t>(side)];
-            for (const std::unique_ptr<OpenList> &list : frontier(side).openLists())
-                for (const OpenList::Entry &entry : list->entries())
+            for (std::size_t level = 0; level < traits_.levels; ++level)
+                for (const OpenList::Entry &entry : frontier(side).openLists()[level]->entries())
                 {
                     const Node &node = frontier(side).node(entry.node);
-                    least = std::min(least, node.g + admissible(side, node.pose));
+                    if (!node.expanded || node.level != level)  // else a stale entry
+                        least = std::min(least, node.g + admissible(side, node.pose));
                 }
             ofSearch = traits_.complete ? std::max(ofSearch, least) : std::min(ofSearch, least);
         }

@@ -36,6 +36,9 @@ namespace parking
         {
         }
 
+        /** Radians of a turn up to which its end alone says which way it goes. */
+        static constexpr double LONGEST_TURN = 0.5 * PI;
+
         /** \brief A turn on the spot by \e angle radians. */
         static PathPiece turnOnTheSpot(double angle);
 

@@ -136,8 +136,11 @@ namespace parking::search
                 continue;
             // The cells of roots stand for the roots' own positions.
             Pose to = centre(place);
-            if (const Pose *root = rootIn(opposite(side), cell(to, 0)))
+            const std::uint64_t key = cell(to, 0);
+            if (const Pose *root = rootIn(opposite(side), key))
                 to = *root;
+            else if (const Pose *ownRoot = rootIn(side, key))
+                to = *ownRoot;
             const double dx = to.x - node.pose.x, dy = to.y - node.pose.y, length = std::hypot(dx, dy);
             // On the goal's side the car comes the other way, and its heading is that with which it leaves.
             to.yaw = side == Side::Start ? std::atan2(dy, dx) : std::atan2(-dy, -dx);
@@ -173,10 +176,24 @@ namespace parking::search
             return false;
         // The car turns on the spot before it goes; seen from the goal's side, after it has come.
         const Pose turned{from.pose.x, from.pose.y, to.yaw};
-        const bool turns = successor.motion.turn != 0.0;
         if (side == Side::Start)
-            return (!turns || environment_->isMotionFree(from.pose, turned)) && environment_->isMotionFree(turned, to);
-        return environment_->isMotionFree(to, turned) && (!turns || environment_->isMotionFree(turned, from.pose));
+            return isTurnFree(from.pose, successor.motion.turn) && environment_->isMotionFree(turned, to);
+        return environment_->isMotionFree(to, turned) && isTurnFree(turned, -successor.motion.turn);
+    }
+
+    bool GridModel::isTurnFree(const Pose &from, double turn)
+    {
+        // In parts, since half a circle could be meant either way.
+        const double parts = std::ceil(std::abs(turn) / PathPiece::LONGEST_TURN);
+        Pose pose = from;
+        for (double part = 1.0; part <= parts; part += 1.0)
+        {
+            const Pose next{from.x, from.y, wrapAngle(from.yaw + turn * part / parts)};
+            if (!environment_->isMotionFree(pose, next))
+                return false;
+            pose = next;
+        }
+        return true;
     }
 
     bool GridModel::join(const Node &fromStart, const Node &fromGoal, Side /*sweptFrom*/, double bound,
@@ -194,10 +211,9 @@ namespace parking::search
             const double turn = wrapAngle(yaw - pose.yaw);
             if (std::abs(turn) <= SAME_HEADING)
                 return true;
-            const Pose turned{pose.x, pose.y, yaw};
-            const bool free = environment_->isMotionFree(pose, turned);
+            const bool free = isTurnFree(pose, turn);
             pieces.push_back(PathPiece::turnOnTheSpot(turn));
-            pose = turned;
+            pose.yaw = yaw;
             return free;
         };
         if (length > 0.0)

@@ -77,6 +77,7 @@ namespace parking::search
             return place.column >= 0 && place.row >= 0 && place.column < columns_ && place.row < rows_;
         }
         bool isCellFree(Cell &cell, const Pose &pose, std::size_t step);
+        bool isTurnFree(const Pose &from, double turn);
         const Pose *rootIn(Side side, std::uint64_t cell) const;
 
         std::vector<GridStep> steps_;
