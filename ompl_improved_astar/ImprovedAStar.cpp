@@ -270,7 +270,7 @@ namespace ompl::geometric
 
     const parking::Path *ImprovedAStar::solutionPath() const
     {
-        return query_->hasSolution && !query_->isSmoothed ? &query_->path : nullptr;
+        return query_->hasSolution ? &query_->path : nullptr;
     }
 
     parking::search::PlanOutcome ImprovedAStar::outcome() const

@@ -103,7 +103,7 @@ namespace ompl::geometric
         std::uint64_t checkedStates() const;
         std::uint64_t exactChecks() const;
 
-        /** \brief The best solution in exact form; nullptr without one, and where the B-spline has smoothed it. */
+        /** \brief The best solution in exact form; nullptr without one. */
         const parking::Path *solutionPath() const;
 
         /** \brief How the last solve() ended, more exactly than its status can say before OMPL 1.6: Infeasible where
@@ -129,7 +129,7 @@ namespace ompl::geometric
         bool readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc);
-        std::vector<parking::Pose> statesOf(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
+        parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;
         bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
         base::Cost costOf(const base::PathPtr &path) const;

@@ -5,6 +5,9 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/GridSmoothing.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"
 
@@ -43,7 +46,6 @@ namespace ompl::geometric
         bool hasSolution{false};
         parking::Path path;                 ///< the best one by the problem's objective
         std::vector<parking::Pose> states;  ///< of it, for OMPL
-        bool isSmoothed{false};             ///< the states are those of a B-spline and not of the path
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length
         std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
@@ -75,6 +77,8 @@ namespace ompl::geometric
         parking::StateSpacing stateSpacing() const
         {
             const double radius = turningRadius();
+            if (turnsOnTheSpot)
+                return {parking::search::SMOOTH_STATE_SPACING, parking::search::SMOOTH_STATE_SPACING, 1.0 / radius};
             return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius};
         }
 

@@ -40,24 +40,20 @@ namespace ompl::geometric
         return ob::Cost(path->length());
     }
 
-    std::vector<Pose> ImprovedAStar::statesOf(const Path &path, const ob::PlannerTerminationCondition &ptc)
+    Path ImprovedAStar::smoothed(const Path &path, const ob::PlannerTerminationCondition &ptc) const
     {
-        query_->isSmoothed = false;
+        Path result = path;
         if (query_->turnsOnTheSpot && parameters_.smoothing == "bspline")
-        {
-            std::vector<Pose> smooth = parking::search::smoothGridPath(
-                path, *query_->stateEnvironment, query_->car.turningRadius, [&ptc] { return ptc(); });
-            query_->isSmoothed = !smooth.empty();
-            if (query_->isSmoothed)
-                return smooth;
-        }
-        return parking::pathStates(path, query_->stateSpacing());
+            parking::search::smoothGridPath(result, *query_->stateEnvironment, query_->car.turningRadius,
+                                            [&ptc] { return ptc(); });
+        return result;
     }
 
-    bool ImprovedAStar::takeImprovement(const Path &path, const ob::PlannerTerminationCondition &ptc)
+    bool ImprovedAStar::takeImprovement(const Path &found, const ob::PlannerTerminationCondition &ptc)
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
-        std::vector<Pose> states = statesOf(path, ptc);
+        const Path path = smoothed(found, ptc);
+        const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
         auto geometric = std::make_shared<PathGeometric>(si_);
         ob::ScopedState<> state(si_);
         for (const Pose &pose : states)
@@ -71,7 +67,7 @@ namespace ompl::geometric
             return false;
         query_->hasSolution = true;
         query_->path = path;
-        query_->states = std::move(states);
+        query_->states = states;
         query_->bestCost = cost;
         query_->objective = objective;
         bestCost_.store(cost.value(), std::memory_order_relaxed);
@@ -129,7 +125,7 @@ namespace ompl::geometric
         };
         if (!query_->planner.approximate(target, stop, nearest))
             return ob::PlannerStatus::TIMEOUT;
-        std::vector<Pose> states = statesOf(nearest, ptc);
+        std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
         // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
         // planner has been told to stop.
         if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
@@ -162,6 +158,14 @@ namespace ompl::geometric
                                                [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
             if (path->getStateCount() == 1)
                 path->append(path->getState(0));
+            // Turns on the spot there begin at the same place.
+            for (std::size_t i = path->getStateCount(); i-- > 1;)
+            {
+                const Pose pose = parking::poseOf(path->getState(i));
+                if (positionDistance(pose, *goal) > 1e-6)
+                    break;
+                parking::setPose(path->getState(i), {goal->x, goal->y, pose.yaw});
+            }
             parking::setPose(path->getState(path->getStateCount() - 1), *goal);
         }
         query_->solution.clear();

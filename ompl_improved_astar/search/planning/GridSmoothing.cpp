@@ -30,12 +30,11 @@ namespace parking::search
         }
     }  // namespace
 
-    std::vector<Pose> smoothGridPath(const Path &path, MotionEnvironment &environment, double turningRadius,
-                                     const StopFunction &stop)
+    bool smoothGridPath(Path &path, MotionEnvironment &environment, double turningRadius, const StopFunction &stop)
     {
         const std::vector<Eigen::Vector2d> points = cornersOf(path);
         if (points.size() < 3 || (stop && stop()))
-            return {};
+            return false;
         FootprintQueries world;
         world.isFree = [&, asked = 0u, stopped = false](const Pose &pose) mutable
         {
@@ -48,22 +47,25 @@ namespace parking::search
         const double spacing = path.length() / static_cast<double>(points.size() - 1);
         const std::size_t usual = options.sampling;
         options.sampling = std::max(usual, static_cast<std::size_t>(std::ceil(turningRadius / spacing)));
-        BsplinePath smooth = bsplineSmooth(points, options, Vehicle(), world);
-        if (smooth.polylinePieces > 0 && options.sampling > usual)
+        BsplineResult smooth = bsplineSmooth(points, options, Vehicle(), world);
+        if (smooth.polylineSpans > 0 && options.sampling > usual)
         {
             options.sampling = usual;
-            BsplinePath closer = bsplineSmooth(points, options, Vehicle(), world);
-            if (closer.polylinePieces * smooth.pieces < smooth.polylinePieces * closer.pieces)
+            BsplineResult closer = bsplineSmooth(points, options, Vehicle(), world);
+            if (closer.polylineSpans * smooth.spans < smooth.polylineSpans * closer.spans)
                 smooth = std::move(closer);
         }
-        std::vector<Pose> result{path.start};
-        for (const PathState &state : smooth.path)
-            result.push_back(state.pose);
-        result.push_back(path.end());
-        // The spline was checked at its states; the motions between them have the last word.
-        for (std::size_t i = 1; i < result.size(); ++i)
-            if ((stop && stop()) || !environment.isMotionFree(result[i - 1], result[i]))
-                return {};
-        return result;
+        // The ends keep their headings: the car turns there.
+        Path result{path.start, {}};
+        result.append(PathPiece::turnOnTheSpot(wrapAngle(smooth.path.start.yaw - path.start.yaw)));
+        result.extend(smooth.path);
+        result.append(PathPiece::turnOnTheSpot(wrapAngle(path.end().yaw - smooth.path.end().yaw)));
+        // The spline was checked at its poses; the motions between them have the last word.
+        const SampledPath states = result.sample(SMOOTH_STATE_SPACING);
+        for (std::size_t i = 1; i < states.size(); ++i)
+            if ((stop && stop()) || !environment.isMotionFree(states[i - 1].pose, states[i].pose))
+                return false;
+        path = std::move(result);
+        return true;
     }
 }  // namespace parking::search

@@ -4,16 +4,17 @@
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "parking_geometry/curves/Path.h"
 
-#include <vector>
-
 namespace parking::search
 {
-    /** \brief The paper's B-spline through a path of a grid model, as poses between which the car moves straight, the
-        heading turning evenly.
+    /** \brief The paper's B-spline through a path of a grid model, with the same first and last pose.
 
-        The curve is checked state by state, and then motion by motion. Where it collides or turns more sharply than at
-        \e turningRadius it follows the corners of the path; where that does not help either, or \e stop says so, the
-        result is empty and the path stays as it is. */
-    std::vector<Pose> smoothGridPath(const Path &path, MotionEnvironment &environment, double turningRadius,
-                                     const StopFunction &stop);
+        The spline is checked pose by pose, and then motion by motion. Where it collides or turns more sharply than at
+        \e turningRadius it follows the corners of the path.
+
+        \return whether \e path was replaced; not when it has no corner, nor when \e stop said so or a motion collides
+     */
+    bool smoothGridPath(Path &path, MotionEnvironment &environment, double turningRadius, const StopFunction &stop);
+
+    /** \brief Metres between states of a smoothed grid path that are joined by straight motions. */
+    constexpr double SMOOTH_STATE_SPACING = 0.1;
 }  // namespace parking::search

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
-#include <ompl_improved_astar/search/CarPlanner.h>
-#include <ompl_improved_astar/search/FootprintEnvironment.h>
+#include <ompl_improved_astar/search/planning/PathPlanner.h>
+#include <ompl_improved_astar/search/planning/FootprintEnvironment.h>
 #include <parking_geometry/Vehicle.h>
 #include <state_validity/FootprintChecker.h>
 
@@ -24,10 +24,10 @@ int main()
     }
 
     parking::FootprintEnvironment environment(checker, bounds, 1e-3);
-    parking::search::CarPlannerParameters parameters;
+    parking::search::PathPlannerParameters parameters;
     parameters.search.turningRadius = car.minTurningRadius();
     parameters.search.inscribedRadius = car.inscribedRadius();
-    parking::search::CarPlanner planner;
+    parking::search::PathPlanner planner;
     planner.begin(environment, parameters);
     planner.addStart(start);
     planner.addGoal(goal);
