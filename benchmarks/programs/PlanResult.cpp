@@ -162,6 +162,7 @@ namespace parking
                   {"start", poseJson(scenario, scenario.start)},
                   {"goals", std::move(goals)},
                   {"status", toString(run.status)},
+                  {"reason", run.reason},
                   {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
                   {"planning_time_ms", std::move(times)},
                   {"runs", std::move(runs)},
@@ -206,6 +207,8 @@ namespace parking
         std::string text = problem.scenario().name + ": " + toString(run.status) + " (" + result.planner + ", " +
                            fixed(MS * run.planningTime, 1) + " ms; loading the map " +
                            fixed(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
+        if (!run.reason.empty())
+            text += "  " + run.reason + "\n";
         if (result.runs.size() > 1)
         {
             std::size_t solved = 0;

@@ -120,7 +120,7 @@ class Bundled(ProgramTest):
 
     def test_a_planner_that_finds_nothing(self):
         result = self.planned(bundled('tight_parallel'), '--planner', 'reeds_shepp', status=4)
-        self.assertEqual(result['status'], 'infeasible')
+        self.assertEqual((result['status'], result['reason']), ('infeasible', ''))
         self.assertEqual(result['path'], [])
         self.assertIsNone(result['length_m'])
 
