@@ -62,4 +62,11 @@ namespace parking::search
         std::string what_;
         std::vector<Entry> entries_;
     };
+
+    /** \brief Makes a \e Part with its defaults: what most entries of a registry do. */
+    template <class Part>
+    std::unique_ptr<Part> newPart()
+    {
+        return std::make_unique<Part>();
+    }
 }  // namespace parking::search

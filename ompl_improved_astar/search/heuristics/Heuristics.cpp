@@ -9,10 +9,11 @@ namespace parking::search
 {
     Registry<Heuristic> &heuristics()
     {
-        static Registry<Heuristic> registry("heuristic",
-                                            {{"curves", [] { return std::make_unique<CurveHeuristic>(); }},
-                                             {"straight", [] { return std::make_unique<StraightHeuristic>(); }},
-                                             {"octile", [] { return std::make_unique<OctileHeuristic>(); }}});
+        static Registry<Heuristic> registry("heuristic", {
+                                                             {"curves", newPart<CurveHeuristic>},
+                                                             {"straight", newPart<StraightHeuristic>},
+                                                             {"octile", newPart<OctileHeuristic>},
+                                                         });
         return registry;
     }
 }  // namespace parking::search

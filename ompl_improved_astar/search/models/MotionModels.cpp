@@ -8,27 +8,23 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        template <std::vector<GridStep> (*steps)()>
+        std::unique_ptr<MotionModel> newGrid()
+        {
+            return std::make_unique<GridModel>(steps());
+        }
+    }  // namespace
+
     Registry<MotionModel> &motionModels()
     {
-        static Registry<MotionModel> registry("motion_model", {{"car",
-                                                                []
-                                                                {
-                                                                    return std::make_unique<CarModel>();
-                                                                }},
-                                                               {"grid8",
-                                                                []
-                                                                {
-                                                                    return std::make_unique<GridModel>(grid8Steps());
-                                                                }},
-                                                               {"grid16",
-                                                                []
-                                                                {
-                                                                    return std::make_unique<GridModel>(grid16Steps());
-                                                                }},
-                                                               {"grid32", []
-                                                                {
-                                                                    return std::make_unique<GridModel>(grid32Steps());
-                                                                }}});
+        static Registry<MotionModel> registry("motion_model", {
+                                                                  {"car", newPart<CarModel>},
+                                                                  {"grid8", newGrid<grid8Steps>},
+                                                                  {"grid16", newGrid<grid16Steps>},
+                                                                  {"grid32", newGrid<grid32Steps>},
+                                                              });
         return registry;
     }
 

@@ -7,8 +7,10 @@ namespace parking::search
 {
     Registry<OpenList> &openLists()
     {
-        static Registry<OpenList> registry("open_list", {{"binary_heap", [] { return std::make_unique<BinaryHeap>(); }},
-                                                         {"linear", [] { return std::make_unique<LinearList>(); }}});
+        static Registry<OpenList> registry("open_list", {
+                                                            {"binary_heap", newPart<BinaryHeap>},
+                                                            {"linear", newPart<LinearList>},
+                                                        });
         return registry;
     }
 
