@@ -63,7 +63,7 @@ namespace ompl::geometric
         ~ImprovedAStar() override;
 
         /** \brief Throws ompl::Exception for a space that is not SE2, Reeds-Shepp or Dubins, and for a motion model
-           that does not go with it. */
+            that does not go with it. */
         void setup() override;
 
         /** \brief Another problem definition than before begins a new query. */
@@ -81,8 +81,8 @@ namespace ompl::geometric
             states stay valid until the query ends. */
         void getPlannerData(base::PlannerData &data) const override;
 
-        /** \brief What the planner goes by; by name in params() too. parking::parameterTable() tells what each means.
-         */
+        /** \brief What the planner goes by; by name in params() too. parking::parameterTable() tells what each
+            means. */
         const parking::PlannerParameters &parameters() const
         {
             return parameters_;
@@ -114,8 +114,7 @@ namespace ompl::geometric
         const std::string &reason() const;
 
         /** \brief Best cost over a bound that no path stays below, at least 1: see
-         * parking::search::Search::lowerBound().
-         */
+            parking::search::Search::lowerBound(). */
         double suboptimalityBound();
 
     private:

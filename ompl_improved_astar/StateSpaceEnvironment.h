@@ -15,8 +15,8 @@ namespace parking
     /** \brief How far apart the states of a path may be for the space's own interpolation to follow the path.
 
         Of straight lines and turns on the spot the ends suffice everywhere. Spaces of curves go from state to state
-       along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
-       arc and a line. */
+        along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
+        arc and a line. */
     struct StateSpacing
     {
         double onArcs{0.0};             ///< metres; 0 where the ends of short arcs suffice
@@ -30,7 +30,7 @@ namespace parking
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
         Motions are tried by asking for the validity of states along them; paths found are then put to the motion
-       validator, motion by motion, in the direction in which they will be driven. */
+        validator, motion by motion, in the direction in which they will be driven. */
     class StateSpaceEnvironment final : public search::MotionEnvironment
     {
     public:

@@ -26,8 +26,9 @@ namespace parking::search
         Frontier(const Frontier &) = delete;
         Frontier &operator=(const Frontier &) = delete;
 
-        /** \brief Forgets everything; memory is kept. \param turnsRatio each finer level gets so many times fewer turns
-         */
+        /** \brief Forgets everything; memory is kept.
+
+            \param turnsRatio each finer level gets so many times fewer turns */
         void begin(const std::string &openList, std::size_t levels, double turnsRatio);
 
         Side side() const

@@ -41,22 +41,21 @@ namespace parking::search
         virtual double roomAt(double x, double y) = 0;
 
         /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is
-         * up.
-         */
+            up. */
         virtual bool isPassable(const Pose &pose)
         {
             return isFree(pose);
         }
 
         /** \brief Did freeLength(), isPassable() or acceptPath() say less than they would have, because the time was
-           up? The search then comes back to what it was at. */
+            up? The search then comes back to what it was at. */
         virtual bool wasInterrupted() const
         {
             return false;
         }
 
         /** \brief Is the motion free along which position and heading change evenly: a straight line, a turn on the
-           spot, or both at once? \e from is known to be free, \e to may not be. */
+            spot, or both at once? \e from is known to be free, \e to may not be. */
         virtual bool isMotionFree(const Pose &from, const Pose &to) = 0;
 
         /** \brief Does isFree() depend on the heading? Not so for the paper's circle round the car. */

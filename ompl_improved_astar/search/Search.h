@@ -43,11 +43,11 @@ namespace parking::search
         once, is searched finely (after W. Du, F. Islam and M. Likhachev, "Multi-resolution A*", 2020).
 
         The more confined frontier gets most of the turns, and is guided round the obstacles. Frontiers are joined by
-       the model: from each expanded node to the other side's roots and to its best closed node (paper, section
+        the model: from each expanded node to the other side's roots and to its best closed node (paper, section
         "Bidirectional Search"), or where they meet in a cell.
 
         What is interchangeable is the motion model, the heuristic and the open list, each chosen by name. All costs
-       come from one CostModel. Equal inputs give equal outputs. Memory is kept between queries.
+        come from one CostModel. Equal inputs give equal outputs. Memory is kept between queries.
 
         When both heuristic weights are at most 1, estimates are lower bounds, nothing is pruned by more than them, and
         the search keeps account of what it drops: see lowerBound(). */
@@ -73,7 +73,7 @@ namespace parking::search
         }
 
         /** \brief Without any goal: searches for the free pose nearest to \e target, by distance between the rear
-           axles.
+            axles.
 
             run() then ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
         void setTarget(const Pose &target);
@@ -129,9 +129,9 @@ namespace parking::search
         /** \brief A cost that no solution of the discretised problem stays below.
 
             Always at least what the heuristics promise for the roots, which holds for any path that can be driven. When
-           the query was begun with both weights at most 1 it is the bound of the search, too: the least g + h of all
-           nodes that are open or were dropped (from a cell that another holds). It holds for every path made of the
-           motions from one end and one way that joins them with the other end. */
+            the query was begun with both weights at most 1 it is the bound of the search, too: the least g + h of all
+            nodes that are open or were dropped (from a cell that another holds). It holds for every path made of the
+            motions from one end and one way that joins them with the other end. */
         double lowerBound();
 
         /** \brief The path from a start to the node whose rear axle is nearest to that of \e target.

@@ -8,8 +8,8 @@ namespace parking::search
     /** \brief The constants that the search was tuned with, none of which changes what is found free.
 
         Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another
-       origin is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for
-       the time to the first solution and its length. */
+        origin is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for
+        the time to the first solution and its length. */
     struct SearchTuning
     {
         /** \name Motions of the car

@@ -130,12 +130,11 @@ namespace parking
         void extend(const Path &path);
 
         /** \brief The pieces from \e first to before \e last as a path of their own, from where the first of them
-         * begins.
-         */
+            begins. */
         Path part(std::size_t first, std::size_t last) const;
 
         /** \brief What is left of the path behind its first \e driven metres (0 to length()); the piece that is under
-           way there is cut. */
+            way there is cut. */
         Path rest(double driven) const;
 
         /** \brief The stretches in order. A turn on the spot belongs to the stretch that it precedes; one at the very

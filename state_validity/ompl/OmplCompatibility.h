@@ -53,8 +53,8 @@ namespace parking
             return (*kinds)[index];
         }
 
-        /** \brief The status of a problem without solution: INFEASIBLE where OMPL has it (1.6 and later), else TIMEOUT.
-         */
+        /** \brief The status of a problem without solution: INFEASIBLE where OMPL has it (1.6 and later), else
+            TIMEOUT. */
         template <class Status>
         auto infeasible(int /*preferred*/) -> decltype(Status(Status::INFEASIBLE))
         {

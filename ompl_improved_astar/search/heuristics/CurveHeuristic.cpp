@@ -22,8 +22,8 @@ namespace parking::search
         constexpr std::size_t SLOTS = 1u << 15;
 
         /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
-           bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
-           slot taken by another takes it over. */
+            bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
+            slot taken by another takes it over. */
         class Table
         {
         public:

@@ -12,10 +12,10 @@ namespace parking::search
         regard to obstacles.
 
         Poses are rounded to cells in the frame of the target, finer near it, and the length of each cell is computed
-       once, when first asked for: what a table made in advance for the vehicle would hold, without its seconds of
-       preparation. In units of the turning radius the table is the same for all vehicles: there is one for all objects
-       in all threads, which takes no locks. The values are those of the cells' centres and
-        therefore not a bound; lowerBound() is. */
+        once, when first asked for: what a table made in advance for the vehicle would hold, without its seconds of
+        preparation. In units of the turning radius the table is the same for all vehicles: there is one for all objects
+        in all threads, which takes no locks. The values are those of the cells' centres and therefore not a bound;
+        lowerBound() is. */
     class CurveHeuristic final : public Heuristic
     {
     public:

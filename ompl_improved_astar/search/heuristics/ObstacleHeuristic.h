@@ -20,8 +20,8 @@ namespace parking::search
         the area that is asked about, not with the map. Cells live in tiles that are made when first touched.
 
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
-       an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
-       of the disc by a factor of sqrt(2), where it slips past the corners of cells; see lowerBound(). */
+        an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
+        of the disc by a factor of sqrt(2), where it slips past the corners of cells; see lowerBound(). */
     class ObstacleHeuristic : public Heuristic
     {
     public:
@@ -43,8 +43,8 @@ namespace parking::search
         /** \brief Adds a target; only before the first question. */
         void addTarget(double x, double y);
 
-        /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when the stop function said
-            so; 0 when the grid does not reach far enough to tell. */
+        /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when the stop function
+            said so; 0 when the grid does not reach far enough to tell. */
         double distance(double x, double y);
 
         /** \brief distance(), less a cell for what the grid adds to it; 0 when there is no way. */
@@ -56,8 +56,8 @@ namespace parking::search
 
         bool provesUnreachable(const Pose &pose) override;
 
-        /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre of
-            a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
+        /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre
+            of a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
         Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal);
 
         /** \brief Cells settled. */

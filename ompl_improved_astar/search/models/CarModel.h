@@ -12,8 +12,8 @@ namespace parking::search
 
         Poses are exact; what is discretised is which of them are kept: cells of position and heading at a ladder of
         resolutions that halve from level to level. On each level a node is left by that level's step, and when it is
-        expanded for the first time also by motions up to just short of the first contact: in a slot that is what a driver
-        does, as far back as it goes, then full lock the other way.
+        expanded for the first time also by motions up to just short of the first contact: in a slot that is what a
+        driver does, as far back as it goes, then full lock the other way.
 
         Nodes are joined by Reeds-Shepp (or Dubins) curves, every word in the order of its cost until one is free. */
     class CarModel final : public MotionModel

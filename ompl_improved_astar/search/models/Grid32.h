@@ -6,7 +6,8 @@
 
 namespace parking::search
 {
-    /** \brief The sixteen neighbours and, between each two of them, a step of three cells: headings 7 to 11 degrees apart. */
+    /** \brief The sixteen neighbours and, between each two of them, a step of three cells: headings 7 to 11 degrees
+        apart. */
     inline std::vector<GridStep> grid32Steps()
     {
         std::vector<GridStep> steps = grid16Steps();

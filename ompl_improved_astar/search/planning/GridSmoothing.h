@@ -11,8 +11,8 @@ namespace parking::search
         The spline is checked pose by pose, and then motion by motion. Where it collides or turns more sharply than at
         \e turningRadius it follows the corners of the path.
 
-        \return whether \e path was replaced; not when it has no corner, nor when \e stop said so or a motion collides
-     */
+        \return whether \e path was replaced; not when it has no corner, nor when \e stop said so or a motion
+        collides */
     bool smoothGridPath(Path &path, MotionEnvironment &environment, double turningRadius, const StopFunction &stop);
 
     /** \brief Metres between states of a smoothed grid path that are joined by straight motions. */

@@ -19,8 +19,8 @@ namespace parking::search
         bool anytime{false};  ///< keep improving until stopped
     };
 
-    /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall end.
-     */
+    /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall
+        end. */
     using ImprovementFunction = std::function<bool(const Path &, double)>;
 
     /** \brief Plans paths: the search, the shortening of what it finds, and the improvement until stopped.
@@ -53,10 +53,10 @@ namespace parking::search
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
 
         /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
-           axles.
+            axles.
 
             Spends what is left of the time on a search of its own, unless there is none left or everything has been
-           seen from the start: then what the trees have seen has to do. \return false when there is no start */
+            seen from the start: then what the trees have seen has to do. \return false when there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         bool hasSolution() const

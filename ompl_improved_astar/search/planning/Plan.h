@@ -70,7 +70,7 @@ namespace parking::search
     /** \brief Plans in one call and without state: equal requests give equal results, from any thread.
 
         \e environment serves one call at a time. Paths of the grid models are not smoothed: see smoothGridPath().
-       Throws parking::Error for parameters out of range and for a request without start or goal. */
+        Throws parking::Error for parameters out of range and for a request without start or goal. */
     PlanResult plan(MotionEnvironment &environment, const PlanRequest &request);
 
     /** \brief Why a search has ended without a solution, in words. */

@@ -19,8 +19,8 @@ namespace
 {
     constexpr double STEP = 0.5;  // metres
 
-    /** Turns by an eighth of a circle or not at all, then drives a step; joined by a turn, a straight line and a turn.
-     */
+    /** Turns by an eighth of a circle or not at all, then drives a step; joined by a turn, a straight line and a
+        turn. */
     class TwoWheels final : public MotionModel
     {
     public:

@@ -31,8 +31,8 @@ namespace
     }
 
     /** The cheapest of all paths made of the car's motions from one end and a curve to the other end, by plain
-       Dijkstra: no heuristic, no cells; only nodes that are the same in all that matters are one. Nothing that costs as
-       much as \e known is looked at. Negative when there are too many nodes to tell. */
+        Dijkstra: no heuristic, no cells; only nodes that are the same in all that matters are one. Nothing that costs
+        as much as \e known is looked at. Negative when there are too many nodes to tell. */
     double cheapestOfAll(CarProblem &problem, SearchParameters parameters, Side side, double known)
     {
         parameters.cost.fullLockCurvature = 1.0 / parameters.turningRadius;

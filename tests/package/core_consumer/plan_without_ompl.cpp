@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
-#include <ompl_improved_astar/search/planning/PathPlanner.h>
 #include <ompl_improved_astar/search/planning/FootprintEnvironment.h>
+#include <ompl_improved_astar/search/planning/PathPlanner.h>
 #include <parking_geometry/Vehicle.h>
 #include <state_validity/FootprintChecker.h>
 
