@@ -17,13 +17,17 @@ namespace parking
     {
         constexpr double NO_LENGTH = 1e-6;  // metres; AIT* of OMPL 1.5 returns such paths as approximate solutions
 
-        /** What it means that nothing was found. Nobody knows of a planner that does not measure itself. */
-        PlanStatus withoutSolution(const MeasuredPlanner *measured)
+        /** What it means that nothing was found: what improved A* says itself; of others, whether they were stopped.
+            Nobody knows of a planner that does not measure itself. */
+        PlanStatus withoutSolution(const PreparedPlanner &prepared)
         {
-            return measured == nullptr || measured->wasStopped() ? PlanStatus::Timeout : PlanStatus::Infeasible;
+            bool gaveUp = prepared.measured != nullptr && !prepared.measured->wasStopped();
+            if (const auto *improved = dynamic_cast<const ompl::geometric::ImprovedAStar *>(prepared.planner.get()))
+                gaveUp = improved->outcome() == search::PlanOutcome::Infeasible;
+            return gaveUp ? PlanStatus::Infeasible : PlanStatus::Timeout;
         }
 
-        PlanStatus statusOf(ob::PlannerStatus status, const MeasuredPlanner *measured)
+        PlanStatus statusOf(ob::PlannerStatus status, const PreparedPlanner &prepared)
         {
             switch (static_cast<ob::PlannerStatus::StatusType>(status))
             {
@@ -36,7 +40,7 @@ namespace parking
                 case ob::PlannerStatus::INVALID_GOAL:
                     return PlanStatus::InvalidGoal;
                 default:
-                    return withoutSolution(measured);
+                    return withoutSolution(prepared);
             }
         }
 
@@ -118,7 +122,7 @@ namespace parking
             run.planningTime = std::max(0.0, run.planningTime - run.mapLoadingTime);
             run.firstSolutionTime = std::max(0.0, run.firstSolutionTime - run.mapLoadingTime);
         }
-        run.status = statusOf(status, prepared.measured);
+        run.status = statusOf(status, prepared);
         run.search = figuresOf(problem, *prepared.planner);
         const bool exact = run.status == PlanStatus::Exact;
         if (!exact && prepared.measured != nullptr)
@@ -131,13 +135,13 @@ namespace parking
             dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
         if (path == nullptr)
         {
-            run.status = withoutSolution(prepared.measured);
+            run.status = withoutSolution(prepared);
             return run;
         }
         PlannedPath planned = readPath(problem, *path, exact);
         if (!exact && planned.length < NO_LENGTH)
         {
-            run.status = withoutSolution(prepared.measured);
+            run.status = withoutSolution(prepared);
             return run;
         }
         run.goalDistance = distanceToGoals(problem.scenario(), planned.end);

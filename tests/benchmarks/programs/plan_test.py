@@ -124,6 +124,17 @@ class Bundled(ProgramTest):
         self.assertEqual(result['path'], [])
         self.assertIsNone(result['length_m'])
 
+    def test_no_way_is_not_a_lack_of_time(self):
+        # Walls all round the start.
+        self.write('walled.yaml', 'start: [0, 0, 0]\ngoal: [20, 0, 0]\npolygons: ['
+                   '[[-2, -2], [5, -2], [5, -1.9], [-2, -1.9]], [[-2, 1.9], [5, 1.9], [5, 2], [-2, 2]], '
+                   '[[-2, -2], [-1.9, -2], [-1.9, 2], [-2, 2]], [[4.9, -2], [5, -2], [5, 2], [4.9, 2]]]\n')
+        result = self.planned('walled.yaml', '--set', 'approximate=0', '--time-limit', 60, status=4)
+        self.assertEqual(result['status'], 'infeasible')
+        self.assertIn('obstacles are in the way', result['reason'])
+        stopped = self.planned('walled.yaml', '--set', 'approximate=0', '--time-limit', 1e-6, status=4)
+        self.assertEqual((stopped['status'], stopped['reason']), ('timeout', ''))
+
     def test_time_limit_of_planners_that_go_on_improving(self):
         result = self.planned(bundled('angled45'), '--planner', 'RRTstar', '--time-limit', 0.3, '--seed', 3)
         self.assertGreater(result['planning_time_ms'][0], 290.0)
