@@ -1,7 +1,7 @@
 #include "automatic_parking/ParkingPlanner.h"
 
-#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
@@ -147,28 +147,26 @@ namespace parking
             {
                 ++plan_.tries;
                 FootprintEnvironment environment(checker, scenario_.bounds, SWEEP_TOLERANCE);
-                search::PathPlannerParameters car;
-                car.search.turningRadius = radius;
-                car.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
-                car.search.low = scenario_.bounds.min;
-                car.search.high = scenario_.bounds.max;
-                car.search.cost = costModel(radius);
-                search::PathPlanner planner;
-                planner.begin(environment, car);
-                planner.addStart(scenario_.start);
-                for (const Pose &goal : goals)
-                    planner.addGoal(goal);
-                const auto stop = [&]
+                search::PlanRequest request;
+                request.starts = {scenario_.start};
+                request.goals = goals;
+                request.car = {radius, false, checker.vehicle().inscribedRadius(checker.margin()), scenario_.bounds.min,
+                               scenario_.bounds.max};
+                request.parameters.gearChangePenalty = parameters_.gearChangePenalty;
+                request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
+                request.parameters.clearanceWeight = parameters_.clearanceWeight;
+                request.parameters.approximate = false;
+                request.maxExpansions = expansions;
+                request.stop = [this, isLast = expansions == 0]
                 {
-                    return expansions == 0 ? isOver() : isLate() || planner.statistics().expanded >= expansions;
+                    return isLast ? isOver() : isLate();
                 };
-                planner.solve(stop, {});
-                const search::SearchStatistics statistics = planner.statistics();
-                plan_.search.expanded += statistics.expanded;
-                plan_.search.generated += statistics.generated;
-                plan_.search.connections += statistics.connections;
-                plan_.search.heuristicCells += statistics.heuristicCells;
-                return planner.hasSolution() ? planner.bestPath() : Path{};
+                search::PlanResult result = search::plan(environment, request);
+                plan_.search.expanded += result.statistics.expanded;
+                plan_.search.generated += result.statistics.generated;
+                plan_.search.connections += result.statistics.connections;
+                plan_.search.heuristicCells += result.statistics.heuristicCells;
+                return std::move(result.path);
             }
 
             Candidate byManoeuvre(const std::shared_ptr<const FootprintChecker> &checker, double radius,

@@ -1,7 +1,7 @@
 #include "automatic_parking/SlotPlanner.h"
 
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
-#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/text/Require.h"
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace parking
 {
@@ -60,31 +61,19 @@ namespace parking
         Path searchPath(const FootprintChecker &checker, const SearchTask &task)
         {
             FootprintEnvironment environment(checker, task.bounds, SWEEP_TOLERANCE);
-            search::PathPlannerParameters parameters;
-            parameters.search.turningRadius = task.radius;
-            parameters.search.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
-            parameters.search.bidirectional = task.bothSides;
-            parameters.search.searchFromGoal = false;
-            parameters.search.cost.gearChangePenalty = task.gearChange;
-            parameters.search.cost.steeringChangePenalty = STEERING_CHANGE;
-
-            Path path{task.from, {}};
-            search::PathPlanner planner;
-            planner.begin(environment, parameters);
-            if (!environment.isFree(task.from))
-                return path;
-            planner.addStart(task.from);
-            bool hasGoal = false;
-            for (const Pose &pose : task.to)
-                if (environment.isFree(pose))
-                {
-                    planner.addGoal(pose);
-                    hasGoal = true;
-                }
-            if (!hasGoal)
-                return path;
-            planner.solve([&] { return planner.statistics().expanded >= task.effort; }, nullptr);
-            return planner.hasSolution() ? planner.bestPath() : path;
+            search::PlanRequest request;
+            request.starts = {task.from};
+            request.goals = task.to;
+            request.car = {task.radius, false, checker.vehicle().inscribedRadius(checker.margin()), task.bounds.min,
+                           task.bounds.max};
+            request.parameters.bidirectional = task.bothSides;
+            request.parameters.searchFrom = "start";
+            request.parameters.gearChangePenalty = task.gearChange;
+            request.parameters.steeringChangePenalty = STEERING_CHANGE;
+            request.parameters.approximate = false;
+            request.maxExpansions = task.effort;
+            search::PlanResult result = search::plan(environment, request);
+            return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
         }
 
         bool isSame(const Pose &a, const Pose &b)

@@ -83,6 +83,11 @@ namespace parking::search
             result.reason = "no start is free of obstacles";
             return result;
         }
+        const StopFunction stop = [&]
+        {
+            return (request.maxExpansions > 0 && planner.statistics().expanded >= request.maxExpansions) ||
+                   (request.stop && request.stop());
+        };
         const bool hasGoal = addFree(request.goals, [&](const Pose &pose) { planner.addGoal(pose); });
         if (!hasGoal)
         {
@@ -91,7 +96,7 @@ namespace parking::search
             if (!request.parameters.approximate)
                 return result;
         }
-        else if (planner.solve(request.stop, request.improved) == PathPlanner::Outcome::Exhausted)
+        else if (planner.solve(stop, request.improved) == PathPlanner::Outcome::Exhausted)
         {
             result.outcome = PlanOutcome::Infeasible;
             result.reason = reasonOf(planner.search().exhaustion(), request.car);
@@ -113,8 +118,7 @@ namespace parking::search
                                                                     { return off(a) < off(b); }) -
                                                    request.goals.begin());
         }
-        else if (request.parameters.approximate &&
-                 planner.approximate(request.goals.front(), request.stop, result.path))
+        else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
         result.statistics = planner.statistics();
         result.loadingTime = planner.search().loadingTime();

@@ -8,6 +8,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ namespace parking::search
         CarInSpace car;
         PlannerParameters parameters;  ///< turning_radius among them is not looked at: car has it
         StopFunction stop;             ///< asked now and then; true ends planning
+        /** Planning ends after so many expansions, which depends on no clock; 0: it does not. */
+        std::uint64_t maxExpansions{0};
         ImprovementFunction improved;  ///< told of every improvement; may be empty
     };
 
