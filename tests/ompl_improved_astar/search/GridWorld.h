@@ -136,8 +136,8 @@ namespace parking_test
         return world;
     }
 
-    /** \brief The poses where the pieces of a path end; those on centres of cells exactly, so that rounding does not push
-        a diagonal step against the corner that it touches. */
+    /** \brief The poses where the pieces of a path end; those on centres of cells exactly, so that rounding does not
+       push a diagonal step against the corner that it touches. */
     inline std::vector<parking::Pose> posesOf(const parking::Path &path)
     {
         const auto snapped = [](double value)
