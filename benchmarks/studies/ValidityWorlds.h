@@ -1,8 +1,8 @@
 #pragma once
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/fcl/FclContactTest.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <cstddef>
 #include <memory>

@@ -1,11 +1,11 @@
 // How long manoeuvres and smoothing take. Every benchmark goes round a fixed set of random problems (one per
 // iteration), so that the mean is that of the set; counters say what came out of the whole set.
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 #include "parking_geometry/smoothing/PathSmoother.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <algorithm>
 #include <chrono>
@@ -37,7 +37,7 @@ namespace
             ParkingSlot slot = random.slot(car);
             slot.kind = kind;
             slot.entry = SlotEntry::Reverse;
-            slot.width = car.width + random.uniform(0.4, 0.8);
+            slot.width = car.width + random.between(0.4, 0.8);
             slot.lateralOffset = 0.0;
             slot.depth.reset();
             ReverseParkingOptions options;
@@ -79,9 +79,9 @@ namespace
             while (static_cast<int>(poles_.size()) < count)
             {
                 const Pose at = states[static_cast<std::size_t>(random.below(static_cast<int>(states.size())))].pose;
-                const double side = random.coin() ? 1.0 : -1.0;
-                const Pose pole = compose(at, {random.uniform(-car.rearOverhang, car.wheelbase + car.frontOverhang),
-                                               side * (0.5 * car.width + POLE + random.uniform(0.05, 0.65)), 0.0});
+                const double side = random.chance(0.5) ? 1.0 : -1.0;
+                const Pose pole = compose(at, {random.between(-car.rearOverhang, car.wheelbase + car.frontOverhang),
+                                               side * (0.5 * car.width + POLE + random.between(0.05, 0.65)), 0.0});
                 poles_.push_back({pole.x, pole.y});
                 if (!std::all_of(states.begin(), states.end(),
                                  [&](const PathState &state) { return distance(state.pose) > 0.02; }))

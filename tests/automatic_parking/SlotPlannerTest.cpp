@@ -2,10 +2,10 @@
 
 #include "automatic_parking/SlotPlanner.h"
 
+#include "benchmarks/worlds/PolygonOracle.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
-#include "tests/support/PolygonOracle.h"
 
 #include <cmath>
 #include <set>

@@ -7,9 +7,9 @@
 
 #include "automatic_parking/ParkingPlanner.h"
 
+#include "benchmarks/worlds/PolygonOracle.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/smoothing/SmoothPathChecks.h"
-#include "tests/support/PolygonOracle.h"
 #include "tests/support/ProblemFiles.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Random worlds: whatever the planner returns is judged by an oracle that has nothing of the project in it.
 
+#include "benchmarks/worlds/PolygonOracle.h"
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "tests/ompl_improved_astar/PlanningProblem.h"
-#include "tests/state_validity/RandomWorlds.h"
-#include "tests/support/PolygonOracle.h"
 
 #include <gtest/gtest.h>
 

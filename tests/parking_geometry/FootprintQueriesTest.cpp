@@ -1,7 +1,7 @@
 #include "parking_geometry/FootprintQueries.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -144,8 +144,8 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
         {
             const Pose near = dense[static_cast<std::size_t>(random.below(static_cast<int>(dense.size())))].pose;
             const Pose spot = compose(
-                near, {random.uniform(-2.0, 5.0), (random.coin() ? 1.0 : -1.0) * random.uniform(1.0, 3.0), 0.0});
-            obstacles.push_back(box(spot.x, spot.y, random.uniform(0.01, 0.3)));
+                near, {random.between(-2.0, 5.0), (random.chance(0.5) ? 1.0 : -1.0) * random.between(1.0, 3.0), 0.0});
+            obstacles.push_back(box(spot.x, spot.y, random.between(0.01, 0.3)));
         }
         const PolygonWorld world(car, obstacles);
         // Deeper than what a motion of 5 mm between two free poses may graze.

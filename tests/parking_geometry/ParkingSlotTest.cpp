@@ -1,8 +1,8 @@
 #include "parking_geometry/ParkingSlot.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 #include <limits>
@@ -161,7 +161,7 @@ TEST(SlotSurroundings, LeaveTheSlotAndTheAisleFree)
     {
         const Vehicle car = random.vehicle();
         const ParkingSlot slot = random.slot(car);
-        const double aisle = random.uniform(2.0, 8.0);
+        const double aisle = random.between(2.0, 8.0);
         const std::vector<Polygon> obstacles = slotSurroundings(slot, slot.side, aisle);
         ASSERT_GE(obstacles.size(), 3u);
         const auto covered = [&](double along, double across)
@@ -209,7 +209,7 @@ TEST(SlotSurroundings, RandomStartsAreJudgedLikeTheirFootprints)
     {
         const Vehicle car = random.vehicle();
         const ParkingSlot slot = random.slot(car);
-        const double aisle = random.uniform(3.0, 9.0);
+        const double aisle = random.between(3.0, 9.0);
         const Pose start = compose(slot.pose, random.pose(12.0));
         // Points all over the body, in the frame of the slot: none may lie in the slot, none beyond the aisle. A row
         // of points every few centimetres misses overlaps of less, so that only clear cases are judged.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 
@@ -59,28 +60,6 @@ namespace parking::test
         return result;
     }
 
-    /** Numbers that are the same with every standard library. */
-    class Random
-    {
-    public:
-        explicit Random(std::uint64_t seed) : engine_(seed)
-        {
-        }
-
-        double uniform(double low, double high)
-        {
-            return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-        }
-
-        int below(int n)
-        {
-            return static_cast<int>(engine_() % static_cast<std::uint64_t>(n));
-        }
-
-    private:
-        std::mt19937_64 engine_;
-    };
-
     /** What a Reeds-Shepp planner delivers: full-lock arcs and lines, with cusps. */
     inline Path randomReedsShepp(std::uint64_t seed, double length)
     {
@@ -91,13 +70,13 @@ namespace parking::test
         while (left > 0.0)
         {
             const double curvature = random.below(3) - 1;
-            const double piece = std::min(left, random.uniform(0.3, 5.0));
+            const double piece = std::min(left, random.between(0.3, 5.0));
             pieces.push_back({curvature, direction * piece});
             left -= piece;
             if (random.below(3) == 0)
                 direction = -direction;
         }
-        return arcs({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces);
+        return arcs({random.between(-5.0, 5.0), random.between(-5.0, 5.0), random.between(-PI, PI)}, pieces);
     }
 
     /** What a lattice planner with five steering angles delivers: arcs of half a metre. */
@@ -105,7 +84,7 @@ namespace parking::test
     {
         Random random(seed);
         const Vehicle vehicle;
-        Path path{{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, {}};
+        Path path{{random.between(-5.0, 5.0), random.between(-5.0, 5.0), random.between(-PI, PI)}, {}};
         int direction = 1, angle = random.below(5) - 2;
         for (double left = length; left > 0.0; left -= 0.5)
         {
@@ -130,20 +109,20 @@ namespace parking::test
         {
             if (random.below(3) == 0)
             {
-                pieces.push_back(straight(direction, random.uniform(0.5, 4.0)));
+                pieces.push_back(straight(direction, random.between(0.5, 4.0)));
             }
             else
             {
-                const double curvature = random.uniform(0.3, 1.0) * most * (random.below(2) == 0 ? 1.0 : -1.0);
-                pieces.push_back(clothoidTurn(direction, curvature, std::abs(curvature) * random.uniform(3.0, 9.0),
-                                              random.uniform(0.1, 3.0)));
+                const double curvature = random.between(0.3, 1.0) * most * (random.below(2) == 0 ? 1.0 : -1.0);
+                pieces.push_back(clothoidTurn(direction, curvature, std::abs(curvature) * random.between(3.0, 9.0),
+                                              random.between(0.1, 3.0)));
             }
             for (const PathPiece &piece : pieces.back())
                 left -= piece.driven();
             if (random.below(3) == 0)
                 direction = -direction;
         }
-        return smooth({random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-PI, PI)}, pieces);
+        return smooth({random.between(-5.0, 5.0), random.between(-5.0, 5.0), random.between(-PI, PI)}, pieces);
     }
 
     /** What a grid planner delivers: straight chords with turns on the spot between them.

@@ -1,7 +1,7 @@
 #include "state_validity/DistanceField.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
 #include "state_validity/FootprintChecker.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "state_validity/fcl/FclContactTest.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <filesystem>
 #include <limits>

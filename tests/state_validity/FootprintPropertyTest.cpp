@@ -2,8 +2,8 @@
 // agree for every pose that is not within a nanometre of contact.
 #include "state_validity/FootprintChecker.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/fcl/FclContactTest.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <gtest/gtest.h>
 

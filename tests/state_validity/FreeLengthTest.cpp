@@ -1,5 +1,5 @@
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/FootprintChecker.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <cmath>
 #include <iomanip>

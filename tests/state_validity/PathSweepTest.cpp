@@ -1,7 +1,7 @@
 #include "state_validity/PathSweep.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -27,10 +27,10 @@ namespace
         Path path{random.pose(5.0), {}};
         for (int i = 0; i < 4; ++i)
         {
-            path.append({random.uniform(-0.3, 0.3), random.uniform(-2.0, 2.0), random.uniform(-0.3, 0.3)});
-            path.append({random.uniform(-0.3, 0.3), random.uniform(-2.0, 2.0)});
-            if (turns && random.coin())
-                path.append(PathPiece::turnOnTheSpot(random.uniform(-0.5, 0.5)));
+            path.append({random.between(-0.3, 0.3), random.between(-2.0, 2.0), random.between(-0.3, 0.3)});
+            path.append({random.between(-0.3, 0.3), random.between(-2.0, 2.0)});
+            if (turns && random.chance(0.5))
+                path.append(PathPiece::turnOnTheSpot(random.between(-0.5, 0.5)));
         }
         return path;
     }
@@ -67,10 +67,10 @@ TEST(PathSweep, AgreesWithDenseSampling)
         for (int k = 0; k < 2; ++k)
         {
             const Pose near = poses[static_cast<std::size_t>(random.below(static_cast<int>(poses.size())))];
-            const Pose spot =
-                compose(near, {random.uniform(-2.0, 5.0),
-                               (random.coin() ? 1.0 : -1.0) * (0.5 * car.width + random.uniform(-0.05, 0.6)), 0.0});
-            obstacles.push_back(box(spot.x, spot.y, random.uniform(0.01, 0.1)));
+            const Pose spot = compose(
+                near, {random.between(-2.0, 5.0),
+                       (random.chance(0.5) ? 1.0 : -1.0) * (0.5 * car.width + random.between(-0.05, 0.6)), 0.0});
+            obstacles.push_back(box(spot.x, spot.y, random.between(0.01, 0.1)));
         }
         const PolygonWorld world(car, obstacles);
         const FootprintChecker checker(ObstacleSet::fromPolygons(obstacles, Bounds{{-100.0, -100.0}, {100.0, 100.0}}),

@@ -1,8 +1,8 @@
 #include "state_validity/SweptBox.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/EdgeIndex.h"
 #include "state_validity/SweepFront.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <algorithm>
 #include <cmath>

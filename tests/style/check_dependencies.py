@@ -23,7 +23,7 @@ MAY_INCLUDE = {
     f'{PLANNER}/search': [VALIDITY, GEOMETRY],
     TRACKING: [GEOMETRY],
     PIPELINE: LIBRARIES,
-    'benchmarks': LIBRARIES + ['tests'],  # micro-benchmarks measure on the random worlds of the tests
+    'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
     'tests': LIBRARIES + ['benchmarks', 'examples'],
 }

@@ -110,6 +110,7 @@ class ChecksTest(unittest.TestCase):
                 ('automatic_parking/Bad.cpp', '"benchmarks/Table.h"'),
                 ('benchmarks/comparison/Bad.cpp', '"benchmarks/programs/Options.h"'),
                 ('benchmarks/planners/Bad.cpp', '"benchmarks/problems/Problem.h"'),
+                ('benchmarks/studies/Bad.cpp', '"tests/RandomWorlds.h"'),
                 ('benchmarks/Bad.cpp', '"../state_validity/Checker.h"')):
             with self.subTest(f'{name} includes {included}'):
                 self.write(name, f'#pragma once\n#include {included}\n')

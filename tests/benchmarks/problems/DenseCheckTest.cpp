@@ -1,10 +1,10 @@
 // The second check of finished paths: against an exact polygon test, at hand-made touches, and on torn paths.
 
 #include "benchmarks/problems/DenseCheck.h"
+#include "benchmarks/worlds/PolygonOracle.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
-#include "tests/support/PolygonOracle.h"
 
 #include <gtest/gtest.h>
 

@@ -57,7 +57,7 @@ namespace parking_test
     inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10)
     {
         CarProblem problem{randomField(seed, boxes), {}, {}};
-        TestRandom random(seed + 1000);
+        Random random(seed + 1000);
         problem.starts.push_back(problem.world.freePose(random));
         problem.goals.push_back(problem.world.freePose(random));
         return problem;

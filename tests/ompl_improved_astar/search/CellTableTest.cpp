@@ -1,7 +1,7 @@
 // The hash table of cells, against std::unordered_map.
 
+#include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/containers/CellTable.h"
-#include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 using parking::search::CellTable;
-using parking_test::TestRandom;
+using parking_test::Random;
 
 TEST(CellTable, isEmptyAtFirst)
 {
@@ -20,7 +20,7 @@ TEST(CellTable, isEmptyAtFirst)
 
 TEST(CellTable, matchesUnorderedMapThroughGenerations)
 {
-    TestRandom random(3);
+    Random random(3);
     CellTable table;
     for (int generation = 0; generation < 20; ++generation)
     {

@@ -18,7 +18,7 @@ using namespace parking_test;
 
 namespace
 {
-    Path randomDrive(TestRandom &random, double radius, bool forwardOnly)
+    Path randomDrive(Random &random, double radius, bool forwardOnly)
     {
         Path path{random.poseIn(-5.0, 5.0), {}};
         const std::uint32_t count = 1 + random.index(6);
@@ -79,7 +79,7 @@ TEST(CurveHeuristic, exactIsTheShortestCurveToTheNearestTarget)
             const ReedsShepp curves(2.5, family);
             CurvesTo heuristic(curves);
             heuristic.reset(backwards);
-            TestRandom random(5);
+            Random random(5);
             std::vector<Pose> targets;
             for (int i = 0; i < 4; ++i)
             {
@@ -104,7 +104,7 @@ TEST(CurveHeuristic, exactIsNeverAboveTheLengthOfADrivablePath)
         for (const double radius : {0.2, 3.7, 10.0})
         {
             const ReedsShepp curves(radius, family);
-            TestRandom random(6);
+            Random random(6);
             for (int i = 0; i < 5000; ++i)
             {
                 const Path path = randomDrive(random, radius, family == CurveFamily::Dubins);
@@ -131,7 +131,7 @@ TEST(CurveHeuristic, approximateIsCloseToExactAtEveryScale)
         CurvesTo heuristic(curves);
         heuristic.reset(false);
         heuristic.addTarget({3.0 * radius, -2.0 * radius, 0.7});
-        TestRandom random(7);
+        Random random(7);
         double worst = 0.0, sum = 0.0;
         constexpr int COUNT = 20000;
         for (int i = 0; i < COUNT; ++i)
@@ -158,7 +158,7 @@ TEST(CurveHeuristic, approximateGivesTheSameAnswerHoweverOftenAndInWhateverOrder
         each->reset(false);
         each->addTarget({1.0, 2.0, 3.0});
     }
-    TestRandom random(8);
+    Random random(8);
     std::vector<Pose> poses;
     for (int i = 0; i < 40000; ++i)
         poses.push_back(random.poseIn(-100.0, 100.0));
@@ -184,7 +184,7 @@ TEST(CurveHeuristic, threadsThatFillTheTableTogetherGetTheSameValues)
                 CurvesTo heuristic(curves);
                 heuristic.reset(true);
                 heuristic.addTarget({1.0, 2.0, 3.0});
-                TestRandom random(10);
+                Random random(10);
                 for (int i = 0; i < COUNT; ++i)
                     mine.push_back(heuristic.estimate(random.poseIn(-40.0, 40.0)));
             });
@@ -196,7 +196,7 @@ TEST(CurveHeuristic, threadsThatFillTheTableTogetherGetTheSameValues)
     CurvesTo heuristic(curves);
     heuristic.reset(true);
     heuristic.addTarget({1.0, 2.0, 3.0});
-    TestRandom random(10);
+    Random random(10);
     for (int i = 0; i < COUNT; ++i)
     {
         const Pose pose = random.poseIn(-40.0, 40.0);
@@ -234,7 +234,7 @@ TEST(CurveHeuristic, forgetsValuesWithTheTargets)
     curves, radii, directions and targets have been asked for before. */
 TEST(CurveHeuristic, tabulatedLengthsAreThoseOfTheirOwnCurves)
 {
-    TestRandom random(9);
+    Random random(9);
     int wrong = 0, count = 0;
     for (int round = 0; round < 60; ++round)
     {
@@ -297,7 +297,7 @@ TEST(CostModel, curvesAndPathsCostTheSameAndNeverLessThanTheirLength)
 {
     DiscCarWorld world = randomField(1);
     const ReedsShepp curves(4.0);
-    TestRandom random(9);
+    Random random(9);
     std::vector<ReedsSheppCurve> candidates;
     for (int i = 0; i < 200; ++i)
     {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
-#include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ namespace parking_test
             return true;
         }
 
-        parking::Pose freePose(TestRandom &random)
+        parking::Pose freePose(Random &random)
         {
             for (;;)
             {
@@ -123,7 +123,7 @@ namespace parking_test
     /** \brief A field of 24 m with boxes thrown into it. */
     inline DiscCarWorld randomField(std::uint64_t seed, std::uint32_t count = 10)
     {
-        TestRandom random(seed);
+        Random random(seed);
         DiscCarWorld world({-12.0, -12.0, 12.0, 12.0});
         for (std::uint32_t i = 0; i < count; ++i)
         {

@@ -1,11 +1,11 @@
 // What the search asks of the world, answered by the footprint checker within the bounds of the state space, and by any
 // other checker.
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         DiscCarWorld world = randomField(seed);
-        TestRandom random(seed);
+        Random random(seed);
         std::vector<ReedsSheppCurve> candidates;
         for (int i = 0; i < 20; ++i)
         {

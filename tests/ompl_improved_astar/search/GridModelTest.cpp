@@ -68,7 +68,7 @@ TEST(GridModel, plainSearchFindsTheOptimum)
         {
             SCOPED_TRACE(seed);
             GridWorld world = randomGrid(seed, 0.1 + 0.3 * static_cast<double>(seed % 4) / 3.0);
-            TestRandom random(seed);
+            Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = plain(world);
             parameters.motionModel = sixteen ? "grid16" : "grid8";
@@ -94,7 +94,7 @@ TEST(GridModel, weightBoundsTheLength)
     for (std::uint64_t seed = 0; seed < 100; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.3);
-        TestRandom random(seed);
+        Random random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
         SearchParameters parameters = plain(world);
         parameters.weights = {2.0, 2.0, 5.0, 1e-3};
@@ -115,7 +115,7 @@ TEST(GridModel, weightsLessenTheExpansions)
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.15, 40);
-        TestRandom random(seed);
+        Random random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
         SearchParameters parameters = plain(world);
         plainly += solve(world, parameters, start, goal).statistics.expanded;
@@ -133,7 +133,7 @@ TEST(GridModel, bothWaysReachTheSame)
         {
             SCOPED_TRACE(seed);
             GridWorld world = randomGrid(seed, 0.25 + 0.15 * static_cast<double>(seed % 2), 14);
-            TestRandom random(seed);
+            Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = world.parameters();
             parameters.motionModel = sixteen ? "grid16" : "grid8";
@@ -176,7 +176,7 @@ TEST(GridModel, heapAndLinearListGiveTheSamePath)
         for (std::uint64_t seed = 0; seed < 60; ++seed)
         {
             GridWorld world = randomGrid(seed, 0.25, 24);
-            TestRandom random(seed);
+            Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = world.parameters();
             parameters.bidirectional = both;
@@ -198,7 +198,7 @@ TEST(GridModel, eagerLoadingGivesTheSamePathAndAsksForEveryCell)
                 SCOPED_TRACE(seed);
                 GridWorld world = randomGrid(seed, 0.2);
                 world.nose = nose;
-                TestRandom random(seed);
+                Random random(seed);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
                 SearchParameters parameters = world.parameters();
                 parameters.bidirectional = both;
@@ -278,7 +278,7 @@ TEST(GridModel, pathsAreFreeWhereTheHeadingMatters)
             {
                 SCOPED_TRACE(seed);
                 GridWorld world = randomGrid(seed, 0.15);
-                TestRandom random(seed);
+                Random random(seed);
                 world.nose = random.between(0.3, 1.5);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
                 SearchParameters parameters = world.parameters();
@@ -300,7 +300,7 @@ TEST(GridModel, stopsAndGoesOnToTheSamePath)
             for (std::uint64_t seed = 0; seed < 20; ++seed)
             {
                 GridWorld world = randomGrid(seed, 0.25, 40);
-                TestRandom random(seed);
+                Random random(seed);
                 const Pose start = world.freePose(random), goal = world.freePose(random);
                 SearchParameters parameters = world.parameters();
                 parameters.bidirectional = both;
@@ -401,7 +401,7 @@ TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
     {
         SCOPED_TRACE(seed);
         GridWorld world = randomGrid(seed, 0.25);
-        TestRandom random(seed);
+        Random random(seed);
         std::vector<Pose> starts, goals;
         Search grid;
         grid.begin(world, plain(world));
@@ -435,7 +435,7 @@ TEST(GridModel, oneObjectServesManyQueries)
     for (std::uint64_t seed = 0; seed < 30; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.2, 8 + static_cast<int>(seed));
-        TestRandom random(seed);
+        Random random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
         const Result fresh = solve(world, world.parameters(), start, goal);
         reused.begin(world, world.parameters());
@@ -452,7 +452,7 @@ TEST(GridModel, nodesFormTreesOfFreeEdges)
     for (std::uint64_t seed = 0; seed < 20; ++seed)
     {
         GridWorld world = randomGrid(seed, 0.2, 24);
-        TestRandom random(seed);
+        Random random(seed);
         const Pose start = world.freePose(random), goal = world.freePose(random);
         Search grid;
         grid.begin(world, world.parameters());

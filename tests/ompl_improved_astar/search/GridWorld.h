@@ -1,7 +1,7 @@
 #pragma once
 
+#include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/Search.h"
-#include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <cmath>
 #include <cstdint>
@@ -90,7 +90,7 @@ namespace parking_test
             return nose != 0.0;
         }
 
-        parking::Pose freePose(TestRandom &random) const
+        parking::Pose freePose(Random &random) const
         {
             for (;;)
             {
@@ -129,7 +129,7 @@ namespace parking_test
 
     inline GridWorld randomGrid(std::uint64_t seed, double density, int side = 16)
     {
-        TestRandom random(seed);
+        Random random(seed);
         GridWorld world(side, side);
         for (char &cell : world.blocked)
             cell = random.chance(density);

@@ -87,7 +87,7 @@ namespace
     /** A world whose outside is closed to discs of at least 1.5 cells. */
     DiscCarWorld smallWorld(std::uint64_t seed)
     {
-        TestRandom random(seed);
+        Random random(seed);
         DiscCarWorld world({-6.0, -6.0, 6.0, 6.0});
         for (int i = 0; i < 8; ++i)
         {
@@ -98,7 +98,7 @@ namespace
         return world;
     }
 
-    Eigen::Vector2d anywhere(TestRandom &random)
+    Eigen::Vector2d anywhere(Random &random)
     {
         const double x = random.between(-6.0, 6.0);
         return {x, random.between(-6.0, 6.0)};
@@ -195,7 +195,7 @@ TEST(ObstacleHeuristic, isDijkstrasDistance)
     {
         SCOPED_TRACE(seed);
         DiscCarWorld world = smallWorld(seed);
-        TestRandom random(seed + 100);
+        Random random(seed + 100);
         const double resolution = random.between(0.3, 0.6), radius = 1.6 * resolution;
         const Eigen::Vector2d toward = anywhere(random);
         std::vector<Eigen::Vector2d> targets;
@@ -219,7 +219,7 @@ TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
     {
         SCOPED_TRACE(seed);
         DiscCarWorld world = smallWorld(seed);
-        TestRandom random(seed);
+        Random random(seed);
         const Eigen::Vector2d toward = anywhere(random), target = anywhere(random);
         std::vector<Eigen::Vector2d> points;
         for (int i = 0; i < 60; ++i)
@@ -293,7 +293,7 @@ TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
         eager.load({-6.0, -6.0}, {6.0, 6.0});
         lazy.addTarget(5.0, 5.0);
         eager.addTarget(5.0, 5.0);
-        TestRandom random(seed);
+        Random random(seed);
         for (int i = 0; i < 100; ++i)
         {
             const Eigen::Vector2d p = anywhere(random);
@@ -309,7 +309,7 @@ TEST(ObstacleHeuristic, lowerBoundIsNeverAboveTheWayOfTheDisc)
     for (std::uint64_t seed = 0; seed < 25; ++seed)
     {
         DiscCarWorld world = smallWorld(seed);
-        TestRandom random(seed + 500);
+        Random random(seed + 500);
         const double radius = random.between(0.1, 0.7), resolution = random.between(0.15, 0.6);
         const Eigen::Vector2d target = anywhere(random), toward = anywhere(random);
         if (world.distanceFrom(target.x(), target.y()) < radius + 0.01)

@@ -1,7 +1,7 @@
 // The open list: its order, and that heap and linear list are the same but for their speed.
 
+#include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/openlists/OpenList.h"
-#include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 using namespace parking::search;
-using parking_test::TestRandom;
+using parking_test::Random;
 
 namespace
 {
@@ -45,7 +45,7 @@ TEST_P(OpenListOrder, isByFThenHThenInsertion)
 
 TEST_P(OpenListOrder, matchesASortedSetOnRandomPushesAndPops)
 {
-    TestRandom random(1);
+    Random random(1);
     const std::unique_ptr<OpenList> made = openLists().make(GetParam());
     OpenList &list = *made;
     std::set<std::tuple<double, double, std::uint32_t>> oracle;  // the node numbers rise with the insertions
@@ -73,7 +73,7 @@ TEST_P(OpenListOrder, matchesASortedSetOnRandomPushesAndPops)
 
 TEST_P(OpenListOrder, rekeySortsAnewAndDropsWhatItIsToldTo)
 {
-    TestRandom random(2);
+    Random random(2);
     const std::unique_ptr<OpenList> made = openLists().make(GetParam());
     OpenList &list = *made;
     for (std::uint32_t node = 0; node < 500; ++node)

@@ -18,7 +18,7 @@ namespace
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
     /** Drives about at random, free of obstacles. */
-    Path wander(DiscCarWorld &world, TestRandom &random, bool forwardOnly = false)
+    Path wander(DiscCarWorld &world, Random &random, bool forwardOnly = false)
     {
         Path path{world.freePose(random), {}};
         Pose pose = path.start;
@@ -48,7 +48,7 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
     {
         SCOPED_TRACE(seed);
         DiscCarWorld world = randomField(seed % 12);
-        TestRandom random(seed);
+        Random random(seed);
         const bool forwardOnly = seed % 3 == 0;
         const CurveChoice choice = seed % 2 == 0 ? CurveChoice::All : CurveChoice::Cheapest;
         const ReedsShepp curves(RADIUS, forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
@@ -68,7 +68,7 @@ TEST(PathShortener, makesPathsCheaperAndNothingElse)
         ++(changed ? shortened : kept);
 
         Path again = before;
-        TestRandom same(seed);
+        Random same(seed);
         wander(world, same, forwardOnly);
         const double sameSpacing = same.between(0.5, 3.0);
         PathShortener(world, curves, cost)
@@ -88,7 +88,7 @@ TEST(PathShortener, pricesClearanceAsTheWholePathDoes)
     {
         SCOPED_TRACE(seed);
         DiscCarWorld world = randomField(seed % 12);
-        TestRandom random(seed);
+        Random random(seed);
         const ReedsShepp curves(RADIUS);
         const CostModel cost = model(0.5, 2.0);
         Path path = wander(world, random);
@@ -116,7 +116,7 @@ TEST(PathShortener, triesOtherCurvesThanTheCheapestWhenAllowed)
     for (std::uint64_t seed = 0; seed < 60; ++seed)
     {
         DiscCarWorld world = randomField(seed % 12);
-        TestRandom random(seed);
+        Random random(seed);
         const ReedsShepp curves(RADIUS);
         const CostModel cost = model(1.0, 0.0);
         const Path path = wander(world, random);
@@ -135,7 +135,7 @@ TEST(PathShortener, triesOtherCurvesThanTheCheapestWhenAllowed)
 TEST(PathShortener, twoQuarterTurnsTheSameWayAreTheShortestCurve)
 {
     const ReedsShepp curves(RADIUS);
-    TestRandom random(4);
+    Random random(4);
     for (int i = 0; i < 20000; ++i)
     {
         const double gear = random.chance(0.5) ? 1.0 : -1.0;
@@ -215,7 +215,7 @@ TEST(PathShortener, stopsWhenTold)
     DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
-    TestRandom random(3);
+    Random random(3);
     const Path before = wander(world, random);
     Path path = before;
     PathShortener shortener(world, curves, cost);

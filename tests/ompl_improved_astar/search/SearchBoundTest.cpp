@@ -147,7 +147,7 @@ TEST(SearchBound, ofOneSideOnAGridIsTheOptimum)
         {
             SCOPED_TRACE(seed);
             GridWorld world = randomGrid(seed, 0.25);
-            TestRandom random(seed);
+            Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = unweighted(world.parameters());
             parameters.motionModel = model;
@@ -174,7 +174,7 @@ TEST(SearchBound, ofBothSidesOnAGridIsNeverAboveTheOptimum)
         {
             SCOPED_TRACE(seed);
             GridWorld world = randomGrid(seed, 0.3);
-            TestRandom random(seed);
+            Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = unweighted(world.parameters());
             parameters.heuristic = heuristic;

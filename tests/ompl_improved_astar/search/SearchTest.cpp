@@ -57,7 +57,7 @@ TEST(Search, pathsAreDrivableFreeAndCostWhatIsSaid)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
-        TestRandom random(seed);
+        Random random(seed);
         SearchParameters parameters = carParameters();
         parameters.steeringAngles = 3 + 2 * random.index(3);
         parameters.bidirectional = random.chance(0.5);
@@ -292,7 +292,7 @@ TEST(Search, joinsTheCheapestPairOfRootsInTheOpen)
     for (std::uint64_t seed = 0; seed < 40; ++seed)
     {
         SCOPED_TRACE(seed);
-        TestRandom random(seed);
+        Random random(seed);
         CarProblem problem{DiscCarWorld({-60.0, -60.0, 60.0, 60.0}), {}, {}};
         for (int i = 0; i < 3; ++i)
         {

@@ -1,7 +1,7 @@
 // The grid whose memory grows with the area that is touched.
 
+#include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
-#include "tests/ompl_improved_astar/TestRandom.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 using parking::search::TiledGrid;
-using parking_test::TestRandom;
+using parking_test::Random;
 
 namespace
 {
@@ -38,7 +38,7 @@ TEST(TiledGrid, containsExactlyItsReach)
 
 TEST(TiledGrid, matchesAMapAndForgetsOnClear)
 {
-    TestRandom random(4);
+    Random random(4);
     Grid grid;
     for (int round = 0; round < 5; ++round)
     {
@@ -76,7 +76,7 @@ TEST(TiledGrid, referencesHoldWhileOthersAreMade)
 
 TEST(TiledGrid, neighboursAreTheEightAroundRowByRow)
 {
-    TestRandom random(5);
+    Random random(5);
     Grid grid;
     const auto number = [](std::int32_t column, std::int32_t row)
     {

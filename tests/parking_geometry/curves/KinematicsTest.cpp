@@ -1,7 +1,7 @@
 #include "parking_geometry/curves/Kinematics.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "tests/parking_geometry/ExpectError.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -53,9 +53,9 @@ TEST(Kinematics, IntegrationSolvesThePapersEquations)
     for (int i = 0; i < 500; ++i)
     {
         const Vehicle car = random.vehicle();
-        const CarState state{random.pose(10.0), random.uniform(-2.5, 2.5)};
-        const double acceleration = random.uniform(-1.0, 1.0), duration = random.uniform(0.0, 4.0);
-        const double steering = random.uniform(-car.maxSteeringAngle, car.maxSteeringAngle);
+        const CarState state{random.pose(10.0), random.between(-2.5, 2.5)};
+        const double acceleration = random.between(-1.0, 1.0), duration = random.between(0.0, 4.0);
+        const double steering = random.between(-car.maxSteeringAngle, car.maxSteeringAngle);
         const CarState exact = integrate(state, car.wheelbase, acceleration, steering, duration);
         const CarState numeric = rungeKutta(state, car.wheelbase, acceleration, steering, duration);
         expectNear(exact.pose, numeric.pose, 1e-7);
@@ -70,9 +70,9 @@ TEST(Kinematics, IntegrationOfPartsIsThatOfTheWhole)
     RandomParking random(2);
     for (int i = 0; i < 100000; ++i)
     {
-        const CarState state{random.pose(10.0), random.uniform(-2.5, 2.5)};
-        const double a = random.uniform(-1.0, 1.0), first = random.uniform(0.0, 3.0), rest = random.uniform(0.0, 3.0);
-        const double steering = i % 10 == 0 ? 0.0 : random.uniform(-0.78, 0.78);
+        const CarState state{random.pose(10.0), random.between(-2.5, 2.5)};
+        const double a = random.between(-1.0, 1.0), first = random.between(0.0, 3.0), rest = random.between(0.0, 3.0);
+        const double steering = i % 10 == 0 ? 0.0 : random.between(-0.78, 0.78);
         const CarState whole = integrate(state, 2.8, a, steering, first + rest);
         const CarState parts = integrate(integrate(state, 2.8, a, steering, first), 2.8, a, steering, rest);
         ASSERT_NEAR(std::hypot(whole.pose.x - parts.pose.x, whole.pose.y - parts.pose.y), 0.0, 1e-11);
@@ -86,8 +86,8 @@ TEST(Kinematics, AllWheelsTurnAboutOnePointOnTheRearAxle)
     RandomParking random(3);
     for (int i = 0; i < 10000; ++i)
     {
-        const double wheelbase = random.uniform(1.8, 3.4), track = random.uniform(0.5, 0.65) * wheelbase;
-        const double steering = random.uniform(-0.7, 0.7);
+        const double wheelbase = random.between(1.8, 3.4), track = random.between(0.5, 0.65) * wheelbase;
+        const double steering = random.between(-0.7, 0.7);
         const WheelAngles wheels = frontWheelAngles(wheelbase, track, steering);
         const double radius = turningRadius(wheelbase, steering);
         // The normals of the wheels, from (wheelbase, +-track / 2), meet the rear axle's line at (0, radius).
@@ -118,7 +118,7 @@ TEST(Kinematics, TheBodyStaysBetweenTheSweptRadii)
     for (int i = 0; i < 1000; ++i)
     {
         const Vehicle car = random.vehicle();
-        const double radius = random.uniform(car.minTurningRadius(), 12.0);
+        const double radius = random.between(car.minTurningRadius(), 12.0);
         const SweptRadii radii = sweptRadii(car, radius);
         // Points round the outline, seen from the centre of a left turn at (0, radius).
         double least = 1e9, most = 0.0;
@@ -142,7 +142,7 @@ TEST(Kinematics, SharpnessIsWhatTheSteeringRateAllows)
     for (int i = 0; i < 10000; ++i)
     {
         const Vehicle car = random.vehicle();
-        const double speed = random.uniform(0.05, 2.5), angle = random.uniform(-0.7, 0.7);
+        const double speed = random.between(0.05, 2.5), angle = random.between(-0.7, 0.7);
         const double curvature = car.curvature(angle), sharpness = maxSharpness(car, speed, curvature);
         // A car that drives 1e-5 m at this sharpness turns its wheels at exactly its steering rate.
         const double distance = 1e-5;
@@ -161,8 +161,8 @@ TEST(Kinematics, ArcBetweenFindsTheArc)
     for (int i = 0; i < 100000; ++i)
     {
         const Pose from = random.pose(20.0);
-        const double curvature = i % 7 == 0 ? 0.0 : random.uniform(-0.5, 0.5);
-        const double length = random.uniform(-6.0, 6.0);
+        const double curvature = i % 7 == 0 ? 0.0 : random.between(-0.5, 0.5);
+        const double length = random.between(-6.0, 6.0);
         if (std::abs(curvature * length) > 0.99 * PI || std::abs(length) < 1e-3)
             continue;
         const Arc arc = arcBetween(from, advance(from, curvature, length));

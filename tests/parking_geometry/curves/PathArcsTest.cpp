@@ -1,6 +1,6 @@
 #include "parking_geometry/curves/PathArcs.h"
 
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "benchmarks/worlds/RandomParking.h"
 
 #include <cmath>
 
@@ -35,9 +35,9 @@ TEST(PathArcs, KeepToTheClothoidWithinTheDeviation)
     double worst = 0.0;
     for (int i = 0; i < 2000; ++i)
     {
-        const PathPiece piece(random.uniform(-0.4, 0.4), random.uniform(-3.0, 3.0), random.uniform(-1.0, 1.0));
+        const PathPiece piece(random.between(-0.4, 0.4), random.between(-3.0, 3.0), random.between(-1.0, 1.0));
         const Path path{random.pose(20.0), {piece}};
-        const double reach = random.uniform(0.5, 6.0), deviation = std::pow(10.0, random.uniform(-5.0, -2.0));
+        const double reach = random.between(0.5, 6.0), deviation = std::pow(10.0, random.between(-5.0, -2.0));
         double driven = 0.0;
         visitArcs(path, reach, deviation,
                   [&](const Pose &from, const PathPiece &arc)

@@ -2,7 +2,7 @@
 
 #include "parking_geometry/curves/Path.h"
 
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "benchmarks/worlds/RandomParking.h"
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ namespace
 
     PathPiece clothoid(RandomParking &random)
     {
-        return {random.uniform(-0.4, 0.4), random.uniform(-3.0, 3.0), random.uniform(-1.0, 1.0)};
+        return {random.between(-0.4, 0.4), random.between(-3.0, 3.0), random.between(-1.0, 1.0)};
     }
 
     PathPiece anyPiece(RandomParking &random)
@@ -33,14 +33,14 @@ namespace
         switch (random.below(8))
         {
             case 0:
-                return PathPiece::turnOnTheSpot(random.uniform(-PI, PI));
+                return PathPiece::turnOnTheSpot(random.between(-PI, PI));
             case 1:
-                return {random.uniform(-0.4, 0.4), 0.0};
+                return {random.between(-0.4, 0.4), 0.0};
             case 2:
-                return {0.0, random.uniform(-3.0, 3.0)};
+                return {0.0, random.between(-3.0, 3.0)};
             case 3:
             case 4:
-                return {random.uniform(-0.4, 0.4), random.uniform(-3.0, 3.0)};
+                return {random.between(-0.4, 0.4), random.between(-3.0, 3.0)};
             default:
                 return clothoid(random);
         }
@@ -85,7 +85,7 @@ TEST(PathPiece, WithoutSharpnessIsAnArc)
     for (int i = 0; i < 10000; ++i)
     {
         const Pose start = random.pose(5.0);
-        const double curvature = random.uniform(-0.5, 0.5), length = random.uniform(-9.0, 9.0);
+        const double curvature = random.between(-0.5, 0.5), length = random.between(-9.0, 9.0);
         const Pose arc = advance(start, curvature, length);
         ASSERT_EQ(gap(advance(start, PathPiece(Arc{curvature, length})), arc), 0.0);
         // Hardly any sharpness takes the other branch, and must agree.
@@ -132,7 +132,7 @@ TEST(Path, SamplesLieOnThePathAtMostAStepApart)
     for (int i = 0; i < 2000; ++i)
     {
         const Path path = anyPath(random);
-        const double step = random.uniform(0.03, 0.5);
+        const double step = random.between(0.03, 0.5);
         const SampledPath states = path.sample(step);
         EXPECT_LT(gap(states.front().pose, path.start), 1e-15);
         EXPECT_LT(gap(states.back().pose, path.end()), 1e-11);
@@ -251,7 +251,7 @@ TEST(Path, TheRestEndsWhereThePathDoes)
     for (int i = 0; i < 300; ++i)
     {
         const Path path = anyPath(random);
-        const double length = path.length(), driven = random.uniform(0.0, length);
+        const double length = path.length(), driven = random.between(0.0, length);
         const Path rest = path.rest(driven);
         EXPECT_NEAR(rest.length(), length - driven, 1e-9);
         EXPECT_LT(gap(rest.end(), path.end()), 1e-9);

@@ -1,9 +1,9 @@
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ TEST(MultiStretchParking, ExitsLieInTheAisleAndAlongIt)
         const Vehicle car = random.vehicle();
         const ParkingSlot slot = random.slot(car);
         ReverseParkingOptions options;
-        options.aisleWidth = random.uniform(3.0, 7.0);
+        options.aisleWidth = random.between(3.0, 7.0);
         const SlotExitTask task = slotExitTask(ReverseParking(car, options), slot, slot.entry, slot.side);
         EXPECT_LT(gap(task.parked, slot.goals(car).front()), 1e-12);
         ASSERT_FALSE(task.exits.empty());

@@ -1,8 +1,8 @@
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 #include <limits>
@@ -156,7 +156,7 @@ TEST(ReverseParkingLegality, TheNarrowestAisleAgreesWithBruteForceOnFootprints)
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
         slot.kind = i % 4 == 0 ? SlotKind::Perpendicular : SlotKind::Angled;
-        slot.angle = i % 4 == 1 ? random.uniform(0.8, 1.5) : random.uniform(0.3, 0.7);
+        slot.angle = i % 4 == 1 ? random.between(0.8, 1.5) : random.between(0.3, 0.7);
         const double needed = ReverseParking(car, grazing()).plan(slot).neededAisleWidth;
         EXPECT_NEAR(needed, narrowestAisle(slot, car), 1e-3) << i;
         // The verdict changes there, and the manoeuvre given just above is free.
@@ -178,8 +178,8 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotAgreesWithBruteForceOnFootpr
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
         slot.kind = SlotKind::Parallel;
-        slot.width = car.width + random.uniform(0.2, 1.2);
-        slot.lateralOffset = random.uniform(-0.3, 0.3) * (slot.width - car.width);
+        slot.width = car.width + random.between(0.2, 1.2);
+        slot.lateralOffset = random.between(-0.3, 0.3) * (slot.width - car.width);
         slot.entry = i % 6 == 5 ? SlotEntry::Forward : SlotEntry::Reverse;
         slot.depth.reset();
         if (i % 3 == 0)
@@ -202,9 +202,9 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotAgreesWithBruteForceOnFootpr
         const double out = 0.5 * slot.width - side * slot.lateralOffset + 0.5 * car.width;
         for (int k = 0; k < 1000; ++k)
         {
-            const double first = car.minTurningRadius() * std::exp(random.uniform(0.0, 2.0));
-            const double second = car.minTurningRadius() * std::exp(random.uniform(0.0, 3.0));
-            const double turn = random.uniform(0.05, 1.8);
+            const double first = car.minTurningRadius() * std::exp(random.between(0.0, 2.0));
+            const double second = car.minTurningRadius() * std::exp(random.between(0.0, 3.0));
+            const double turn = random.between(0.05, 1.8);
             if ((first + second) * (1.0 - std::cos(turn)) < out)
                 continue;
             ASSERT_FALSE(world.isPathFree(Path{shorter.goals(car).front(),
@@ -227,8 +227,8 @@ TEST(ReverseParkingLegality, TheShortestParallelSlotIsBracketedToAMillimetre)
         ParkingSlot slot = random.slot(car);
         slot.kind = SlotKind::Parallel;
         slot.entry = SlotEntry::Reverse;
-        slot.width = car.width + random.uniform(0.2, 1.2);
-        slot.lateralOffset = random.uniform(-0.3, 0.3) * (slot.width - car.width);
+        slot.width = car.width + random.between(0.2, 1.2);
+        slot.lateralOffset = random.between(-0.3, 0.3) * (slot.width - car.width);
         slot.depth.reset();
         const ReverseParkingResult verdict = ReverseParking(car, grazing()).plan(slot);
         if (verdict.neededSlotLength > 30.0 || verdict.neededSlotLength <= slot.length)
@@ -253,10 +253,10 @@ TEST(ReverseParkingLegality, LaneNeedOfParallelExitsIsSharp)
         slot.kind = SlotKind::Parallel;
         slot.depth.reset();
         slot.entry = SlotEntry::Reverse;
-        slot.width = car.width + random.uniform(0.3, 1.0);
+        slot.width = car.width + random.between(0.3, 1.0);
         slot.lateralOffset = 0.0;
         slot =
-            lengthened(slot, ReverseParking(car, grazing()).plan(slot).neededSlotLength + random.uniform(0.001, 8.0));
+            lengthened(slot, ReverseParking(car, grazing()).plan(slot).neededSlotLength + random.between(0.001, 8.0));
         const double lane = ReverseParking(car, grazing()).plan(slot).neededAisleWidth;
         const ReverseParkingResult below = ReverseParking(car, grazing(lane - 1e-4)).plan(slot);
         EXPECT_EQ(below.status, ReverseParkingStatus::AisleTooNarrow);

@@ -1,9 +1,9 @@
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 #include <limits>
@@ -54,10 +54,10 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
         if (slot.kind == SlotKind::Parallel)
-            slot = lengthened(slot, slot.length + random.uniform(0.0, 6.0));
+            slot = lengthened(slot, slot.length + random.between(0.0, 6.0));
         ReverseParkingOptions options;
-        options.clearance = random.coin() ? 0.0 : random.uniform(0.0, 0.1);
-        options.guardLength = random.uniform(0.0, 3.0);
+        options.clearance = random.chance(0.5) ? 0.0 : random.between(0.0, 0.1);
+        options.guardLength = random.between(0.0, 3.0);
         const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
         ASSERT_EQ(gap(result.goal, slot.goals(car).front()), 0.0);
         if (!result.fits())
@@ -106,8 +106,8 @@ TEST(ReverseParking, TheBodyStaysFreeAlongTheWholeManoeuvre)
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
         if (slot.kind == SlotKind::Parallel)
-            slot = lengthened(slot, slot.length + random.uniform(0.0, 6.0));
-        const ReverseParkingOptions options = grazing(random.uniform(2.0, 9.0), random.uniform(0.0, 4.0));
+            slot = lengthened(slot, slot.length + random.between(0.0, 6.0));
+        const ReverseParkingOptions options = grazing(random.between(2.0, 9.0), random.between(0.0, 4.0));
         const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
         if (!result.fits())
             continue;
@@ -155,7 +155,7 @@ TEST(ReverseParking, MirroredSlotsGiveMirroredManoeuvres)
         mirrored.side = slot.side == SlotSide::Left ? SlotSide::Right : SlotSide::Left;
         if (slot.kind == SlotKind::Parallel)
             slot.length = mirrored.length += 3.0;
-        const ReverseParking parking(car, grazing(random.uniform(3.0, 12.0)));
+        const ReverseParking parking(car, grazing(random.between(3.0, 12.0)));
         const ReverseParkingResult a = parking.plan(slot), b = parking.plan(mirrored);
         ASSERT_EQ(a.status, b.status);
         ASSERT_NEAR(a.missing, b.missing, 1e-9);
@@ -183,7 +183,7 @@ TEST(ReverseParking, MovedSlotsGiveMovedManoeuvres)
         const Pose motion = random.pose(100.0);
         ParkingSlot moved = slot;
         moved.pose = compose(motion, slot.pose);
-        const ReverseParking parking(car, grazing(random.uniform(3.0, 12.0)));
+        const ReverseParking parking(car, grazing(random.between(3.0, 12.0)));
         const ReverseParkingResult a = parking.plan(slot), b = parking.plan(moved);
         ASSERT_EQ(a.status, b.status);
         ASSERT_NEAR(a.missing, b.missing, 1e-9);

@@ -1,8 +1,8 @@
 #include "parking_geometry/manoeuvres/SlotExit.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -37,7 +37,7 @@ TEST(SlotExit, StraightPieceAndAisleOfBaysAreExactForEveryRadius)
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
         slot.kind = SlotKind::Angled;
-        slot.angle = i % 2 == 0 ? random.uniform(0.2, 0.7) : random.uniform(0.7, 0.5 * PI);
+        slot.angle = i % 2 == 0 ? random.between(0.2, 0.7) : random.between(0.7, 0.5 * PI);
         slot.pose = {};
         slot.side = SlotSide::Right;
         slot.entry = SlotEntry::Reverse;
@@ -46,7 +46,7 @@ TEST(SlotExit, StraightPieceAndAisleOfBaysAreExactForEveryRadius)
         const Bay bay{slot.angle, 0.5 * slot.length + lean - goal.x, 0.5 * slot.length - lean - goal.x,
                       0.5 * slot.width + goal.y, 0.5 * slot.width - goal.y};
         const ExitBody body{car.wheelbase + car.frontOverhang, car.rearOverhang, 0.5 * car.width};
-        const double radius = car.minTurningRadius() * std::exp(random.uniform(0.0, 1.5));
+        const double radius = car.minTurningRadius() * std::exp(random.between(0.0, 1.5));
         const auto out = [&](double straight)
         {
             return Path{goal, {{0.0, straight}, {-1.0 / radius, radius * slot.angle}, {0.0, 4.0}}};
@@ -73,7 +73,7 @@ TEST(SlotExit, LaneOfParallelExitsIsExactForAllRadii)
 {
     RandomParking random(62);
     int shallow = 0, deep = 0, turnedRound = 0;
-    for (int i = 0; i < 150; ++i)
+    for (int i = 0; i < 200; ++i)
     {
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
@@ -83,12 +83,12 @@ TEST(SlotExit, LaneOfParallelExitsIsExactForAllRadii)
         slot.entry = SlotEntry::Reverse;
         slot.depth.reset();
         slot.lateralOffset = 0.0;
-        slot.width = car.width + random.uniform(0.4, 1.2);
+        slot.width = car.width + random.between(0.4, 1.2);
         const ExitBody body{car.wheelbase + car.frontOverhang, car.rearOverhang, 0.5 * car.width};
         KerbSlot kerb{0.0, 0.5 * slot.width, 0.5 * (slot.width - car.width)};
         const double first =
-            std::max(car.minTurningRadius(), kerbRadius(kerb, body)) * std::exp(random.uniform(0.0, 2.0));
-        const double second = car.minTurningRadius() * std::exp(random.uniform(0.0, 2.8));
+            std::max(car.minTurningRadius(), kerbRadius(kerb, body)) * std::exp(random.between(0.0, 2.0));
+        const double second = car.minTurningRadius() * std::exp(random.between(0.0, 2.8));
         kerb.front = frontNeeded(kerb, body, first) + 1e-3;
         EXPECT_NEAR(cornerRadius({frontNeeded(kerb, body, first), kerb.aisleSide, kerb.kerbGap}, body), first, 1e-6);
         const double rear = car.centreOffset();

@@ -1,8 +1,8 @@
 #include "parking_geometry/smoothing/BsplineSmoother.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ namespace
         for (int i = 0; i < steps; ++i)
         {
             if (random.below(5) == 0)
-                heading += random.coin() ? 1 : -1;
+                heading += random.chance(0.5) ? 1 : -1;
             heading = std::clamp(heading, -2, 2);
             const double angle = 0.25 * PI * heading, length = heading % 2 == 0 ? 0.5 : 0.5 * std::sqrt(2.0);
             points.push_back(points.back() + length * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
@@ -139,7 +139,7 @@ TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
         for (int k = 0; k < 12; ++k)
         {
             const Eigen::Vector2d spot = points[static_cast<std::size_t>(random.below(60))] +
-                                         Eigen::Vector2d(random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8));
+                                         Eigen::Vector2d(random.between(-0.8, 0.8), random.between(-0.8, 0.8));
             if (distanceToPolyline(points, {spot.x(), spot.y(), 0.0}) < 0.52)
                 continue;
             const double r = 0.05;

@@ -1,11 +1,11 @@
 #include "parking_geometry/smoothing/PathSmoother.h"
 
+#include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
 #include "tests/parking_geometry/smoothing/SmoothPathChecks.h"
 
 #include <cmath>
@@ -40,9 +40,9 @@ namespace
         for (int i = 0; i < count; ++i)
         {
             const Pose at = states[static_cast<std::size_t>(random.below(static_cast<int>(states.size())))].pose;
-            const double side = random.coin() ? 1.0 : -1.0, radius = 0.2;
-            const Pose centre = compose(at, {random.uniform(-car.rearOverhang, car.wheelbase + car.frontOverhang),
-                                             side * (0.5 * car.width + radius + random.uniform(0.05, 0.3)), 0.0});
+            const double side = random.chance(0.5) ? 1.0 : -1.0, radius = 0.2;
+            const Pose centre = compose(at, {random.between(-car.rearOverhang, car.wheelbase + car.frontOverhang),
+                                             side * (0.5 * car.width + radius + random.between(0.05, 0.3)), 0.0});
             Polygon polygon;
             for (int k = 0; k < 5; ++k)
                 polygon.emplace_back(centre.x + radius * std::cos(0.4 * PI * k),
@@ -78,7 +78,7 @@ TEST(PathSmoother, PlannerPathsBecomeDrivable)
     {
         const Vehicle car = random.vehicle();
         SmoothingOptions options;
-        options.speed = random.uniform(0.3, 2.0);
+        options.speed = random.between(0.3, 2.0);
         const Path path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
@@ -159,8 +159,8 @@ TEST(PathSmoother, ManoeuvresIntoSlotsBecomeContinuous)
         slot.entry = SlotEntry::Reverse;
         slot.depth.reset();
         slot.lateralOffset = 0.0;
-        slot.length = car.length() + random.uniform(0.2, 0.8);
-        slot.width = car.width + random.uniform(0.4, 0.8);
+        slot.length = car.length() + random.between(0.2, 0.8);
+        slot.width = car.width + random.between(0.4, 0.8);
         ReverseParkingOptions options;
         if (slot.kind == SlotKind::Parallel)
             slot.length = ReverseParking(car, options).plan(slot).neededSlotLength + 1e-6;

@@ -1,6 +1,6 @@
 #include "parking_geometry/smoothing/StretchPart.h"
 
-#include "tests/parking_geometry/manoeuvres/RandomParking.h"
+#include "benchmarks/worlds/RandomParking.h"
 
 #include <cmath>
 

@@ -17,8 +17,8 @@ namespace parking::test
             double speed = problem.direction * problem.speed, steering = problem.last.steering;
             for (Eigen::Index k = 0; 2 * k < unknowns.size(); ++k)
             {
-                speed += random.uniform(-0.1, 0.1);
-                steering += random.uniform(-0.05, 0.05);
+                speed += random.between(-0.1, 0.1);
+                steering += random.between(-0.05, 0.05);
                 unknowns[2 * k] = speed;
                 unknowns[2 * k + 1] = steering;
             }

@@ -42,15 +42,15 @@ namespace parking::test
         const SpeedProfile profile(path, Vehicle());
         const auto leg = static_cast<std::size_t>(random.below(static_cast<int>(profile.reference().legs().size())));
         MpcProblem problem =
-            problemOn(profile, leg, random.uniform(0.0, profile.legDuration(leg)), mpc,
-                      {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)},
-                      random.uniform(-0.3, 0.3));
+            problemOn(profile, leg, random.between(0.0, profile.legDuration(leg)), mpc,
+                      {random.between(-0.1, 0.1), random.between(-0.1, 0.1), random.between(-0.1, 0.1)},
+                      random.between(-0.3, 0.3));
         if (seed % 4 == 1)
         {
-            problem.steeringLag = random.uniform(0.0, 0.3);
-            problem.driveLag = random.uniform(0.0, 0.3);
-            problem.acceleration = random.uniform(-0.5, 0.5);
-            problem.wheels += random.uniform(-0.05, 0.05);
+            problem.steeringLag = random.between(0.0, 0.3);
+            problem.driveLag = random.between(0.0, 0.3);
+            problem.acceleration = random.between(-0.5, 0.5);
+            problem.wheels += random.between(-0.05, 0.05);
         }
         problem.align = seed % 2 == 0;
         return problem;

@@ -95,11 +95,11 @@ namespace parking::test
                 for (int i = 0; i < 400; ++i)
                 {
                     Eigen::VectorXd other = best;
-                    const double size = std::pow(10.0, random.uniform(-4.0, -1.0));
+                    const double size = std::pow(10.0, random.between(-4.0, -1.0));
                     if (i % 4 == 0)
                         other -= size * gradient / gradient.norm();
                     for (Eigen::Index k = 0; k < other.size() && i % 4 != 0; ++k)
-                        other[k] += size * random.uniform(-1.0, 1.0);
+                        other[k] += size * random.between(-1.0, 1.0);
                     cutToLimits(limits, other);
                     cost.evaluate(other, residuals, nullptr);
                     EXPECT_GE(residuals.squaredNorm(), value * (1.0 - 5e-3) - 1e-6) << seed;

@@ -22,8 +22,8 @@ namespace parking::test
 
         HorizonLimits randomLimits(Random &random)
         {
-            const double speed = random.uniform(0.0, 2.5);
-            return limitsAfter(speed, random.uniform(-0.75, 0.75));
+            const double speed = random.between(0.0, 2.5);
+            return limitsAfter(speed, random.between(-0.75, 0.75));
         }
 
         bool feasible(const HorizonLimits &bounds, const Eigen::VectorXd &unknowns)
@@ -46,7 +46,7 @@ namespace parking::test
         {
             Eigen::VectorXd point(2 * STEPS);
             for (Eigen::Index i = 0; i < point.size(); ++i)
-                point[i] = bounds[static_cast<std::size_t>(i % 2)].last + random.uniform(-size, size);
+                point[i] = bounds[static_cast<std::size_t>(i % 2)].last + random.between(-size, size);
             return point;
         }
 
@@ -139,7 +139,7 @@ namespace parking::test
                 const HorizonLimits bounds = randomLimits(random);
                 Eigen::MatrixXd root(2 * STEPS, 2 * STEPS);
                 for (Eigen::Index i = 0; i < root.size(); ++i)
-                    root.data()[i] = random.uniform(-1.0, 1.0);
+                    root.data()[i] = random.between(-1.0, 1.0);
                 const Eigen::MatrixXd hessian =
                     root * root.transpose() + 0.3 * Eigen::MatrixXd::Identity(2 * STEPS, 2 * STEPS);
                 const Eigen::VectorXd linear = -hessian * randomPoint(random, bounds, 0.6);

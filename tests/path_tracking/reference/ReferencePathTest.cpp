@@ -164,9 +164,9 @@ namespace parking::test
                     const std::size_t leg =
                         static_cast<std::size_t>(random.below(static_cast<int>(reference.legs().size())));
                     const ReferenceLeg &l = reference.legs()[leg];
-                    const double s = random.uniform(l.beginLength, l.endLength);
+                    const double s = random.between(l.beginLength, l.endLength);
                     const Pose car =
-                        compose(reference.pose(leg, s), {0.0, random.uniform(-0.4, 0.4), random.uniform(-0.3, 0.3)});
+                        compose(reference.pose(leg, s), {0.0, random.between(-0.4, 0.4), random.between(-0.3, 0.3)});
                     const double from = s - 0.8, to = s + 0.8;
                     const PathProjection place = reference.project(leg, car, from, to);
                     double best = 1e9;

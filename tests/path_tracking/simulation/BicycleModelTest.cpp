@@ -32,9 +32,9 @@ namespace parking::test
             Random random(1);
             for (int i = 0; i < 100; ++i)
             {
-                const Pose start{0.0, 0.0, random.uniform(-PI, PI)};
-                const double speed = random.uniform(-2.5, 2.5), acceleration = random.uniform(-1.0, 1.0);
-                const double from = random.uniform(-0.7, 0.7), to = from + random.uniform(-0.05, 0.05);
+                const Pose start{0.0, 0.0, random.between(-PI, PI)};
+                const double speed = random.between(-2.5, 2.5), acceleration = random.between(-1.0, 1.0);
+                const double from = random.between(-0.7, 0.7), to = from + random.between(-0.05, 0.05);
                 const Pose expected = drive(start, speed, acceleration, from, to, 0.1);
                 const auto step = bicycleStep(start.yaw, speed, acceleration, from, to, 0.1, WHEELBASE);
                 EXPECT_NEAR(step.dx, expected.x, 1e-7);

@@ -1,7 +1,7 @@
 #include "state_validity/ompl/CircleValidityChecker.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/OmplPose.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <cmath>
 #include <limits>

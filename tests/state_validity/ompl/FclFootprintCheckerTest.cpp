@@ -1,7 +1,7 @@
 #include "state_validity/ompl/FclFootprintChecker.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/OmplPose.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <limits>
 #include <memory>

@@ -1,9 +1,9 @@
 // The promise of SweptMotionValidator, put to the oracle a hundred thousand times: no motion that it accepts touches an
 // obstacle, looked at every millimetre.
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <iomanip>
 #include <memory>

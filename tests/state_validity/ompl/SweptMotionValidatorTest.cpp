@@ -1,8 +1,8 @@
 #include "state_validity/ompl/SweptMotionValidator.h"
 
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <iomanip>
 #include <limits>

@@ -1,11 +1,11 @@
 // Const calls from several threads at once give what one thread gets; with the thread sanitizer this shows that they do
 // not race. The lists of edges are gathered and FCL's world is built while others ask for them.
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/ompl/CircleValidityChecker.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
-#include "tests/state_validity/RandomWorlds.h"
 
 #include <atomic>
 #include <memory>

@@ -1,54 +1,19 @@
 #pragma once
 
+#include "benchmarks/worlds/PolygonOracle.h"
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/Scenario.h"
 #include "state_validity/ObstacleSet.h"
-#include "tests/support/PolygonOracle.h"
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace parking_test
 {
-    /** \brief Random numbers that are the same on every machine: the standard library's distributions are not. */
-    class Random
-    {
-    public:
-        explicit Random(std::uint64_t seed) : engine_(seed)
-        {
-        }
-
-        double between(double low, double high)
-        {
-            return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
-        }
-
-        /** \brief 0 to count - 1. */
-        std::size_t index(std::size_t count)
-        {
-            return static_cast<std::size_t>(engine_() % count);
-        }
-
-        bool chance(double probability)
-        {
-            return between(0.0, 1.0) < probability;
-        }
-
-        /** \brief Any magnitude between the two, either sign. */
-        double magnitude(double smallest, double largest)
-        {
-            const double value = std::exp(between(std::log(smallest), std::log(largest)));
-            return chance(0.5) ? value : -value;
-        }
-
-    private:
-        std::mt19937_64 engine_;
-    };
-
     /** \brief A world with the oracle that judges it. */
     struct World
     {

@@ -2,16 +2,18 @@
 
 #include "parking_geometry/Pose.h"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 
 namespace parking_test
 {
-    /** \brief Random numbers that are the same with every standard library, unlike those of its distributions. */
-    class TestRandom
+    /** \brief Random numbers that are the same with every standard library: its distributions are not. */
+    class Random
     {
     public:
-        explicit TestRandom(std::uint64_t seed) : engine_(seed)
+        explicit Random(std::uint64_t seed) : engine_(seed)
         {
         }
 
@@ -21,9 +23,15 @@ namespace parking_test
         }
 
         /** \brief 0 to count - 1. */
-        std::uint32_t index(std::uint64_t count)
+        std::size_t index(std::size_t count)
         {
-            return static_cast<std::uint32_t>(engine_() % count);
+            return static_cast<std::size_t>(engine_() % count);
+        }
+
+        /** \brief 0 to count - 1, with a sign, to reckon with. */
+        int below(int count)
+        {
+            return static_cast<int>(index(static_cast<std::size_t>(count)));
         }
 
         bool chance(double probability)
@@ -34,6 +42,13 @@ namespace parking_test
         std::uint64_t bits()
         {
             return engine_();
+        }
+
+        /** \brief Any magnitude between the two, either sign. */
+        double magnitude(double smallest, double largest)
+        {
+            const double value = std::exp(between(std::log(smallest), std::log(largest)));
+            return chance(0.5) ? value : -value;
         }
 
         parking::Pose poseIn(double low, double high)
