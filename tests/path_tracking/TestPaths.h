@@ -6,11 +6,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace parking::test
 {
+    using parking_test::Random;
+
     /** A path of arcs. Curvatures as shares of the car's largest. */
     inline Path arcs(const Pose &start, const std::vector<Arc> &pieces, const Vehicle &vehicle = {})
     {

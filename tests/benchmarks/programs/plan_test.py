@@ -49,7 +49,8 @@ class Bundled(ProgramTest):
         self.assertAlmostEqual(length, result['length_m'], delta=1e-3)
         self.assertEqual(cusps, result['cusps'])
         self.assertTrue(result['recheck']['valid'], result['recheck'])
-        self.assertGreaterEqual(result['min_clearance_m'], 0.0)
+        # A path in touch with an obstacle would have none.
+        self.assertGreater(result['min_clearance_m'], 0.0)
 
     def test_every_problem_is_solved_exactly_but_the_unreachable_one(self):
         names = bundled_scenarios()
@@ -66,9 +67,11 @@ class Bundled(ProgramTest):
                 for field in ('wheelbase', 'front_overhang', 'rear_overhang', 'width', 'max_steering_angle'):
                     self.assertGreater(result['vehicle'][field], 0.0)
                 self.assertEqual(len(result['planning_time_ms']), 1)
-                self.assertGreaterEqual(result['map_loading_time_ms'], 0.0)
-                for count in ('expanded', 'generated', 'state_checks', 'exact_checks'):
-                    self.assertGreaterEqual(result['search'][count], 0)
+                self.assertGreater(result['map_loading_time_ms'], 0.0)
+                search = result['search']
+                for count in ('expanded', 'generated', 'state_checks'):
+                    self.assertGreater(search[count], 0, count)
+                self.assertLessEqual(search['exact_checks'], search['state_checks'])
                 self.check_path(result)
                 last = result['path'][-1]
                 ends = [{key: last[key] for key in ('x', 'y', 'yaw')}]
@@ -143,9 +146,11 @@ class Bundled(ProgramTest):
     def test_the_drive(self):
         result = self.planned(bundled('perpendicular'), '--track')
         self.assertEqual(result['tracking']['collisions'], 0)
-        for field in ('travel_time_s', 'mean_abs_acceleration', 'mean_abs_steering_deg', 'max_position_error_m',
-                      'final_position_error_m', 'final_yaw_error_rad'):
-            self.assertGreaterEqual(result['tracking'][field], 0.0)
+        for field, most in (('travel_time_s', 120.0), ('mean_abs_acceleration', 1.0), ('mean_abs_steering_deg', 45.0),
+                            ('max_position_error_m', 0.05), ('final_position_error_m', 0.05),
+                            ('final_yaw_error_rad', 0.02)):
+            self.assertGreater(result['tracking'][field], 0.0, field)
+            self.assertLess(result['tracking'][field], most, field)
         for field in ('median', 'p99', 'max'):
             self.assertGreater(result['tracking']['mpc_solve_ms'][field], 0.0)
         times = [point['t'] for point in result['trajectory']]
