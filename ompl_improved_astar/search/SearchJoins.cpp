@@ -45,7 +45,8 @@ namespace parking::search
             for (std::size_t i = 0; i < count; ++i)
                 path.append(pieces[i]);
             frontier(Side::Goal).appendToRoot(fromGoal, path);
-            if (!environment_->acceptPath(path))
+            // Where nodes meet in a cell, every motion has been checked by itself.
+            if (traits_.joinsAfar && !environment_->acceptPath(path))
                 return false;
             bestPath_ = std::move(path);
             bestCost_ = costBound_ = cost;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <string>
 
 #include <ompl/base/goals/GoalState.h>
@@ -224,10 +226,15 @@ namespace
         PlanningProblem problem(Space::SE2, openSite(15.0));
         problem.from(AISLE).to({{8.0, 5.0, 0.0}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_NE(problem.planner->solutionPath(), nullptr);
+        const auto turnsOnTheSpot = [&problem]
+        {
+            const std::vector<parking::PathPiece> &pieces = problem.planner->solutionPath()->pieces;
+            return std::any_of(pieces.begin(), pieces.end(), [](const auto &piece) { return piece.turn != 0.0; });
+        };
+        EXPECT_FALSE(turnsOnTheSpot());
         problem.set("motion_model", "grid8");
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_EQ(problem.planner->solutionPath(), nullptr);
+        EXPECT_TRUE(turnsOnTheSpot());
         EXPECT_GT(problem.planner->statistics().expanded, 0u);
     }
 
