@@ -20,11 +20,6 @@ namespace parking
             return formatNumber(std::round(value / unit) * unit);
         }
 
-        double distance(const Pose &a, const Pose &b)
-        {
-            return std::hypot(a.x - b.x, a.y - b.y);
-        }
-
         double yawBetween(const Pose &a, const Pose &b)
         {
             return std::abs(wrapAngle(a.yaw - b.yaw));
@@ -243,10 +238,10 @@ namespace parking
                 return true;
             }
             const Pose stands = drive.log.back().control.estimate;
-            if (distance(stands, goal_) > parameters_.goalTolerance ||
+            if (positionDistance(stands, goal_) > parameters_.goalTolerance ||
                 yawBetween(stands, goal_) > parameters_.goalYawTolerance)
             {
-                reason = "the car stands " + rounded(100.0 * distance(stands, goal_), 0.1) + " cm and " +
+                reason = "the car stands " + rounded(100.0 * positionDistance(stands, goal_), 0.1) + " cm and " +
                          rounded(yawBetween(stands, goal_) * 180.0 / PI, 0.1) + " degrees from the goal";
                 return false;
             }
@@ -263,7 +258,7 @@ namespace parking
             result_.evaluation = combined(drives);
             if (!drives.empty())
             {
-                result_.evaluation.finalPositionError = distance(truth, goal_);
+                result_.evaluation.finalPositionError = positionDistance(truth, goal_);
                 result_.evaluation.finalYawError = yawBetween(truth, goal_);
             }
             return std::move(result_);

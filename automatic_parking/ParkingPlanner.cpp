@@ -47,8 +47,7 @@ namespace parking
 
         bool isAt(const Pose &pose, const Pose &goal)
         {
-            return std::hypot(pose.x - goal.x, pose.y - goal.y) <= SAME &&
-                   std::abs(wrapAngle(pose.yaw - goal.yaw)) <= SAME;
+            return isSamePose(pose, goal, SAME);
         }
 
         /** A way from start to goal. */

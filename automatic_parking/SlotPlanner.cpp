@@ -24,6 +24,8 @@ namespace parking
         /** The search proves motions free up to this many metres from contact; its gap is smaller by as much. */
         constexpr double SWEEP_TOLERANCE = 1e-3;
 
+        constexpr double SAME_POSE = 1e-6;  // metres and radians
+
         /** In several stretches, metres of driving that a change of direction may save. */
         constexpr double GEAR_CHANGE = 4.0;
         constexpr double STEERING_CHANGE = 0.1;
@@ -74,11 +76,6 @@ namespace parking
             request.maxExpansions = task.effort;
             search::PlanResult result = search::plan(environment, request);
             return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
-        }
-
-        bool isSame(const Pose &a, const Pose &b)
-        {
-            return std::hypot(a.x - b.x, a.y - b.y) < 1e-6 && std::abs(wrapAngle(a.yaw - b.yaw)) < 1e-6;
         }
 
         Bounds boundsOf(const ObstacleSet &world)
@@ -268,10 +265,10 @@ namespace parking
         for (const ReverseParkingResult &sweep : found.sweeps)
             task.to.push_back(sweep.path.start);
         const Path approach = searchPath(planning, task);
-        if (!approach.pieces.empty() || isSame(start, task.to.front()))
+        if (!approach.pieces.empty() || isSamePose(start, task.to.front(), SAME_POSE))
         {
             for (const ReverseParkingResult &sweep : found.sweeps)
-                if (isSame(approach.end(), sweep.path.start))
+                if (isSamePose(approach.end(), sweep.path.start, SAME_POSE))
                 {
                     plan.manoeuvre = sweep;
                     break;

@@ -34,6 +34,13 @@ namespace parking
         return std::hypot(a.x - b.x, a.y - b.y);
     }
 
+    /** \brief Are the positions no farther apart than \e tolerance metres, and the headings than \e tolerance radians?
+        Full turns between the headings do not count. */
+    inline bool isSamePose(const Pose &a, const Pose &b, double tolerance)
+    {
+        return positionDistance(a, b) <= tolerance && std::abs(wrapAngle(a.yaw - b.yaw)) <= tolerance;
+    }
+
     /** \brief The pose \e local, given in the frame \e frame, expressed in the frame that \e frame is given in. */
     inline Pose compose(const Pose &frame, const Pose &local)
     {

@@ -22,7 +22,7 @@ namespace parking
     double CircleMotionValidator::freeShare(const ob::State *s1, const ob::State *s2) const
     {
         const Pose from = poseOf(s1), to = poseOf(s2);
-        const double length = std::hypot(to.x - from.x, to.y - from.y);
+        const double length = positionDistance(to, from);
         if (!std::isfinite(length))
             return 0.0;
         ob::ScopedState<> state(si_->getStateSpace());
@@ -58,7 +58,7 @@ namespace parking
         if (lastValid.second >= 1.0)  // only the end itself is not valid
         {
             const Pose from = poseOf(s1), to = poseOf(s2);
-            const double length = std::hypot(to.x - from.x, to.y - from.y);
+            const double length = positionDistance(to, from);
             lastValid.second = length > TOLERANCE ? 1.0 - TOLERANCE / length : 0.0;
         }
         si_->getStateSpace()->interpolate(s1, s2, lastValid.second, last.get());

@@ -269,8 +269,7 @@ namespace parking
         {
             const Pose &from = path[i - 1].pose, &to = path[i].pose;
             const double turn = wrapAngle(to.yaw - from.yaw);
-            const double length =
-                straight ? std::hypot(to.x - from.x, to.y - from.y) : path[i].arcLength - path[i - 1].arcLength;
+            const double length = straight ? positionDistance(to, from) : path[i].arcLength - path[i - 1].arcLength;
             const double curvature = path[i].curvature;
             const double moved = length + farthest_ * (straight ? std::abs(turn) : std::abs(curvature) * length);
             const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(moved / STEP)));
@@ -286,7 +285,7 @@ namespace parking
             if (straight)
                 continue;
             result.maxCurvature = std::max(result.maxCurvature, std::abs(curvature));
-            if (std::hypot(pose.x - to.x, pose.y - to.y) > JOINT || std::abs(wrapAngle(pose.yaw - to.yaw)) > JOINT)
+            if (!isSamePose(pose, to, JOINT))
                 fail("the path is torn", to);
             if (maxCurvature > 0.0 && std::abs(curvature) > CURVATURE * maxCurvature)
                 fail("curvature " + formatNumber(curvature) + " 1/m", to);

@@ -78,7 +78,7 @@ namespace parking
         {
             double least = std::numeric_limits<double>::infinity();
             for (const Pose &goal : scenario.goals)
-                least = std::min(least, std::hypot(goal.x - pose.x, goal.y - pose.y));
+                least = std::min(least, positionDistance(goal, pose));
             return least;
         }
     }  // namespace

@@ -82,7 +82,7 @@ namespace parking
             for (std::size_t i = 1; i < states.size(); ++i)
             {
                 const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
-                const double length = std::hypot(to.x - from.x, to.y - from.y);
+                const double length = positionDistance(to, from);
                 if (length < SHORTEST_PIECE)
                 {
                     turnTo(from.yaw, to.yaw);
@@ -116,7 +116,7 @@ namespace parking
             for (std::size_t i = 1; i < states.size(); ++i)
             {
                 const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
-                const double length = std::hypot(to.x - from.x, to.y - from.y);
+                const double length = positionDistance(to, from);
                 const double turn = wrapAngle(to.yaw - from.yaw);
                 if (length < SHORTEST_PIECE && std::abs(turn) < SHORTEST_PIECE)
                     continue;
@@ -228,8 +228,7 @@ namespace parking
         result.end = result.path.end();
         if (exact)
             for (const Pose &goal : scenario.goals)
-                if (std::hypot(goal.x - result.end.x, goal.y - result.end.y) < SAME &&
-                    std::abs(wrapAngle(goal.yaw - result.end.yaw)) < SAME)
+                if (isSamePose(goal, result.end, SAME))
                     result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
         // What the planner means, which on a plain SE2 space is not what a car does.
         SampledPath meant = straight ? chordPath(path) : result.path.sample(PlannedPath::SAMPLING);

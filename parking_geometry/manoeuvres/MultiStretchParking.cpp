@@ -18,11 +18,6 @@ namespace parking
 
         /** Between the body and the slots' mouths on the way along an aisle of unknown width, metres. */
         constexpr double BESIDE_SLOTS = 0.5;
-
-        bool isSame(const Pose &a, const Pose &b)
-        {
-            return std::hypot(a.x - b.x, a.y - b.y) <= SAME_POSE && std::abs(wrapAngle(a.yaw - b.yaw)) <= SAME_POSE;
-        }
     }  // namespace
 
     SlotExitTask slotExitTask(const ReverseParking &parking, const ParkingSlot &slot, SlotEntry entry, SlotSide side)
@@ -86,9 +81,10 @@ namespace parking
             if (out.pieces.empty())
                 continue;
             const Pose end = out.end();
-            if (!isSame(out.start, task.parked))
+            if (!isSamePose(out.start, task.parked, SAME_POSE))
                 throw Error("multi-stretch parking: the planner's path does not begin at the parked pose");
-            if (std::none_of(task.exits.begin(), task.exits.end(), [&](const Pose &exit) { return isSame(exit, end); }))
+            if (std::none_of(task.exits.begin(), task.exits.end(),
+                             [&](const Pose &exit) { return isSamePose(exit, end, SAME_POSE); }))
                 throw Error("multi-stretch parking: the planner's path does not end at one of the exits");
             if (!isPathFree(world, parking.vehicle(), out))
                 throw Error("multi-stretch parking: the planner's path is not free");

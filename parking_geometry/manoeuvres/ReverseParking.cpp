@@ -353,7 +353,7 @@ namespace parking
     Path joined(const Path &first, const Path &second)
     {
         const Pose meeting = first.end();
-        const double gap = std::hypot(second.start.x - meeting.x, second.start.y - meeting.y);
+        const double gap = positionDistance(second.start, meeting);
         const double turn = std::abs(wrapAngle(second.start.yaw - meeting.yaw));
         if (!(gap <= 1e-6 && turn <= 1e-6))
             throw Error("paths to be joined are " + formatNumber(gap) + " m and " + formatNumber(turn) +

@@ -124,8 +124,7 @@ namespace parking
                     {
                         states.push_back(state(polynomial, static_cast<double>(i) / static_cast<double>(count)));
                         if (i > 0)
-                            longest = std::max(longest, std::hypot(states[i].pose.x - states[i - 1].pose.x,
-                                                                   states[i].pose.y - states[i - 1].pose.y));
+                            longest = std::max(longest, positionDistance(states[i].pose, states[i - 1].pose));
                     }
                     if (longest <= 0.99 * step)
                         return states;
@@ -216,7 +215,7 @@ namespace parking
             const Pose &begin = states.front().pose, &end = states.back().pose;
             if (isStraight)  // however unevenly it moves with its parameter
                 return {{begin.x, begin.y, std::atan2(end.y - begin.y, end.x - begin.x)},
-                        {{0.0, std::hypot(end.x - begin.x, end.y - begin.y)}}};
+                        {{0.0, positionDistance(end, begin)}}};
             Path path{begin, {}};
             if (std::any_of(states.begin(), states.end(),
                             [&](const PathState &state) { return std::abs(state.curvature) > maxCurvature; }))
@@ -227,7 +226,7 @@ namespace parking
                 if (const std::optional<Path> arcs = biarc(from, to, 1))
                     path.extend(*arcs);
                 else
-                    path.append({0.0, std::hypot(to.x - from.x, to.y - from.y)});
+                    path.append({0.0, positionDistance(to, from)});
             }
             return path;
         }

@@ -194,7 +194,7 @@ namespace parking
         if (leg_ + 1 == profile_.reference().legs().size())
         {
             const Pose end = profile_.reference().end();
-            const double off = std::hypot(estimator_.pose().x - end.x, estimator_.pose().y - end.y);
+            const double off = positionDistance(estimator_.pose(), end);
             mode_ = off <= parameters_.arrivalTolerance ? TrackingMode::Arrived : TrackingMode::Stopped;
             if (mode_ == TrackingMode::Stopped)
                 step.event = "stopped " + formatNumber(std::round(100.0 * off)) + " cm from the end of the path";
@@ -265,8 +265,7 @@ namespace parking
         problem.direction = leg().direction;
         problem.steeringNow = profile_.reference().steering(leg_, profile_.at(leg_, clock_ + steeringLag_.lag()).s);
         const Pose goal = profile_.reference().end();
-        problem.align =
-            std::hypot(goal.x - estimator_.pose().x, goal.y - estimator_.pose().y) < parameters_.mpc.alignDistance;
+        problem.align = positionDistance(goal, estimator_.pose()) < parameters_.mpc.alignDistance;
         problem.reference.reserve(parameters_.mpc.horizon);
         for (std::size_t k = 1; k <= parameters_.mpc.horizon; ++k)
         {

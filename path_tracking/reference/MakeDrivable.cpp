@@ -24,14 +24,9 @@ namespace parking
         constexpr double BESIDE = 0.01;          ///< metres from a place that two gentle arcs make good
         constexpr double BESIDE_YAW = 0.03;      ///< radians likewise
 
-        double distance(const Pose &a, const Pose &b)
-        {
-            return std::hypot(a.x - b.x, a.y - b.y);
-        }
-
         bool apart(const Pose &a, const Pose &b, double most, double mostYaw)
         {
-            return distance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > mostYaw;
+            return positionDistance(a, b) > most || std::abs(wrapAngle(a.yaw - b.yaw)) > mostYaw;
         }
 
         bool isCorner(const PathPiece &piece)
@@ -201,8 +196,8 @@ namespace parking
                     if (std::abs(curve.pieces[i].length) > SHORTEST_PIECE)
                         path.append(curve.pieces[i]);
                 for (const PathState &state : path.sample(SHUNT_STEP))
-                    report_.deviation =
-                        std::max(report_.deviation, std::min(distance(state.pose, car_), distance(state.pose, pose)));
+                    report_.deviation = std::max(report_.deviation, std::min(positionDistance(state.pose, car_),
+                                                                             positionDistance(state.pose, pose)));
                 ++report_.shunts;
                 append(path);
             }

@@ -48,7 +48,7 @@ namespace parking
             /** One step of the plant, \e duration long, that ended in \e state; on leg \e leg near \e s. */
             void move(const Plant::State &state, double duration, std::size_t leg, double s, bool onLeg)
             {
-                const double driven = std::hypot(state.pose.x - last_.pose.x, state.pose.y - last_.pose.y);
+                const double driven = positionDistance(state.pose, last_.pose);
                 figures_.drivenLength += driven;
                 time_ += duration;
                 accelerationTime_ += duration * std::abs(state.acceleration);
@@ -97,10 +97,10 @@ namespace parking
                 if (legTime_ > 0.0)
                     figures_.meanCrossTrack = crossTrackTime_ / legTime_;
                 const Pose wanted = path.end();
-                figures_.finalPositionError = std::hypot(last_.pose.x - wanted.x, last_.pose.y - wanted.y);
+                figures_.finalPositionError = positionDistance(last_.pose, wanted);
                 figures_.finalYawError = std::abs(wrapAngle(last_.pose.yaw - wanted.yaw));
                 const Pose end = reference.end();
-                figures_.finalReferenceError = std::hypot(last_.pose.x - end.x, last_.pose.y - end.y);
+                figures_.finalReferenceError = positionDistance(last_.pose, end);
                 figures_.solves = solveTimes_.size();
                 figures_.solveTime = timeStatistics(std::move(solveTimes_));
                 return figures_;
@@ -119,7 +119,7 @@ namespace parking
             /** Metres that no point of the body moves farther than. */
             double bodyMotion(const Pose &from, const Pose &to) const
             {
-                return std::hypot(to.x - from.x, to.y - from.y) + reach_ * std::abs(wrapAngle(to.yaw - from.yaw));
+                return positionDistance(to, from) + reach_ * std::abs(wrapAngle(to.yaw - from.yaw));
             }
 
             const TrackingController &controller_;

@@ -6,6 +6,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
+#include "tests/support/PoseGap.h"
 
 #include <cmath>
 #include <set>
@@ -17,6 +18,7 @@
 
 using namespace parking;
 using parking_test::expectError;
+using parking_test::gap;
 using parking_test::PolygonOracle;
 
 namespace
@@ -56,11 +58,6 @@ namespace
             ASSERT_TRUE(oracle.isArcFree(pose, segment.curvature, segment.length, car, 0.002, margin));
             pose = advance(pose, segment.curvature, segment.length);
         }
-    }
-
-    double gap(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
     }
 
     /** A start in the middle of the aisle, \e along metres after the slot. */

@@ -89,8 +89,7 @@ TEST(FootprintQueries, WithoutClearancePosesAreAskedEvery10Centimetres)
     EXPECT_LT(asked.size(), 250u);
     for (const PathState &state : path.sample(0.01))
         EXPECT_TRUE(std::any_of(asked.begin(), asked.end(),
-                                [&](const Pose &pose)
-                                { return std::hypot(pose.x - state.pose.x, pose.y - state.pose.y) <= 0.05 + 1e-9; }));
+                                [&](const Pose &pose) { return positionDistance(pose, state.pose) <= 0.05 + 1e-9; }));
 }
 
 TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)

@@ -1,21 +1,18 @@
 #include "parking_geometry/curves/PathArcs.h"
 
 #include "benchmarks/worlds/RandomParking.h"
+#include "tests/support/PoseGap.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 using namespace parking;
+using parking_test::gap;
 using parking_test::RandomParking;
 
 namespace
 {
-    double gap(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
-
     /** Largest distance between the corners of a body that reaches \e reach metres ahead, at two poses. */
     double bodyGap(const Pose &a, const Pose &b, double reach)
     {
@@ -23,7 +20,7 @@ namespace
         for (const double ahead : {-reach, 0.0, reach})
         {
             const Pose p = compose(a, {ahead, 0.0, 0.0}), q = compose(b, {ahead, 0.0, 0.0});
-            most = std::max(most, std::hypot(p.x - q.x, p.y - q.y));
+            most = std::max(most, positionDistance(p, q));
         }
         return most;
     }

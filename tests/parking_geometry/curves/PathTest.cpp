@@ -3,26 +3,18 @@
 #include "parking_geometry/curves/Path.h"
 
 #include "benchmarks/worlds/RandomParking.h"
+#include "tests/support/PoseGap.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 using namespace parking;
+using parking_test::gap;
 using parking_test::RandomParking;
 
 namespace
 {
-    double distance(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y);
-    }
-
-    double gap(const Pose &a, const Pose &b)
-    {
-        return distance(a, b) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
-
     PathPiece clothoid(RandomParking &random)
     {
         return {random.between(-0.4, 0.4), random.between(-3.0, 3.0), random.between(-1.0, 1.0)};
@@ -74,7 +66,7 @@ TEST(PathPiece, WithSharpnessIsTheLimitOfManySmallArcs)
         for (int k = 0; k < ARCS; ++k)
             pose = advance(pose, piece.curvatureAt(std::abs(length) * (k + 0.5)), length);
         const Pose exact = advance(start, piece);
-        EXPECT_LT(distance(pose, exact), 1e-6);
+        EXPECT_LT(positionDistance(pose, exact), 1e-6);
         EXPECT_NEAR(pose.yaw, exact.yaw, 1e-9);
     }
 }
@@ -89,7 +81,7 @@ TEST(PathPiece, WithoutSharpnessIsAnArc)
         const Pose arc = advance(start, curvature, length);
         ASSERT_EQ(gap(advance(start, PathPiece(Arc{curvature, length})), arc), 0.0);
         // Hardly any sharpness takes the other branch, and must agree.
-        ASSERT_LT(distance(advance(start, PathPiece(curvature, length, 1e-14)), arc), 1e-10);
+        ASSERT_LT(positionDistance(advance(start, PathPiece(curvature, length, 1e-14)), arc), 1e-10);
     }
 }
 
@@ -100,7 +92,7 @@ TEST(PathPiece, DrivenBackEndsWhereItBegan)
     {
         const PathPiece piece = anyPiece(random), back = piece.reversed();
         const Pose start = random.pose(5.0), again = advance(advance(start, piece), back);
-        ASSERT_LT(distance(start, again), 1e-11);
+        ASSERT_LT(positionDistance(start, again), 1e-11);
         ASSERT_NEAR(start.yaw, again.yaw, 1e-12);
         ASSERT_EQ(back.direction(), -piece.direction());
         ASSERT_EQ(back.driven(), piece.driven());

@@ -1,6 +1,8 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
+#include "tests/support/PoseGap.h"
+
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
@@ -12,11 +14,7 @@
 namespace
 {
     using namespace parking;
-
-    double gap(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
+    using parking_test::gap;
 
     Pose drive(const Pose &from, const ReedsSheppCurve &curve)
     {

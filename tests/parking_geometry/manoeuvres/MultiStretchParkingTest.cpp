@@ -4,6 +4,7 @@
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/support/PoseGap.h"
 
 #include <cmath>
 
@@ -11,16 +12,9 @@
 
 using namespace parking;
 using parking_test::expectError;
+using parking_test::gap;
 using parking_test::PolygonWorld;
 using parking_test::RandomParking;
-
-namespace
-{
-    double gap(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
-}  // namespace
 
 TEST(MultiStretchParking, ExitsLieInTheAisleAndAlongIt)
 {

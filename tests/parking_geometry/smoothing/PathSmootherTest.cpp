@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 using namespace parking;
-using parking_test::distance;
 using parking_test::expectDrivable;
 using parking_test::expectError;
 using parking_test::gap;
@@ -219,7 +218,7 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
     FootprintQueries queries;
     queries.isFree = [&](const Pose &pose)
     {
-        return distance(pose, joint) > 2.0 ||
+        return positionDistance(pose, joint) > 2.0 ||
                std::any_of(states.begin(), states.end(),
                            [&](const PathState &state)
                            {
@@ -232,7 +231,7 @@ TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
     EXPECT_TRUE(result.free);
     ASSERT_GE(result.stops.size(), 1u);
     EXPECT_LE(result.stops.size(), 2u) << "the other end of that turn may have to keep its arcs as well";
-    EXPECT_LT(distance(result.path.part(result.stops.back(), result.path.pieces.size()).start, joint), 1e-9);
+    EXPECT_LT(positionDistance(result.path.part(result.stops.back(), result.path.pieces.size()).start, joint), 1e-9);
     // Far from it nothing has changed.
     const std::size_t openPieces = open.path.pieces.size(), pieces = result.path.pieces.size();
     for (const std::size_t i : {std::size_t{20}, std::size_t{80}})
@@ -347,7 +346,7 @@ TEST(PathSmoother, SlowerTransitionsDeviateLess)
         {
             double nearest = 1e9;
             for (const PathState &arc : arcs)
-                nearest = std::min(nearest, distance(state.pose, arc.pose));
+                nearest = std::min(nearest, positionDistance(state.pose, arc.pose));
             deviation = std::max(deviation, nearest);
         }
         EXPECT_LT(deviation, last);

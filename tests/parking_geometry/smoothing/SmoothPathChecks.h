@@ -1,6 +1,7 @@
 #pragma once
 
 #include "parking_geometry/smoothing/PathSmoother.h"
+#include "tests/support/PoseGap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +12,6 @@
 namespace parking_test
 {
     using namespace parking;
-
-    inline double distance(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y);
-    }
-
-    inline double gap(const Pose &a, const Pose &b)
-    {
-        return distance(a, b) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
 
     /** Poses where \e path begins, where its stretches meet, and where it ends. */
     inline std::vector<Pose> posesOfStretches(const Path &path)

@@ -1,21 +1,15 @@
 #include "parking_geometry/smoothing/StretchPart.h"
 
 #include "benchmarks/worlds/RandomParking.h"
+#include "tests/support/PoseGap.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 using namespace parking;
+using parking_test::gap;
 using parking_test::RandomParking;
-
-namespace
-{
-    double gap(const Pose &a, const Pose &b)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) + std::abs(wrapAngle(a.yaw - b.yaw));
-    }
-}  // namespace
 
 TEST(StretchPart, PartsAndCutsKeepPosesAndLengths)
 {

@@ -173,7 +173,7 @@ namespace parking::test
                     for (double t = std::max(from, l.beginLength); t <= std::min(to, l.endLength); t += 0.001)
                     {
                         const Pose pose = reference.pose(leg, t);
-                        best = std::min(best, std::hypot(pose.x - car.x, pose.y - car.y));
+                        best = std::min(best, positionDistance(pose, car));
                     }
                     EXPECT_LE(place.distance, best + 1e-3);
                     const Pose offset = relativeTo(reference.pose(leg, place.s), car);
