@@ -13,8 +13,6 @@ namespace parking
 {
     namespace
     {
-        constexpr double LOOK_BACK = 0.1;  // metres of path behind the car that still count as being before it
-
         std::string rounded(double value, double unit)
         {
             return formatNumber(std::round(value / unit) * unit);
@@ -29,8 +27,7 @@ namespace parking
         {
             return a.goals.size() == b.goals.size() &&
                    std::equal(a.goals.begin(), a.goals.end(), b.goals.begin(),
-                              [](const Pose &one, const Pose &other)
-                              { return one.x == other.x && one.y == other.y && one.yaw == other.yaw; });
+                              [](const Pose &one, const Pose &other) { return isSamePose(one, other, 0.0); });
         }
     }  // namespace
 
@@ -43,6 +40,7 @@ namespace parking
         require.positive("replanHeadingError", replanHeadingError);
         require.positive("goalTolerance", goalTolerance);
         require.positive("goalYawTolerance", goalYawTolerance);
+        require.notNegative("lookBack", lookBack);
     }
 
     /** One call of park(): the world as it is now, and what has been driven so far. */
@@ -79,6 +77,12 @@ namespace parking
                     break;
                 }
                 goal_ = leg.plan.goal;
+                if (leg.plan.path.pieces.empty())
+                {
+                    result_.legs.push_back(std::move(leg));
+                    stay(truth);
+                    break;
+                }
                 const bool driven = drive(leg, truth, count);
                 result_.legs.push_back(std::move(leg));
                 if (!driven)
@@ -137,6 +141,20 @@ namespace parking
         {
             result_.status = status;
             result_.message = message;
+        }
+
+        /** The car stands at the goal already: there is nothing to drive. */
+        void stay(const Pose &truth)
+        {
+            TrajectoryPoint point;
+            point.t = time_;
+            point.x = truth.x;
+            point.y = truth.y;
+            point.yaw = truth.yaw;
+            point.steering = steering_;
+            if (result_.trajectory.empty())
+                result_.trajectory = {point, point};  // begin and end, so that it can be drawn as any other
+            finish(ParkingStatus::Parked, "parked");
         }
 
         /** Drives the plan of \e leg; false when it cannot be driven. */
@@ -216,7 +234,7 @@ namespace parking
             scenario_ = std::move(changed);
             if (moved)
                 cause_ = "the goal has changed";
-            else if (!world_.isFree(path.rest(std::max(0.0, s - LOOK_BACK))))
+            else if (!world_.isFree(path.rest(std::max(0.0, s - parameters_.lookBack))))
                 cause_ = "the map has changed";
         }
 
@@ -256,7 +274,7 @@ namespace parking
                 if (!leg.drive.trajectory.empty())
                     drives.push_back(leg.drive.evaluation);
             result_.evaluation = combined(drives);
-            if (!drives.empty())
+            if (!result_.trajectory.empty())
             {
                 result_.evaluation.finalPositionError = positionDistance(truth, goal_);
                 result_.evaluation.finalYawError = yawBetween(truth, goal_);

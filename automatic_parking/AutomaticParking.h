@@ -26,6 +26,7 @@ namespace parking
         double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
         double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
+        double lookBack{0.1};             ///< metres of path behind the car that a changed map must leave free, too
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
@@ -37,7 +38,7 @@ namespace parking
         std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
         double begin{0.0};   ///< seconds since the first command
         ParkingPlan plan;
-        DriveResult drive;  ///< empty when there was nothing to drive
+        DriveResult drive;  ///< empty when there was nothing to drive: no plan, or the car stands at the goal
     };
 
     /** \brief What came of parking; every stage's output is kept. */
@@ -46,9 +47,10 @@ namespace parking
         ParkingStatus status{ParkingStatus::NoPath};
         std::string message;           ///< one line
         std::vector<ParkingLeg> legs;  ///< a plan each; more than one after replanning
-        Trajectory trajectory;         ///< of all drives, time running on; the car plans in no time
-        Evaluation evaluation;         ///< of all drives together, final errors against the goal
-        double planningTime{0.0};      ///< seconds, all plans
+        /** Of all drives, time running on; the car plans in no time. Of a car that stays: its pose, twice. */
+        Trajectory trajectory;
+        Evaluation evaluation;     ///< of all drives together, final errors against the goal
+        double planningTime{0.0};  ///< seconds, all plans
 
         bool parked() const
         {

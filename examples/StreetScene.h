@@ -1,13 +1,12 @@
 #pragma once
 
-#include "automatic_parking/SlotPlanner.h"
+#include "automatic_parking/ParkingPlanner.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/drawing/SvgFigure.h"
 #include "parking_geometry/drawing/SvgScenario.h"
 #include "parking_geometry/text/Text.h"
-#include "state_validity/ObstacleSet.h"
 
 #include <cmath>
 #include <string>
@@ -51,13 +50,14 @@ namespace parking_examples
             scenario_.polygons.push_back({{minX, minY}, {maxX, minY}, {maxX, maxY}, {minX, maxY}});
         }
 
-        parking::ObstacleSet world() const
+        /** \brief What the planner is asked. */
+        const parking::Scenario &problem() const
         {
-            return parking::ObstacleSet::fromScenario(scenario_);
+            return scenario_;
         }
 
         /** \brief Map with the car along its way, and its curvature below. */
-        void draw(const parking::SlotPlan &plan, const std::string &title, const std::string &subtitle,
+        void draw(const parking::ParkingPlan &plan, const std::string &title, const std::string &subtitle,
                   const std::string &file) const
         {
             // Finely, since the curvature changes linearly between the states.

@@ -43,10 +43,9 @@ int main(int argc, char **argv)
         scene.addWall(-14.0, -mouth - 0.4, 14.0, -mouth - 0.1);
         scene.addWall(-14.0, mouth + aisle, 14.0, mouth + aisle + 0.4);
 
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = aisle;
-        const SlotPlan plan = SlotPlanner(car, options).plan(slot, start, scene.world());
-        if (!plan.solved)
+        const PlanningParameters parameters = PlanningParameters::intoTightSlots(aisle);
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scene.problem());
+        if (!plan.found)
         {
             std::cerr << plan.message << '\n';
             return 1;
@@ -54,8 +53,8 @@ int main(int argc, char **argv)
         ParkingSlot reverse = slot;
         reverse.entry = SlotEntry::Reverse;
         std::cout << "forwards: an aisle of " << inMetres(plan.manoeuvre.neededAisleWidth) << " would do; in reverse: "
-                  << inMetres(ReverseParking(car, options.sweep).plan(reverse).neededAisleWidth) << "; "
-                  << plan.path.stretches().size() << " stretches, " << inMetres(plan.smooth.path.length())
+                  << inMetres(ReverseParking(car, parameters.sweep).plan(reverse).neededAisleWidth) << "; "
+                  << plan.arcs.stretches().size() << " stretches, " << inMetres(plan.smooth.path.length())
                   << " in all\n";
         scene.draw(plan, "Angled parking, nose first", "Toyota Corolla into a stall at 60 degrees", file);
         return plan.smooth.free ? 0 : 1;

@@ -1,5 +1,6 @@
 // A slot only 30 cm wider than the car on an aisle of 4.5 m: no single sweep gets in, several stretches do.
 
+#include "automatic_parking/SlotQuestions.h"
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"
 
@@ -29,21 +30,20 @@ int main(int argc, char **argv)
         scene.addWall(-0.5 * slot.width, -2.8, 0.5 * slot.width, -2.5);
         scene.addWall(-14.0, 2.5 + aisle, 14.0, 2.9 + aisle);
 
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = aisle;
-        const SlotPlanner planner(car, options);
-        std::cout << "one sweep: " << ReverseParking(car, options.sweep).plan(slot).message << '\n';
-        const SlotPlan plan = planner.plan(slot, start, scene.world());
-        if (!plan.solved)
+        PlanningParameters parameters = PlanningParameters::intoTightSlots(aisle);
+        std::cout << "one sweep: " << ReverseParking(car, parameters.sweep).plan(slot).message << '\n';
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scene.problem());
+        if (!plan.found)
         {
             std::cerr << plan.message << '\n';
             return 1;
         }
-        options.effort = 4000;  // enough to say how narrow it may be
-        const SlotPlanner quick(car, options);
+        parameters.expansionsPerGap = 4000;  // enough to say how narrow it may be
+        const ParkingPlanner quick(parameters);
         std::cout << "several: " << plan.manoeuvre.path.stretches().size() << " stretches at the slot, "
-                  << plan.path.stretches().size() << " and " << inMetres(plan.smooth.path.length())
-                  << " in all; the narrowest slot that would do: " << inMetres(quick.smallestSlot(slot, 0.05)) << "\n";
+                  << plan.arcs.stretches().size() << " and " << inMetres(plan.smooth.path.length())
+                  << " in all; the narrowest slot that would do: " << inMetres(smallestSlot(quick, car, slot, 0.05))
+                  << "\n";
         scene.draw(plan, "A narrow slot in several stretches",
                    "Tesla Model 3, 15 cm to the walls on either side, aisle of 4.5 m", file);
         return plan.smooth.free && plan.manoeuvre.path.stretches().size() > 1 ? 0 : 1;

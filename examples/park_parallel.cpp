@@ -23,9 +23,8 @@ int main(int argc, char **argv)
         slot.side = SlotSide::Right;
         const Pose start{-9.0, 3.2, 0.0};
 
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = 4.0;
-        const ReverseParking oneSweep(car, options.sweep);
+        const PlanningParameters parameters = PlanningParameters::intoTightSlots(4.0);
+        const ReverseParking oneSweep(car, parameters.sweep);
         const ReverseParkingResult verdict = oneSweep.plan(slot);
         std::cout << (verdict.fits() ? "fits" : verdict.message) << '\n';
         if (!verdict.fits())
@@ -48,14 +47,14 @@ int main(int argc, char **argv)
         scene.addWall(-18.0, -1.6, 18.0, -0.5 * slot.width);                         // kerb
         scene.addWall(-18.0, 0.5 * slot.width + 4.0, 18.0, 0.5 * slot.width + 4.4);  // the other side of the lane
 
-        const SlotPlan plan = SlotPlanner(car, options).plan(slot, start, scene.world());
-        if (!plan.solved)
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scene.problem());
+        if (!plan.found)
         {
             std::cerr << plan.message << '\n';
             return 1;
         }
         std::cout << "a slot of " << inMetres(slot.length) << ": R_min " << inMetres(plan.manoeuvre.minRadius)
-                  << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.path.stretches().size()
+                  << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.arcs.stretches().size()
                   << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Parallel parking in reverse", "Tesla Model 3 in one sweep: two arcs, joined by clothoids",
                    file);

@@ -37,16 +37,15 @@ int main(int argc, char **argv)
         }
         scene.addWall(-12.0, -2.8, 12.0, -2.5);
 
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = 6.0;
-        const SlotPlan plan = SlotPlanner(car, options).plan(slot, start, scene.world());
-        if (!plan.solved)
+        const PlanningParameters parameters = PlanningParameters::intoTightSlots(6.0);
+        const ParkingPlan plan = ParkingPlanner(parameters).plan(scene.problem());
+        if (!plan.found)
         {
             std::cerr << plan.message << '\n';
             return 1;
         }
         std::cout << "one sweep at a radius of " << inMetres(plan.manoeuvre.firstRadius) << ", "
-                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle would do; " << plan.path.stretches().size()
+                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle would do; " << plan.arcs.stretches().size()
                   << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
         scene.draw(plan, "Perpendicular parking in reverse",
                    "VW Golf 8 into a slot of 2.5 m x 5 m from an aisle of 6 m", file);

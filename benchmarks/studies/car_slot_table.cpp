@@ -1,7 +1,7 @@
 // Which car parks in which slot in how many stretches: writes docs/car-slot-table.md, or checks that it is what would
 // be written.
 
-#include "automatic_parking/SlotPlanner.h"
+#include "automatic_parking/SlotQuestions.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
@@ -94,21 +94,15 @@ namespace
         return slot;
     }
 
-    SlotPlannerOptions optionsFor(double aisle)
-    {
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = aisle;
-        return options;
-    }
-
     std::string movesInto(const ParkingSlot &slot, const Vehicle &car, double aisle)
     {
-        const SlotPlannerOptions options = optionsFor(aisle);
-        if (car.length() + 2.0 * options.leastClearance > slot.length)
+        const ParkingPlanner planner(PlanningParameters::intoTightSlots(aisle));
+        const double leastGap = planner.parameters().gaps.back();
+        if (car.length() + 2.0 * leastGap > slot.length)
             return "long";
-        if (car.width + 2.0 * options.leastClearance > slot.width)
+        if (car.width + 2.0 * leastGap > slot.width)
             return "wide";
-        const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
+        const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
         return result.fits() ? std::to_string(result.path.stretches().size()) : "-";
     }
 

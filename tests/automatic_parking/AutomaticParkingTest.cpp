@@ -1,5 +1,6 @@
 #include "automatic_parking/AutomaticParking.h"
 
+#include "automatic_parking/drawing/DriveAnimation.h"
 #include "parking_geometry/Error.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 #include "tests/parking_geometry/ExpectError.h"
@@ -213,6 +214,26 @@ namespace
         EXPECT_EQ(AutomaticParking().park(scenario).status, ParkingStatus::InvalidGoal);
         scenario.polygons = {box(6.0, -15.0, 8.0, 15.0)};
         EXPECT_EQ(AutomaticParking().park(scenario).status, ParkingStatus::NoPath);
+    }
+
+    TEST(AutomaticParkingTest, aParkedCarStaysWhereItIs)
+    {
+        for (Scenario scenario : {rowOfSlots(), openGround()})
+        {
+            scenario.start = scenario.goals.front();
+            const ParkingResult result = AutomaticParking().park(scenario);
+            EXPECT_TRUE(result.parked()) << result.message;
+            ASSERT_EQ(result.legs.size(), 1u);
+            EXPECT_EQ(result.legs[0].plan.path.length(), 0.0);
+            EXPECT_EQ(result.evaluation.drivenLength, 0.0);
+            EXPECT_EQ(result.evaluation.finalPositionError, 0.0);
+            EXPECT_FALSE(driveAnimation(scenario, result.legs[0].plan.path, result.trajectory, "parked").empty());
+            // A tenth of a millimetre ahead is a way to drive, but not one out of the slot and back.
+            scenario.start = compose(scenario.start, {-1e-4, 0.0, 0.0});
+            const ParkingResult near = AutomaticParking().park(scenario);
+            EXPECT_TRUE(near.parked()) << near.message;
+            EXPECT_LT(near.evaluation.drivenLength, 0.01);
+        }
     }
 
     TEST(AutomaticParkingTest, drivesGivenPathsAndReportsCollisions)

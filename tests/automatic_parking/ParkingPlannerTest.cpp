@@ -29,10 +29,10 @@ namespace
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner().plan(scenario);
         ASSERT_TRUE(plan.found) << plan.message;
-        ASSERT_FALSE(plan.manoeuvre.pieces.empty());
+        ASSERT_FALSE(plan.manoeuvre.path.pieces.empty());
         expectAt(plan.approach.start, scenario.start);
-        expectAt(plan.approach.end(), plan.manoeuvre.start);
-        expectAt(plan.manoeuvre.end(), plan.goal);
+        expectAt(plan.approach.end(), plan.manoeuvre.path.start);
+        expectAt(plan.manoeuvre.path.end(), plan.goal);
         expectAt(plan.goal, scenario.goals.front());
         expectAt(plan.path.start, scenario.start);
         expectAt(plan.path.end(), plan.goal);
@@ -44,11 +44,11 @@ namespace
     TEST(ParkingPlannerTest, withoutManoeuvresTheSearchGoesAllTheWay)
     {
         PlanningParameters parameters;
-        parameters.manoeuvres = false;
+        parameters.wayIn = WayIn::Searched;
         const Scenario scenario = rowOfSlots();
         const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
         ASSERT_TRUE(plan.found) << plan.message;
-        EXPECT_TRUE(plan.manoeuvre.pieces.empty());
+        EXPECT_TRUE(plan.manoeuvre.path.pieces.empty());
         expectAt(plan.arcs.end(), scenario.goals.front());
     }
 
@@ -138,6 +138,52 @@ namespace
         EXPECT_TRUE(none.path.pieces.empty());
     }
 
+    TEST(ParkingPlannerTest, aSlotTooTightForOneSweepIsEnteredInStretches)
+    {
+        // 30 cm wider than the car, on an aisle of 4.5 m, the same world for both: measured, not imagined.
+        const Scenario scenario = rowOfSlots(4.5, vehicleByName("vw_golf8").width + 0.3);
+        EXPECT_TRUE(ParkingPlanner().plan(scenario).manoeuvre.path.pieces.empty()) << "no sweep fits";
+        const ParkingPlan plan = ParkingPlanner(PlanningParameters::intoTightSlots(4.5)).plan(scenario);
+        ASSERT_TRUE(plan.found) << plan.message;
+        EXPECT_GT(plan.manoeuvre.path.stretches().size(), 1u);
+        expectAt(plan.approach.end(), plan.manoeuvre.path.start);
+        expectAt(plan.path.end(), plan.goal);
+        EXPECT_TRUE(ParkingWorld(scenario).isFree(plan.path));
+        EXPECT_GE(plan.clearance, 0.5 * plan.gap - 1e-3);
+    }
+
+    TEST(ParkingPlannerTest, aStartNearerThanTheGapIsLeftWithItsOwnRoom)
+    {
+        Scenario scenario = rowOfSlots();
+        const double side = scenario.start.y + 0.5 * scenario.vehicle.width;
+        const ParkingPlanner planner(PlanningParameters::intoTightSlots(6.0));
+        for (const double room : {0.03, 0.003})
+        {
+            scenario.polygons.push_back(box(-10.0, side + room, -9.0, side + 1.0));
+            const ParkingPlan plan = planner.plan(scenario);
+            EXPECT_EQ(plan.found, room > PlanningParameters::LEAST_GAP_IN_STRETCHES) << plan.message;
+            if (plan.found)
+                EXPECT_NEAR(plan.gap, planner.parameters().tuning.shareOfStartGap * room, 1e-6);
+            else
+                EXPECT_EQ(plan.failure, ParkingStatus::InvalidStart);
+        }
+    }
+
+    TEST(ParkingPlannerTest, aCarAtTheGoalStaysThere)
+    {
+        Scenario scenario = rowOfSlots();
+        scenario.start = scenario.goals.front();
+        for (const PlanningParameters &parameters : {PlanningParameters{}, PlanningParameters::intoTightSlots(6.0)})
+        {
+            const ParkingPlan plan = ParkingPlanner(parameters).plan(scenario);
+            EXPECT_TRUE(plan.found) << plan.message;
+            EXPECT_TRUE(plan.path.pieces.empty());
+            EXPECT_EQ(plan.tries, 0u);
+            expectAt(plan.path.end(), plan.goal);
+            EXPECT_GT(plan.clearance, 0.0);
+        }
+    }
+
     TEST(ParkingPlannerTest, repeatsItself)
     {
         const Scenario scenario = readScenario(bundledFile("parallel"));
@@ -180,6 +226,7 @@ namespace
         refused("timeLimit", [](auto &p) { p.timeLimit = 0.0; });
         refused("gaps", [](auto &p) { p.gaps.clear(); });
         refused("gap", [](auto &p) { p.gaps = {-0.1}; });
+        refused("expansionsPerGap", [](auto &p) { p.expansionsPerGap = 0; });
         refused("radiusFactor", [](auto &p) { p.radiusFactor = 0.9; });
         refused("gapWorth", [nan](auto &p) { p.gapWorth = nan; });
         refused("gearChangePenalty", [](auto &p) { p.gearChangePenalty = -1.0; });

@@ -1,6 +1,6 @@
 // Slots that are too tight for one sweep, by the planner's car model; the way from the aisle into them.
 
-#include "automatic_parking/SlotPlanner.h"
+#include "automatic_parking/SlotQuestions.h"
 
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "parking_geometry/Error.h"
@@ -37,11 +37,22 @@ namespace
         return slot;
     }
 
-    SlotPlannerOptions inAisle(double width)
+    ParkingPlanner inAisle(double width)
     {
-        SlotPlannerOptions options;
-        options.sweep.aisleWidth = width;
-        return options;
+        return ParkingPlanner(PlanningParameters::intoTightSlots(width));
+    }
+
+    /** A slot in a world that is given, and not the one of its size. */
+    Scenario inWorld(const Vehicle &car, const ParkingSlot &slot, const Pose &start, std::vector<Polygon> obstacles)
+    {
+        Scenario scenario;
+        scenario.vehicle = car;
+        scenario.slot = slot;
+        scenario.goals = slot.goals(car);
+        scenario.start = start;
+        scenario.polygons = std::move(obstacles);
+        scenario.bounds = {{-30.0, -30.0}, {30.0, 30.0}};
+        return scenario;
     }
 
     PolygonOracle oracleFor(const ParkingSlot &slot, double aisle)
@@ -79,7 +90,7 @@ TEST_P(TightSlots, ParallelOfCarLengthAndHalfAMetre)
 {
     const Vehicle car = vehicleByName(GetParam());
     const ParkingSlot slot = tightSlot(SlotKind::Parallel, car);
-    const ReverseParkingResult result = SlotPlanner(car, inAisle(AISLE)).manoeuvre(slot);
+    const ReverseParkingResult result = wayIntoSlot(inAisle(AISLE), car, slot);
     ASSERT_TRUE(result.fits()) << result.message;
     EXPECT_GT(result.path.stretches().size(), 1u);
     EXPECT_LT(gap(result.path.end(), slot.goals(car).front()), 1e-9);
@@ -92,8 +103,8 @@ TEST_P(TightSlots, PerpendicularOfWidthAndThirtyCentimetres)
 {
     const Vehicle car = vehicleByName(GetParam());
     const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
-    const SlotPlanner planner(car, inAisle(AISLE));
-    const ReverseParkingResult result = planner.manoeuvre(slot);
+    const ParkingPlanner planner = inAisle(AISLE);
+    const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
     if (car.name == "mercedes_s_w223")
     {
         // 5.18 m of car, a ladder round a corner: not even sideways would it get in.
@@ -111,7 +122,7 @@ TEST_P(TightSlots, PerpendicularOfWidthAndThirtyCentimetres)
 INSTANTIATE_TEST_SUITE_P(Cars, TightSlots, testing::ValuesIn(vehicleNames()),
                          [](const testing::TestParamInfo<std::string> &car) { return car.param; });
 
-TEST(SlotPlanner, NoBodyTurnsWhereTheBoundSaysSo)
+TEST(SlotQuestions, NoBodyTurnsWhereTheBoundSaysSo)
 {
     // The S-class, slid round the corner without any steering limits.
     const Vehicle car = vehicleByName("mercedes_s_w223");
@@ -131,28 +142,28 @@ TEST(SlotPlanner, NoBodyTurnsWhereTheBoundSaysSo)
                     somewhere = oracle.isFree({x, y, 0.5 * PI - turn}, car, 0.01);
             always = somewhere;
         }
-        SlotPlannerOptions options = inAisle(AISLE);
-        options.effort = 100;
-        const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
+        PlanningParameters parameters = PlanningParameters::intoTightSlots(AISLE);
+        parameters.expansionsPerGap = 100;
+        const ReverseParkingResult result = wayIntoSlot(ParkingPlanner(parameters), car, slot);
         EXPECT_EQ(always, result.message.find("any number of stretches") == std::string::npos) << more;
         EXPECT_EQ(always, more > 0.3);
     }
 }
 
-TEST(SlotPlanner, OneSweepIsLeftAlone)
+TEST(SlotQuestions, OneSweepIsLeftAlone)
 {
     const Vehicle car;
     ParkingSlot slot;
     slot.side = SlotSide::Right;
-    const SlotPlannerOptions options = inAisle(7.0);
-    const ReverseParkingResult sweep = ReverseParking(car, options.sweep).plan(slot);
-    const ReverseParkingResult result = SlotPlanner(car, options).manoeuvre(slot);
+    const ParkingPlanner planner = inAisle(7.0);
+    const ReverseParkingResult sweep = ReverseParking(car, planner.parameters().sweep).plan(slot);
+    const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
     ASSERT_TRUE(sweep.fits() && result.fits());
     EXPECT_EQ(result.path.stretches().size(), 1u);
     EXPECT_EQ(result.firstRadius, sweep.firstRadius);
 }
 
-TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
+TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
 {
     for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
         for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
@@ -167,18 +178,18 @@ TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
                     const double aisle = tight ? AISLE : 8.0;
                     if (!tight)
                         slot.length += 4.2, slot.width += 0.4;
-                    const SlotPlanner planner(car, inAisle(aisle));
+                    const ParkingPlanner planner = inAisle(aisle);
                     const Pose start = inTheAisle(slot, -8.0);
-                    const SlotPlan plan = planner.plan(slot, start);
-                    ASSERT_TRUE(plan.solved) << plan.message;
+                    const ParkingPlan plan = planIntoSlot(planner, car, slot, start);
+                    ASSERT_TRUE(plan.found) << plan.message;
                     EXPECT_EQ(plan.manoeuvre.path.stretches().size() == 1, !tight);
-                    EXPECT_LT(gap(plan.path.start, start), 1e-9);
-                    EXPECT_LT(gap(plan.path.end(), slot.goals(car).front()), 1e-6);
+                    EXPECT_LT(gap(plan.arcs.start, start), 1e-9);
+                    EXPECT_LT(gap(plan.arcs.end(), slot.goals(car).front()), 1e-6);
                     const PolygonOracle oracle = oracleFor(slot, aisle);
-                    expectFree(plan.path, car, oracle, plan.clearance - 0.002);
+                    expectFree(plan.arcs, car, oracle, plan.gap - 0.002);
                     EXPECT_TRUE(plan.smooth.free);
                     EXPECT_LT(gap(plan.smooth.path.start, start), 1e-9);
-                    EXPECT_LT(gap(plan.smooth.path.end(), plan.path.end()), 1e-9);
+                    EXPECT_LT(gap(plan.smooth.path.end(), plan.arcs.end()), 1e-9);
                     for (const PathState &state : plan.smooth.path.sample(0.01))
                     {
                         ASSERT_TRUE(oracle.isFree(state.pose, car));
@@ -187,7 +198,7 @@ TEST(SlotPlanner, TheWholeWayIsDrivableAndFree)
                 }
 }
 
-TEST(SlotPlanner, EveryWayInIsAGoal)
+TEST(SlotQuestions, EveryWayInIsAGoal)
 {
     // Either entry, either side: which manoeuvre is driven depends on where the car comes from.
     const Vehicle car;
@@ -195,15 +206,14 @@ TEST(SlotPlanner, EveryWayInIsAGoal)
     slot.width = 2.8;
     slot.entry = SlotEntry::Either;
     const double aisle = 8.0;
-    const ObstacleSet world =
-        ObstacleSet::fromPolygons(slotSurroundings(slot, SlotSide::Right, aisle), {{-30, -30}, {30, 30}});
-    const SlotPlanner planner(car, inAisle(aisle));
+    const std::vector<Polygon> world = slotSurroundings(slot, SlotSide::Right, aisle);
+    const ParkingPlanner planner = inAisle(aisle);
     std::set<std::pair<SlotEntry, SlotSide>> driven;
     for (const double y : {-9.0, 9.0})
         for (const double yaw : {-0.5 * PI, 0.5 * PI})
         {
-            const SlotPlan plan = planner.plan(slot, {7.0, y, yaw}, world);
-            ASSERT_TRUE(plan.solved) << plan.message;
+            const ParkingPlan plan = planner.plan(inWorld(car, slot, {7.0, y, yaw}, world));
+            ASSERT_TRUE(plan.found) << plan.message;
             EXPECT_LT(gap(plan.path.end(), plan.manoeuvre.goal), 1e-6);
             EXPECT_LT(gap(plan.smooth.path.end(), plan.manoeuvre.goal), 1e-6);
             driven.emplace(plan.manoeuvre.entry, plan.manoeuvre.side);
@@ -211,12 +221,13 @@ TEST(SlotPlanner, EveryWayInIsAGoal)
     EXPECT_GE(driven.size(), 2u);
 }
 
-TEST(SlotPlanner, EqualInputsGiveEqualOutputs)
+TEST(SlotQuestions, EqualInputsGiveEqualOutputs)
 {
     const Vehicle car = vehicleByName("vw_golf8");
     const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
-    const SlotPlanner planner(car, inAisle(AISLE));
-    const SlotPlan one = planner.plan(slot, inTheAisle(slot, -7.0)), two = planner.plan(slot, inTheAisle(slot, -7.0));
+    const ParkingPlanner planner = inAisle(AISLE);
+    const ParkingPlan one = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
+    const ParkingPlan two = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
     ASSERT_EQ(one.path.pieces.size(), two.path.pieces.size());
     for (std::size_t i = 0; i < one.path.pieces.size(); ++i)
     {
@@ -225,62 +236,64 @@ TEST(SlotPlanner, EqualInputsGiveEqualOutputs)
     }
 }
 
-TEST(SlotPlanner, SmallestSlotIsSmallerThanForOneSweep)
+TEST(SlotQuestions, SmallestSlotIsSmallerThanForOneSweep)
 {
     const Vehicle car = vehicleByName("toyota_yaris");
-    SlotPlannerOptions options = inAisle(AISLE);
-    options.effort = 5000;
-    const SlotPlanner planner(car, options);
+    PlanningParameters parameters = PlanningParameters::intoTightSlots(AISLE);
+    parameters.expansionsPerGap = 5000;
+    const ParkingPlanner planner(parameters);
     for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
     {
         ParkingSlot slot = tightSlot(kind, car);
         double ParkingSlot::*const dimension = kind == SlotKind::Parallel ? &ParkingSlot::length : &ParkingSlot::width;
         const double body = kind == SlotKind::Parallel ? car.length() : car.width;
-        const double least = planner.smallestSlot(slot, 0.1);
+        const double least = smallestSlot(planner, car, slot, 0.1);
         EXPECT_GT(least, body);
         EXPECT_LE(least, slot.*dimension) << "that one fits";
         slot.*dimension = least;
-        EXPECT_TRUE(planner.manoeuvre(slot).fits());
+        EXPECT_TRUE(wayIntoSlot(planner, car, slot).fits());
         // From a slot that does not fit it looks at larger ones.
         slot.*dimension = body + 0.03;
-        EXPECT_NEAR(planner.smallestSlot(slot, 0.1), least, 0.25);
+        EXPECT_NEAR(smallestSlot(planner, car, slot, 0.1), least, 0.25);
     }
 }
 
-TEST(SlotPlanner, WhatIsWrongIsNamed)
+TEST(SlotQuestions, WhatIsWrongIsNamed)
 {
     const Vehicle car;
     ParkingSlot slot;
     slot.side = SlotSide::Right;
-    const SlotPlanner planner(car, inAisle(6.0));
-    expectError([&] { planner.plan(slot, {-1.0, 0.0, 0.0}); }, {"start", "cm into the slot"});
-    expectError([&] { planner.plan(slot, {8.0, 0.0, 0.5 * PI}); }, {"start", "cm beyond the aisle of 6 m"});
+    const ParkingPlanner planner = inAisle(6.0);
+    expectError([&] { planIntoSlot(planner, car, slot, {-1.0, 0.0, 0.0}); }, {"start", "cm into the slot"});
+    expectError(
+        [&] {
+            planIntoSlot(planner, car, slot, {8.0, 0.0, 0.5 * PI});
+        },
+        {"start", "cm beyond the aisle of 6 m"});
     ParkingSlot small = slot;
     small.length = 4.5;
-    expectError([&] { planner.manoeuvre(small); }, {"slot", "length", "18.9 cm"});
+    expectError([&] { wayIntoSlot(planner, car, small); }, {"slot", "length", "18.9 cm"});
     ParkingSlot negative = slot;
     negative.width = -2.0;
-    expectError([&] { planner.manoeuvre(negative); }, {"slot", "width", "-2"});
+    expectError([&] { wayIntoSlot(planner, car, negative); }, {"slot", "width", "-2"});
     ParkingSlot steep = slot;
     steep.kind = SlotKind::Angled;
     steep.angle = 2.0;
-    expectError([&] { planner.manoeuvre(steep); }, {"slot", "angle"});
+    expectError([&] { wayIntoSlot(planner, car, steep); }, {"slot", "angle"});
 
-    SlotPlannerOptions options;
-    options.radiusFactor = 0.9;
-    expectError([&] { SlotPlanner(car, options); }, {"radius factor", "0.9"});
-    options = {};
-    options.leastClearance = 0.0;
-    expectError([&] { SlotPlanner(car, options); }, {"least clearance", "0.004"});
-    options = {};
-    options.effort = 0;
-    expectError([&] { SlotPlanner(car, options); }, {"effort"});
+    PlanningParameters parameters = PlanningParameters::intoTightSlots();
+    parameters.gaps.back() = 0.0;
+    expectError([&] { ParkingPlanner tight(parameters); }, {"gap", "0.004"});
+    parameters = PlanningParameters::intoTightSlots();
+    parameters.sweep.guardLength = -1.0;
+    expectError([&] { wayIntoSlot(ParkingPlanner(parameters), car, slot); }, {"guard"});
 
     // A start among obstacles is a status, not an error.
     std::vector<Polygon> obstacles = slotSurroundings(slot, SlotSide::Right, 6.0);
     const Pose start{4.2, 6.0, -0.5 * PI};
     obstacles.push_back({{4.0, 4.0}, {5.0, 4.0}, {5.0, 5.0}, {4.0, 5.0}});
-    const SlotPlan plan = planner.plan(slot, start, ObstacleSet::fromPolygons(obstacles, {{-30, -30}, {30, 30}}));
-    EXPECT_FALSE(plan.solved);
+    const ParkingPlan plan = planner.plan(inWorld(car, slot, start, obstacles));
+    EXPECT_FALSE(plan.found);
+    EXPECT_EQ(plan.failure, ParkingStatus::InvalidStart);
     EXPECT_NE(plan.message.find("start"), std::string::npos) << plan.message;
 }

@@ -1,0 +1,75 @@
+#include "automatic_parking/ParkingWorld.h"
+
+#include "parking_geometry/Error.h"
+#include "state_validity/ObstacleSet.h"
+#include "state_validity/PathSweep.h"
+#include "state_validity/fcl/FclContactTest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        // How exactly the least clearance is found: the promise of ParkingWorld::clearance().
+        constexpr double CLEARANCE_STEP = 1e-3;   // metres
+        constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
+    }                                             // namespace
+
+    ParkingWorld::ParkingWorld(const Scenario &scenario)
+      : footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle, 0.0,
+                                                            fclContactTest()))
+    {
+    }
+
+    std::shared_ptr<const FootprintChecker> ParkingWorld::enlarged(double gap) const
+    {
+        if (gap == 0.0)
+            return footprint_;
+        try
+        {
+            return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap,
+                                                            fclContactTest());
+        }
+        catch (const Error &)
+        {
+            return nullptr;
+        }
+    }
+
+    bool ParkingWorld::isFree(const Path &path) const
+    {
+        return isPathFree(*footprint_, path);
+    }
+
+    double ParkingWorld::clearance(const Path &path) const
+    {
+        double least = footprint_->exactClearance(path.start);
+        Pose from = path.start;
+        // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point has
+        // moved by the difference.
+        for (const PathPiece &piece : path.pieces)
+        {
+            const double bend = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            const double moved =
+                piece.driven() * footprint_->speedFactor(bend) + std::abs(piece.turn) * footprint_->farthestPoint();
+            for (double share = 0.0; share <= 1.0 && least > 0.0;)
+            {
+                const Pose pose = piece.turn != 0.0 ? Pose{from.x, from.y, from.yaw + share * piece.turn}
+                                                    : advance(from, piece, share * piece.driven());
+                double here = footprint_->clearance(pose);
+                if (here < least)
+                    here = footprint_->exactClearance(pose);
+                least = std::min(least, here);
+                if (moved <= 0.0 || share >= 1.0)
+                    break;
+                const double stride = here - least + std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
+                share = std::min(1.0, share + stride / moved);
+            }
+            from = advance(from, piece);
+        }
+        return least;
+    }
+
+}  // namespace parking

@@ -1,0 +1,132 @@
+#include "automatic_parking/SlotQuestions.h"
+
+#include "parking_geometry/manoeuvres/MultiStretchParking.h"
+#include "parking_geometry/manoeuvres/SlotSurroundings.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace parking
+{
+    namespace
+    {
+        ParkingSlot withSide(ParkingSlot slot)
+        {
+            if (slot.side == SlotSide::Either)
+                slot.side = SlotSide::Right;
+            return slot;
+        }
+
+        /** Width of a perpendicular slot below which no body of that length and width gets round the corner of the
+            neighbour, however it moves.
+
+            Turned by phi from the slot's axis, its side on the corner, the body reaches up to the far side of the aisle
+            and down to the other side of the slot: length <= (aisle - width sin phi) / cos phi + (slot - width cos phi)
+            / sin phi. Once the aisle holds all of it the slot does not matter. */
+        double widthToTurnInto(double length, double width, double aisle)
+        {
+            double needed = width;
+            constexpr int STEPS = 2000;
+            for (int i = 1; i < STEPS; ++i)
+            {
+                const double phi = 0.5 * PI * i / STEPS, s = std::sin(phi), c = std::cos(phi);
+                if (length * c + width * s <= aisle)
+                    break;
+                needed = std::max(needed, length * s + (width - aisle * s) / c);
+            }
+            return needed;
+        }
+
+        /** Why no search can find a way in, if that can be said beforehand. */
+        std::optional<ReverseParkingResult> hopeless(const PlanningParameters &parameters, const Vehicle &vehicle,
+                                                     const ParkingSlot &slot)
+        {
+            ReverseParkingOptions options = parameters.sweep;
+            options.clearance = parameters.gaps.front();
+            ReverseParkingResult oneSweep = ReverseParking(vehicle, options).plan(slot);
+            if (slot.kind != SlotKind::Perpendicular || oneSweep.fits())
+                return std::nullopt;
+            const double both = 2.0 * parameters.gaps.back();
+            const double missing =
+                widthToTurnInto(vehicle.length() + both, vehicle.width + both, options.aisleWidth) - slot.width;
+            if (!(missing > 0.0))
+                return std::nullopt;
+            oneSweep.message +=
+                "; nor does a car of this size get round the corner in any number of stretches: the "
+                "slot would have to be " +
+                formatNumber(std::ceil(1000.0 * missing) / 10.0) + " cm wider";
+            return oneSweep;
+        }
+    }  // namespace
+
+    Scenario slotProblem(const PlanningParameters &parameters, const Vehicle &vehicle, const ParkingSlot &slot,
+                         const std::optional<Pose> &start)
+    {
+        const PlanningTuning &tuning = parameters.tuning;
+        const double aisle = parameters.sweep.aisleWidth;
+        Scenario problem;
+        problem.name = "slot";
+        problem.vehicle = vehicle;
+        problem.slot = withSide(slot);
+        problem.goals = problem.slot->goals(vehicle);
+        problem.polygons = slotSurroundings(*problem.slot, problem.slot->side, aisle, tuning.reach);
+        // Neighbours and walls end somewhere; the car shall not look for a way round their ends.
+        const double reach = 0.5 * slot.length + (std::isfinite(aisle) ? aisle : tuning.openAisle) + tuning.reach;
+        problem.bounds = {{slot.pose.x - reach, slot.pose.y - reach}, {slot.pose.x + reach, slot.pose.y + reach}};
+        if (start)
+        {
+            problem.start = *start;
+            for (const Eigen::Vector2d &corner : vehicle.footprint(*start))
+            {
+                problem.bounds.min = problem.bounds.min.cwiseMin(corner - Eigen::Vector2d::Constant(vehicle.length()));
+                problem.bounds.max = problem.bounds.max.cwiseMax(corner + Eigen::Vector2d::Constant(vehicle.length()));
+            }
+        }
+        return problem;
+    }
+
+    ReverseParkingResult wayIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot)
+    {
+        if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
+            return *verdict;
+        const Scenario problem = slotProblem(planner.parameters(), vehicle, slot);
+        return planner.wayIn(problem, ParkingWorld(problem));
+    }
+
+    ParkingPlan planIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
+                             const Pose &start)
+    {
+        checkStart(withSide(slot), vehicle, start, planner.parameters().sweep.aisleWidth);
+        if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
+        {
+            ParkingPlan plan;
+            plan.message = verdict->message;
+            plan.manoeuvre = *verdict;
+            return plan;
+        }
+        return planner.plan(slotProblem(planner.parameters(), vehicle, slot, start));
+    }
+
+    double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
+                        double precision)
+    {
+        const PlanningTuning &tuning = planner.parameters().tuning;
+        const bool parallel = slot.kind == SlotKind::Parallel;
+        double ParkingSlot::*const dimension = parallel ? &ParkingSlot::length : &ParkingSlot::width;
+        const double least = (parallel ? vehicle.length() : vehicle.width) + 2.0 * planner.parameters().gaps.back();
+        const auto fits = [&](const ParkingSlot &tried)
+        {
+            return wayIntoSlot(planner, vehicle, tried).fits();
+        };
+        ParkingSlot largest = slot;
+        largest.depth.reset();
+        largest.lateralOffset = 0.0;
+        largest.*dimension = std::max(slot.*dimension, least);
+        for (double grown = 0.0; !fits(largest); grown += tuning.growthStep, largest.*dimension += tuning.growthStep)
+            if (grown >= tuning.mostGrowth)
+                return std::numeric_limits<double>::infinity();
+        return smallestSlot(largest, dimension, least, fits, precision);
+    }
+}  // namespace parking
