@@ -113,14 +113,13 @@ namespace parking::planning
             return ways;
         if (inStretches_)
         {
-            result =
-                planInStretches(parking, *scenario_.slot, queries,
-                                [&](const SlotExitTask &task)
-                                {
-                                    return search(*body.search, {task.parked, task.exits, Bounds{task.min, task.max},
-                                                                 rung.radius, parameters_.tuning.gearChangeInSlot,
-                                                                 false, parameters_.expansionsPerGap});
-                                });
+            result = planInStretches(parking, *scenario_.slot, queries,
+                                     [&](const SlotExitTask &task)
+                                     {
+                                         return search(*body.search, {task.parked, task.exits, Box{task.min, task.max},
+                                                                      rung.radius, parameters_.tuning.gearChangeInSlot,
+                                                                      false, parameters_.expansionsPerGap});
+                                     });
             if (result.fits())
                 return {std::move(result)};
             result.message += "; nor was a way in several stretches found";
@@ -177,8 +176,7 @@ namespace parking::planning
         search::PlanRequest request;
         request.starts = {task.from};
         request.goals = task.to;
-        request.car = {task.radius, false, checker.vehicle().inscribedRadius(checker.margin()), task.bounds.min,
-                       task.bounds.max};
+        request.car = {task.radius, false, checker.vehicle().inscribedRadius(checker.margin()), task.bounds};
         request.parameters.bidirectional = task.bothSides;
         request.parameters.searchFrom = task.bothSides ? "goal" : "start";
         request.parameters.gearChangePenalty = task.gearChange;

@@ -126,7 +126,7 @@ namespace parking::planning
         {
             Pose from;
             std::vector<Pose> to;
-            Bounds bounds;  ///< of the rear axle
+            Box bounds;  ///< of the rear axle
             double radius;
             double gearChange;
             bool bothSides;            ///< search from both ends; otherwise out of \e from

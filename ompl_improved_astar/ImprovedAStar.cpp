@@ -118,7 +118,7 @@ namespace ompl::geometric
         query_->begun = true;
         query_->parameters = parameters_;
         query_->goal = pdef_->getGoal();
-        const parking::Bounds bounds = parking::spaceBounds(*si_->getStateSpace());
+        const parking::Box bounds = parking::spaceBounds(*si_->getStateSpace());
         const double radius = query_->turningRadius();
         const auto *circle = dynamic_cast<const parking::CircleValidityChecker *>(si_->getStateValidityChecker().get());
         const auto *footprint =
@@ -131,8 +131,7 @@ namespace ompl::geometric
         parking::search::CarInSpace &car = query_->car;
         car.turningRadius = radius;
         car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
-        car.low = bounds.min;
-        car.high = bounds.max;
+        car.bounds = bounds;
         car.inscribedRadius = 0.0;
         query_->turnsOnTheSpot = parking::search::turnsOnTheSpot(parameters_.motionModel);
         parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();

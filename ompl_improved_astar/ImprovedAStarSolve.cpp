@@ -25,11 +25,8 @@ namespace ompl::geometric
         using parking::Pose;
         using parking::search::PlanOutcome;
 
-        bool isSamePose(const Pose &pose, const ob::State *state)
-        {
-            const Pose other = parking::poseOf(state);
-            return pose.x == other.x && pose.y == other.y && std::abs(parking::wrapAngle(pose.yaw - other.yaw)) < 1e-12;
-        }
+        /** Metres and radians. */
+        constexpr double SAME_POSE = 1e-12;
     }  // namespace
 
     ob::Cost ImprovedAStar::costOf(const ob::PathPtr &path) const
@@ -152,7 +149,7 @@ namespace ompl::geometric
             const Pose &end = poses.back();
             const auto off = [&end](const Pose &goal)
             {
-                return std::hypot(goal.x - end.x, goal.y - end.y) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
+                return positionDistance(goal, end) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
             };
             const auto goal = std::min_element(query_->goals.begin(), query_->goals.end(),
                                                [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
@@ -224,7 +221,8 @@ namespace ompl::geometric
                 {
                     side == 0 ? data.addStartVertex(vertex) : data.addGoalVertex(vertex);
                     const std::vector<Pose> &solution = query_->solution;
-                    if (!solution.empty() && isSamePose(side == 0 ? solution.front() : solution.back(), node.state))
+                    if (!solution.empty() && parking::isSamePose(side == 0 ? solution.front() : solution.back(),
+                                                                 parking::poseOf(node.state), SAME_POSE))
                         ends[side] = node.state;
                     continue;
                 }

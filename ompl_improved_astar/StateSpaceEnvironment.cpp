@@ -46,7 +46,7 @@ namespace parking
         }
     }  // namespace
 
-    Bounds spaceBounds(const ob::StateSpace &space)
+    Box spaceBounds(const ob::StateSpace &space)
     {
         const ob::RealVectorBounds &bounds = space.as<ob::SE2StateSpace>()->getBounds();
         return {{bounds.low[0], bounds.low[1]}, {bounds.high[0], bounds.high[1]}};

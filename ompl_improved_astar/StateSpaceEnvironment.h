@@ -2,7 +2,7 @@
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/Scenario.h"
+#include "parking_geometry/Box.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <ompl/base/ScopedState.h>
@@ -76,7 +76,7 @@ namespace parking
         StateSpacing stateSpacing_;
         bool headingMatters_;
         bool clearanceKnown_;
-        Bounds bounds_;
+        Box bounds_;
         search::StopFunction stop_;
         bool interrupted_{false};
         std::uint64_t checkedStates_{0};
@@ -84,6 +84,6 @@ namespace parking
     };
 
     /** \brief The bounds of an SE2, Reeds-Shepp or Dubins space. */
-    Bounds spaceBounds(const ompl::base::StateSpace &space);
+    Box spaceBounds(const ompl::base::StateSpace &space);
 
 }  // namespace parking

@@ -10,7 +10,7 @@
 
 namespace parking
 {
-    /** \brief What is known of a cell. */
+    /** \brief What a map says of a cell. A map that says nothing of it (Unknown) will never say more. */
     enum class Cell : std::uint8_t
     {
         Free = 0,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Polygon.h"
@@ -14,13 +15,6 @@
 
 namespace parking
 {
-    /** \brief An axis-parallel box in metres. */
-    struct Bounds
-    {
-        Eigen::Vector2d min{0.0, 0.0};
-        Eigen::Vector2d max{0.0, 0.0};
-    };
-
     /** \brief A parking problem: obstacles, a car, where it stands and where it shall stand.
 
         All coordinates are local: metres relative to \e worldOffset, which readers choose so that numbers near the
@@ -39,7 +33,7 @@ namespace parking
         std::vector<Polygon> polygons;      ///< obstacles of a polygon world
         std::optional<OccupancyGrid> grid;  ///< obstacles of a grid world
         bool unknownIsOccupied{true};       ///< how unknown cells of the grid count
-        Bounds bounds;                      ///< local; for a grid world the box round the map
+        Box bounds;                         ///< local; for a grid world the box round the map
         Eigen::Vector2d worldOffset{0.0, 0.0};
 
         /** \brief Expresses a local pose in the coordinates of the file. */

@@ -118,7 +118,7 @@ namespace parking
     DistanceField::DistanceField(const ObstacleSet &obstacles, double resolution)
     {
         std::vector<std::uint8_t> blocked;
-        const Eigen::Vector2d size = obstacles.bounds().max - obstacles.bounds().min;
+        const Eigen::Vector2d size = obstacles.bounds().size();
         if (obstacles.cellSize() > 0.0)
         {
             // One ring of blocked cells stands for the outside of the map.

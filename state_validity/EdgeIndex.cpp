@@ -128,11 +128,11 @@ namespace parking
         std::vector<Block> blocks;
     };
 
-    EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Rectangle &bounds, double reach)
+    EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach)
       : reach_(reach),
         origin_(bounds.min)
     {
-        const Eigen::Vector2d size = bounds.max - bounds.min;
+        const Eigen::Vector2d size = bounds.size();
         bucketSize_ = std::max(BUCKET_SIZE, std::sqrt(size.x() * size.y() / MAX_BUCKETS));
         inverseBucketSize_ = 1.0 / bucketSize_;
         columns_ = static_cast<std::size_t>(std::ceil(size.x() / bucketSize_)) + 1;

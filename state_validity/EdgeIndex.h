@@ -22,7 +22,7 @@ namespace parking
     {
     public:
         /** \brief \param reach metres, positive: how far from the queried point edges matter. */
-        EdgeIndex(const std::vector<Edge> &edges, const Rectangle &bounds, double reach);
+        EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;

@@ -63,7 +63,7 @@ namespace parking
         edges_(obstacles_.edges(), obstacles_.bounds(), circumradius_ + CLEARANCE_REACH),
         makeContactTest_(std::move(contact))
     {
-        const Eigen::Vector2d world = obstacles_.bounds().max - obstacles_.bounds().min;
+        const Eigen::Vector2d world = obstacles_.bounds().size();
         if (2.0 * halfWidth_ > world.maxCoeff() || 2.0 * inradius_ > world.minCoeff())
             throw Error("the car of " + std::to_string(vehicle.length()) + " m x " + std::to_string(vehicle.width) +
                         " m with a safety margin of " + std::to_string(margin) + " m does not fit into the world of " +
@@ -196,7 +196,7 @@ namespace parking
         const double near = edges_.distance(box);
         if (near <= CLEARANCE_REACH)
             return near;
-        const Eigen::Vector2d size = obstacles_.bounds().max - obstacles_.bounds().min;
+        const Eigen::Vector2d size = obstacles_.bounds().size();
         // One list of all edges: reach beyond the farthest corner of the world.
         const EdgeIndex everything(obstacles_.edges(), obstacles_.bounds(), 2.0 * size.norm() + circumradius_);
         return everything.distance(box);

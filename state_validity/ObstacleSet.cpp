@@ -10,7 +10,7 @@ namespace parking
 {
     namespace
     {
-        void checkBounds(const Bounds &bounds)
+        void checkBounds(const Box &bounds)
         {
             if (!bounds.min.allFinite() || !bounds.max.allFinite())
                 throw Error("bounds of the world must be finite");
@@ -19,14 +19,14 @@ namespace parking
         }
 
         /** Occupied cells as few rectangles: runs along each row, joined with the equal run of the row below. */
-        std::vector<Rectangle> mergeCells(const std::vector<std::uint8_t> &cells, std::size_t columns, std::size_t rows,
-                                          double size)
+        std::vector<Box> mergeCells(const std::vector<std::uint8_t> &cells, std::size_t columns, std::size_t rows,
+                                    double size)
         {
             struct Run
             {
                 std::size_t begin, end, firstRow;
             };
-            std::vector<Rectangle> rectangles;
+            std::vector<Box> rectangles;
             std::vector<Run> open, next;
             const auto close = [&](const Run &run, std::size_t endRow)
             {
@@ -112,7 +112,7 @@ namespace parking
         }
     }  // namespace
 
-    ObstacleSet ObstacleSet::fromPolygons(const std::vector<Polygon> &polygons, const Bounds &bounds)
+    ObstacleSet ObstacleSet::fromPolygons(const std::vector<Polygon> &polygons, const Box &bounds)
     {
         checkBounds(bounds);
         ObstacleSet set;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Polygon.h"
 #include "parking_geometry/Pose.h"
@@ -19,13 +20,6 @@ namespace parking
         Eigen::Vector2d to;
     };
 
-    /** \brief An axis-parallel rectangle, in local coordinates. */
-    struct Rectangle
-    {
-        Eigen::Vector2d min;
-        Eigen::Vector2d max;
-    };
-
     /** \brief The obstacles of a world, in the form that every collision test of this library starts from.
 
         Everything is kept in a local frame near the obstacles: at 4e9 m a double resolves a micrometre only, so no
@@ -38,7 +32,7 @@ namespace parking
 
             Throws parking::Error for a polygon with fewer than three corners or a coordinate that is not finite, and
             for bounds that are empty or not finite. */
-        static ObstacleSet fromPolygons(const std::vector<Polygon> &polygons, const Bounds &bounds);
+        static ObstacleSet fromPolygons(const std::vector<Polygon> &polygons, const Box &bounds);
 
         /** \brief A world of square cells; the outside of the map is an obstacle.
 
@@ -65,7 +59,7 @@ namespace parking
         }
 
         /** \brief The free world's box, local. */
-        const Rectangle &bounds() const
+        const Box &bounds() const
         {
             return bounds_;
         }
@@ -83,7 +77,7 @@ namespace parking
         }
 
         /** \brief Solid rectangles, local: occupied cells merged; empty for a polygon world. */
-        const std::vector<Rectangle> &rectangles() const
+        const std::vector<Box> &rectangles() const
         {
             return rectangles_;
         }
@@ -115,10 +109,10 @@ namespace parking
         void addBoundsEdges();
 
         Pose frame_;
-        Rectangle bounds_{};
+        Box bounds_{};
         std::vector<Edge> edges_;
         std::vector<Polygon> polygons_;
-        std::vector<Rectangle> rectangles_;
+        std::vector<Box> rectangles_;
         double cellSize_{0.0};
         std::vector<std::uint8_t> cells_;
         std::size_t columns_{0};

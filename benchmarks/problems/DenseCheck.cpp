@@ -82,18 +82,17 @@ namespace parking
             return;
         }
         polygons_ = scenario.polygons;
-        const Eigen::Vector2d size = bounds_.max - bounds_.min;
+        const Eigen::Vector2d size = bounds_.size();
         bucketColumns_ = static_cast<std::size_t>(std::clamp(std::ceil(size.x() / BUCKET), 1.0, 4096.0));
         bucketRows_ = static_cast<std::size_t>(std::clamp(std::ceil(size.y() / BUCKET), 1.0, 4096.0));
         buckets_.resize(bucketColumns_ * bucketRows_);
         for (const Polygon &polygon : polygons_)
         {
-            Bounds box{polygon.front(), polygon.front()};
+            Box box{polygon.front(), polygon.front()};
             for (std::size_t i = 0; i < polygon.size(); ++i)
             {
                 const Edge edge{polygon[i], polygon[(i + 1) % polygon.size()]};
-                box.min = box.min.cwiseMin(edge.from);
-                box.max = box.max.cwiseMax(edge.from);
+                box.include(edge.from);
                 edges_.push_back(edge);
                 const Eigen::Vector2d low = edge.from.cwiseMin(edge.to), high = edge.from.cwiseMax(edge.to);
                 for (std::size_t row = clampIndex((low.y() - bounds_.min.y()) / BUCKET, bucketRows_);

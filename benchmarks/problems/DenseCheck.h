@@ -68,9 +68,9 @@ namespace parking
 
         // A world of polygons: edges by square buckets, first_[k] to first_[k + 1] of bucketEdges_ in bucket k.
         std::vector<Polygon> polygons_;
-        std::vector<Bounds> boxes_;
+        std::vector<Box> boxes_;
         std::vector<Edge> edges_;
-        Bounds bounds_;
+        Box bounds_;
         std::size_t bucketColumns_{0}, bucketRows_{0};
         std::vector<std::vector<std::size_t>> buckets_;
 

@@ -27,7 +27,7 @@ namespace parking_test
     public:
         using Real = long double;
 
-        PolygonOracle(std::vector<parking::Polygon> obstacles, const parking::Bounds &bounds)
+        PolygonOracle(std::vector<parking::Polygon> obstacles, const parking::Box &bounds)
           : obstacles_(std::move(obstacles)),
             bounds_(bounds)
         {
@@ -291,7 +291,7 @@ namespace parking_test
 
         std::vector<parking::Polygon> obstacles_;
         std::vector<double> radii_;  ///< round the first corner of each obstacle
-        parking::Bounds bounds_;
+        parking::Box bounds_;
         parking::OccupancyGrid grid_;
         bool isGrid_{false};
         bool unknownIsOccupied_{true};

@@ -2,9 +2,9 @@
 
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "benchmarks/worlds/Random.h"
+#include "parking_geometry/Box.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Polygon.h"
-#include "parking_geometry/Scenario.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace parking_test
     /** \brief A world with the oracle that judges it. */
     struct World
     {
-        World(std::string worldName, const std::vector<parking::Polygon> &polygons, const parking::Bounds &box)
+        World(std::string worldName, const std::vector<parking::Polygon> &polygons, const parking::Box &box)
           : name(std::move(worldName)),
             obstacles(parking::ObstacleSet::fromPolygons(polygons, box)),
             oracle(polygons, box),
@@ -39,10 +39,7 @@ namespace parking_test
             const std::vector<Eigen::Vector2d> outline = grid.outline();
             bounds.min = bounds.max = outline.front();
             for (const Eigen::Vector2d &corner : outline)
-            {
-                bounds.min = bounds.min.cwiseMin(corner);
-                bounds.max = bounds.max.cwiseMax(corner);
-            }
+                bounds.include(corner);
             const double size = grid.resolution();
             const auto corner = [&grid, size](std::size_t column, std::size_t row)
             {
@@ -59,7 +56,7 @@ namespace parking_test
         std::string name;
         parking::ObstacleSet obstacles;
         PolygonOracle oracle;
-        parking::Bounds bounds;            ///< a box round the free world, in the coordinates of the poses
+        parking::Box bounds;               ///< a box round the free world, in the coordinates of the poses
         std::vector<parking::Edge> edges;  ///< outlines (of cells: diagonals), to make poses that touch them
 
         /** \brief A pose anywhere in the world. */

@@ -2,12 +2,11 @@
 
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/SearchTuning.h"
+#include "parking_geometry/Box.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
-
-#include <Eigen/Core>
 
 namespace parking::search
 {
@@ -40,8 +39,7 @@ namespace parking::search
         double xyResolution{0.0};             ///< metres, side of a cell; 0: the motion model chooses
         unsigned int headingBins{72};         ///< cells of heading for steps of one metre
         double inscribedRadius{0.0};          ///< metres: no obstacle can be nearer to the rear axle than this
-        Eigen::Vector2d low{0.0, 0.0};        ///< corners of the box that is searched by the grids, and looked at
-        Eigen::Vector2d high{0.0, 0.0};       ///< beforehand with eagerObstacles
+        Box bounds;                           ///< what the grids search, and eagerObstacles looks at beforehand
         HeuristicWeights weights;
         bool bidirectional{true};       ///< search from the goal and the start; otherwise from one side only
         bool searchFromGoal{true};      ///< the side, when not bidirectional

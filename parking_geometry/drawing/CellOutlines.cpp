@@ -20,7 +20,7 @@ namespace parking
             return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(end)));
         }
 
-        CellWindow cellsNear(const OccupancyGrid &grid, const Bounds &window)
+        CellWindow cellsNear(const OccupancyGrid &grid, const Box &window)
         {
             Eigen::Vector2d low(HUGE_VAL, HUGE_VAL), high = -low;
             for (const double x : {window.min.x(), window.max.x()})
@@ -110,7 +110,7 @@ namespace parking
         };
     }  // namespace
 
-    std::vector<Polygon> outlineCells(const OccupancyGrid &grid, Cell kind, const Bounds &window)
+    std::vector<Polygon> outlineCells(const OccupancyGrid &grid, Cell kind, const Box &window)
     {
         const CellWindow cells = cellsNear(grid, window);
         std::vector<Polygon> outlines;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Polygon.h"
-#include "parking_geometry/Scenario.h"
 
 #include <vector>
 
@@ -14,5 +14,5 @@ namespace parking
         filled by the even-odd rule they cover exactly the cells.
 
         \param window only cells near it are taken, in the same frame */
-    std::vector<Polygon> outlineCells(const OccupancyGrid &grid, Cell kind, const Bounds &window);
+    std::vector<Polygon> outlineCells(const OccupancyGrid &grid, Cell kind, const Box &window);
 }  // namespace parking

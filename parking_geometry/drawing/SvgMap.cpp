@@ -14,20 +14,20 @@ namespace parking
         constexpr double FLATTEST = 0.36;  ///< height of a panel as a part of its width
         constexpr double TALLEST = 1.0;
 
-        Bounds widened(Bounds view)
+        Box widened(Box view)
         {
-            if (!view.min.allFinite() || !view.max.allFinite() || !((view.max - view.min).minCoeff() > 0.0))
+            if (!view.min.allFinite() || !view.max.allFinite() || !(view.size().minCoeff() > 0.0))
                 throw Error("the view of a map panel is empty or not finite");
-            const Eigen::Vector2d size = view.max - view.min, middle = 0.5 * (view.min + view.max);
+            const Eigen::Vector2d size = view.size(), middle = 0.5 * (view.min + view.max);
             const Eigen::Vector2d half(0.5 * std::max(size.x(), size.y() / TALLEST),
                                        0.5 * std::max(size.y(), size.x() * FLATTEST));
             return {middle - half, middle + half};
         }
     }  // namespace
 
-    SvgMap::SvgMap(const Bounds &view, double width) : view_(widened(view)), width_(width)
+    SvgMap::SvgMap(const Box &view, double width) : view_(widened(view)), width_(width)
     {
-        const Eigen::Vector2d size = view_.max - view_.min;
+        const Eigen::Vector2d size = view_.size();
         scale_ = width_ / size.x();
         height_ = size.y() * scale_;
     }

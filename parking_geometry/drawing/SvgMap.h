@@ -1,7 +1,7 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Polygon.h"
-#include "parking_geometry/Scenario.h"
 
 #include <array>
 #include <string>
@@ -62,10 +62,10 @@ namespace parking
             is neither a strip nor a tower.
 
             Throws parking::Error when the view is empty or not finite. */
-        explicit SvgMap(const Bounds &view, double width = 912.0);
+        explicit SvgMap(const Box &view, double width = 912.0);
 
         /** \brief What is shown, in metres. */
-        const Bounds &view() const
+        const Box &view() const
         {
             return view_;
         }
@@ -117,7 +117,7 @@ namespace parking
         std::string scaleBar() const;
         std::string &layerText(SvgLayer layer);
 
-        Bounds view_;
+        Box view_;
         double width_;
         double height_{0.0};
         double scale_{1.0};

@@ -42,7 +42,7 @@ namespace parking
             return direction < 0 ? svg_colour::REVERSE : svg_colour::FORWARD;
         }
 
-        Polygon cornersOf(const Bounds &box)
+        Polygon cornersOf(const Box &box)
         {
             return {box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}};
         }
@@ -121,24 +121,19 @@ namespace parking
         }
     }  // namespace
 
-    Bounds viewAround(const Scenario &scenario, const SampledPath &path, double margin)
+    Box viewAround(const Scenario &scenario, const SampledPath &path, double margin)
     {
         std::vector<Pose> poses = scenario.goals;
         poses.push_back(scenario.start);
         for (const PathState &state : path)
             poses.push_back(state.pose);
-        Bounds view{positionOf(scenario.start), positionOf(scenario.start)};
-        const auto grow = [&view](const Eigen::Vector2d &point)
-        {
-            view.min = view.min.cwiseMin(point);
-            view.max = view.max.cwiseMax(point);
-        };
+        Box view{positionOf(scenario.start), positionOf(scenario.start)};
         for (const Pose &pose : poses)
             for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(pose))
-                grow(corner);
+                view.include(corner);
         if (scenario.slot)
             for (const Eigen::Vector2d &corner : scenario.slot->outline())
-                grow(corner);
+                view.include(corner);
         const Eigen::Vector2d room(margin, margin);
         return {view.min - room, view.max + room};
     }

@@ -12,7 +12,7 @@ namespace parking
 {
     /** \brief What a picture of a path should show: the car at all states, at start and goals, and the slot, with some
         metres round them; far obstacles are left out. \param margin metres */
-    Bounds viewAround(const Scenario &scenario, const SampledPath &path = {}, double margin = 3.0);
+    Box viewAround(const Scenario &scenario, const SampledPath &path = {}, double margin = 3.0);
 
     /** \brief Draws obstacles, unknown cells, what lies outside of the world, the slot, and the car at its start and
         goals. */

@@ -24,11 +24,10 @@ namespace parking
                 if (!(distance <= WORLD_REACH))  // also for what overflowed to NaN
                     throw Error(file_ + ": " + what + " lies " + formatNumber(distance) +
                                 " m from the start; at most " + formatNumber(WORLD_REACH) + " m are supported");
-                box_.min = box_.min.cwiseMin(point);
-                box_.max = box_.max.cwiseMax(point);
+                box_.include(point);
             }
 
-            const Bounds &box() const
+            const Box &box() const
             {
                 return box_;
             }
@@ -36,29 +35,23 @@ namespace parking
         private:
             const std::string &file_;
             Eigen::Vector2d start_;
-            Bounds box_;
+            Box box_;
         };
 
-        void grow(Bounds &box, const Eigen::Vector2d &point)
-        {
-            box.min = box.min.cwiseMin(point);
-            box.max = box.max.cwiseMax(point);
-        }
-
-        Bounds boundsOfMap(const Scenario &scenario, const std::string &file)
+        Box boundsOfMap(const Scenario &scenario, const std::string &file)
         {
             Extent extent(file, {scenario.start.x, scenario.start.y});
             const std::vector<Eigen::Vector2d> outline = scenario.grid->outline();
-            Bounds box{outline.front(), outline.front()};
+            Box box{outline.front(), outline.front()};
             for (const Eigen::Vector2d &corner : outline)
             {
                 extent.add(corner, "a corner of the map");
-                grow(box, corner);
+                box.include(corner);
             }
             return box;
         }
 
-        Bounds boundsOfPolygons(const Scenario &scenario, const std::string &file)
+        Box boundsOfPolygons(const Scenario &scenario, const std::string &file)
         {
             Extent extent(file, {scenario.start.x, scenario.start.y});
             for (const Pose &goal : scenario.goals)
@@ -68,13 +61,13 @@ namespace parking
                     extent.add(corner, "a corner of obstacle " + std::to_string(i + 1));
 
             const Eigen::Vector2d margin(POLYGON_WORLD_MARGIN, POLYGON_WORLD_MARGIN);
-            Bounds box{extent.box().min - margin, extent.box().max + margin};
+            Box box{extent.box().min - margin, extent.box().max + margin};
             // A vehicle longer than the margin must still fit into the world where it starts and ends.
             std::vector<Pose> poses = scenario.goals;
             poses.push_back(scenario.start);
             for (const Pose &pose : poses)
                 for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(pose))
-                    grow(box, corner);
+                    box.include(corner);
             return box;
         }
 

@@ -65,7 +65,7 @@ namespace parking
                 pose.translation() = fcl::Vector3d(centre.x(), centre.y(), 0.0);
                 add(makePrism(piece, centre), pose);
             }
-        for (const Rectangle &rectangle : obstacles.rectangles())
+        for (const Box &rectangle : obstacles.rectangles())
             addBox(rectangle.min, rectangle.max);
 
         const Eigen::Vector2d &low = obstacles.bounds().min, &high = obstacles.bounds().max;

@@ -34,23 +34,22 @@ namespace parking
         }
 
         /** The box round the way of the rear axle along an arc. */
-        Rectangle extents(const Pose &from, double curvature, double length)
+        Box extents(const Pose &from, double curvature, double length)
         {
             const Pose to = advance(from, curvature, length);
-            Rectangle box{{std::min(from.x, to.x), std::min(from.y, to.y)},
-                          {std::max(from.x, to.x), std::max(from.y, to.y)}};
+            Box box{{from.x, from.y}, {from.x, from.y}};
+            box.include({to.x, to.y});
             // In between, x and y are extreme where the heading is a multiple of a right angle.
             const double first = std::min(from.yaw, to.yaw), last = std::max(from.yaw, to.yaw);
             for (double quarter = std::ceil(first / (0.5 * PI)); quarter * 0.5 * PI < last; quarter += 1.0)
             {
                 const Pose at = advance(from, curvature, (quarter * 0.5 * PI - from.yaw) / curvature);
-                box.min = box.min.cwiseMin(Eigen::Vector2d(at.x, at.y));
-                box.max = box.max.cwiseMax(Eigen::Vector2d(at.x, at.y));
+                box.include({at.x, at.y});
             }
             return box;
         }
 
-        bool isWithin(const Rectangle &box, const ob::RealVectorBounds &bounds)
+        bool isWithin(const Box &box, const ob::RealVectorBounds &bounds)
         {
             // As tolerant as RealVectorStateSpace::satisfiesBounds, and of the rounding of a curve on top.
             constexpr double SLACK = 1e-9;

@@ -41,7 +41,7 @@ namespace
                 problem.set("motion_model", model);
                 problem.from(HERE).to(goals);
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-                EXPECT_TRUE(isAt(problem.poses().back(), NEAR)) << model;
+                EXPECT_TRUE(isSamePose(problem.poses().back(), NEAR, SAME)) << model;
             }
     }
 
@@ -56,7 +56,7 @@ namespace
                     problem.from(start);
                 problem.to({NEAR});
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-                EXPECT_TRUE(isAt(problem.poses().front(), HERE)) << model;
+                EXPECT_TRUE(isSamePose(problem.poses().front(), HERE, SAME)) << model;
             }
     }
 
@@ -66,8 +66,8 @@ namespace
         PlanningProblem problem(Space::ReedsShepp, slotSite());
         problem.from(inObstacle).from(HERE).to({inObstacle, SLOT});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().front(), HERE));
-        EXPECT_TRUE(isAt(problem.poses().back(), SLOT));
+        EXPECT_TRUE(isSamePose(problem.poses().front(), HERE, SAME));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), SLOT, SAME));
     }
 
     TEST_F(PlannerGoals, OneOutOfReachDoesNotHinder)
@@ -75,7 +75,7 @@ namespace
         PlanningProblem problem(Space::ReedsShepp, closedSite());
         problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}, {-8.0, 8.0, 1.0}});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().back(), {-8.0, 8.0, 1.0}));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), {-8.0, 8.0, 1.0}, SAME));
     }
 
     TEST_F(PlannerGoals, AddedBetweenTwoCalls)
@@ -83,13 +83,13 @@ namespace
         PlanningProblem problem(Space::ReedsShepp, slotSite());
         problem.from(HERE).to({FAR});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().back(), FAR));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), FAR, SAME));
         problem.pdef->getGoal()->as<ob::GoalStates>()->addState(problem.state(NEAR));
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().back(), NEAR));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), NEAR, SAME));
         problem.from({-1.0, -5.0, 0.0});
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().front(), {-1.0, -5.0, 0.0}));
+        EXPECT_TRUE(isSamePose(problem.poses().front(), {-1.0, -5.0, 0.0}, SAME));
     }
 
     /** Any heading within a metre of a point; every third sample lies in an obstacle. */
@@ -219,6 +219,6 @@ namespace
         goal->setThreshold(2.0);
         problem.pdef->setGoal(goal);
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(problem.poses().back(), SLOT));
+        EXPECT_TRUE(isSamePose(problem.poses().back(), SLOT, SAME));
     }
 }  // namespace

@@ -102,7 +102,7 @@ namespace
                 continue;
             }
             const std::vector<Pose> poses = problem.poses();
-            EXPECT_TRUE(isAt(poses.front(), *start, 0.0));
+            EXPECT_TRUE(isSamePose(poses.front(), *start, 0.0));
             EXPECT_TRUE(problem.path().check());
             expectInterpolationFree(problem, world);
             if (status == Status::APPROXIMATE_SOLUTION)
@@ -113,11 +113,11 @@ namespace
             }
             ++exact;
             ASSERT_EQ(status, Status::EXACT_SOLUTION);
-            EXPECT_TRUE(isAt(poses.back(), *goal, 1e-15));
+            EXPECT_TRUE(isSamePose(poses.back(), *goal, 1e-15));
             ASSERT_NE(problem.planner->solutionPath(), nullptr);
             const Path &arcs = *problem.planner->solutionPath();
-            EXPECT_TRUE(isAt(arcs.start, *start));
-            EXPECT_TRUE(isAt(arcs.end(), *goal, 1e-9));
+            EXPECT_TRUE(isSamePose(arcs.start, *start, SAME));
+            EXPECT_TRUE(isSamePose(arcs.end(), *goal, 1e-9));
             expectDrivable(problem, world, arcs);
         }
         RecordProperty("exact", exact);

@@ -56,8 +56,8 @@ namespace
             problem.planner->getPlannerData(data);
             ASSERT_EQ(data.numStartVertices(), 1u);
             ASSERT_EQ(data.numGoalVertices(), 1u);
-            EXPECT_TRUE(isAt(parking::poseOf(data.getStartVertex(0).getState()), LEFT));
-            EXPECT_TRUE(isAt(parking::poseOf(data.getGoalVertex(0).getState()), RIGHT));
+            EXPECT_TRUE(isSamePose(parking::poseOf(data.getStartVertex(0).getState()), LEFT, SAME));
+            EXPECT_TRUE(isSamePose(parking::poseOf(data.getGoalVertex(0).getState()), RIGHT, SAME));
             EXPECT_GT(data.numVertices(), 10u);
             EXPECT_GE(data.numEdges() + 2, data.numVertices());
 
@@ -83,10 +83,10 @@ namespace
             ob::PlannerData again(problem.si);
             problem.planner->getPlannerData(again);
             EXPECT_EQ(again.numVertices(), data.numVertices());
-            EXPECT_TRUE(isAt(parking::poseOf(data.getVertex(data.numVertices() - 1).getState()), before));
+            EXPECT_TRUE(isSamePose(parking::poseOf(data.getVertex(data.numVertices() - 1).getState()), before, SAME));
             data.decoupleFromPlanner();
             problem.planner->clear();
-            EXPECT_TRUE(isAt(parking::poseOf(data.getVertex(data.numVertices() - 1).getState()), before));
+            EXPECT_TRUE(isSamePose(parking::poseOf(data.getVertex(data.numVertices() - 1).getState()), before, SAME));
         }
     }
 
@@ -160,8 +160,8 @@ namespace
                 EXPECT_EQ(planner, problem.planner.get());
                 ASSERT_GE(states.size(), 2u);
                 // The goal first, as OMPL's planners have it.
-                EXPECT_TRUE(isAt(parking::poseOf(states.front()), RIGHT, 1e-6));
-                EXPECT_TRUE(isAt(parking::poseOf(states.back()), LEFT));
+                EXPECT_TRUE(isSamePose(parking::poseOf(states.front()), RIGHT, 1e-6));
+                EXPECT_TRUE(isSamePose(parking::poseOf(states.back()), LEFT, SAME));
                 costs.push_back(cost.value());
             });
         double best = std::numeric_limits<double>::infinity();
@@ -261,7 +261,7 @@ namespace
         const Pose goal{8.0, -6.0, 1.0};
         setup.setStartAndGoalStates(problem.state(AISLE), problem.state(goal));
         ASSERT_EQ(setup.solve(60.0), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isAt(parking::poseOf(setup.getSolutionPath().getStates().back()), goal));
+        EXPECT_TRUE(isSamePose(parking::poseOf(setup.getSolutionPath().getStates().back()), goal, SAME));
         EXPECT_NE(setup.getSolutionPath().length(), length);
         ob::PlannerData data(problem.si);
         setup.getPlannerData(data);

@@ -55,8 +55,8 @@ namespace
                 problem.from(start).to({goal});
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
                 const std::vector<Pose> poses = problem.poses();
-                EXPECT_TRUE(isAt(poses.front(), start, 0.0));
-                EXPECT_TRUE(isAt(poses.back(), goal, 0.0));
+                EXPECT_TRUE(isSamePose(poses.front(), start, 0.0));
+                EXPECT_TRUE(isSamePose(poses.back(), goal, 0.0));
                 EXPECT_TRUE(problem.path().check());  // by the swept validator
                 problem.si->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(problem.si));
                 problem.space->setLongestValidSegmentFraction(0.0005);
@@ -82,7 +82,7 @@ namespace
             {
                 double least = 1e9;
                 for (std::size_t i = nearest; i < exact.size() && i < nearest + 2000; ++i)
-                    if (const double off = std::hypot(exact[i].pose.x - pose.x, exact[i].pose.y - pose.y) +
+                    if (const double off = positionDistance(exact[i].pose, pose) +
                                            0.1 * std::abs(parking::wrapAngle(exact[i].pose.yaw - pose.yaw));
                         off < least)
                     {
@@ -117,7 +117,7 @@ namespace
                 ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION) << i;
                 for (const PathPiece &segment : problem.planner->solutionPath()->pieces)
                     EXPECT_GT(segment.length, 0.0);
-                EXPECT_TRUE(isAt(problem.poses().back(), goal));
+                EXPECT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
                 EXPECT_TRUE(problem.path().check());
             }
     }

@@ -297,7 +297,7 @@ namespace
             double sum = 0.0;  // without the turns on the spot, which OMPL counts
             const std::vector<Pose> poses = problem.poses();
             for (std::size_t i = 1; i < poses.size(); ++i)
-                sum += std::hypot(poses[i].x - poses[i - 1].x, poses[i].y - poses[i - 1].y);
+                sum += positionDistance(poses[i], poses[i - 1]);
             return sum;
         };
         EXPECT_LE(driven(exact), driven(greedy) + 1e-9);

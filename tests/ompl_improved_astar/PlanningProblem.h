@@ -44,7 +44,7 @@ namespace parking_test
     struct Site
     {
         std::vector<parking::Polygon> obstacles;
-        parking::Bounds bounds;
+        parking::Box bounds;
 
         parking::ObstacleSet set() const
         {
@@ -80,7 +80,7 @@ namespace parking_test
     class PlanningProblem
     {
     public:
-        PlanningProblem(Space kind, const parking::Bounds &bounds, const parking::Vehicle &car = parking::Vehicle())
+        PlanningProblem(Space kind, const parking::Box &bounds, const parking::Vehicle &car = parking::Vehicle())
           : vehicle(car)
         {
             const double radius = car.minTurningRadius();
@@ -108,7 +108,7 @@ namespace parking_test
         }
 
         /** \brief Any rule of what is valid, and OMPL's own motion validator. */
-        PlanningProblem(Space kind, const parking::Bounds &bounds, std::function<bool(const parking::Pose &)> rule)
+        PlanningProblem(Space kind, const parking::Box &bounds, std::function<bool(const parking::Pose &)> rule)
           : PlanningProblem(kind, bounds)
         {
             si->setStateValidityChecker([rule = std::move(rule)](const ob::State *state)
@@ -205,11 +205,8 @@ namespace parking_test
         std::shared_ptr<og::ImprovedAStar> planner;
     };
 
-    inline bool isAt(const parking::Pose &a, const parking::Pose &b, double tolerance = 1e-12)
-    {
-        return std::hypot(a.x - b.x, a.y - b.y) <= tolerance &&
-               std::abs(parking::wrapAngle(a.yaw - b.yaw)) <= tolerance;
-    }
+    /** \brief Poses that are the same but for rounding: metres and radians. */
+    constexpr double SAME = 1e-12;
 
     inline bool areSame(const std::vector<parking::Pose> &a, const std::vector<parking::Pose> &b)
     {

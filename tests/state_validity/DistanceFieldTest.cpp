@@ -43,7 +43,7 @@ namespace
                       (point.array() >= obstacles.bounds().max.array()).any();
         for (const Polygon &polygon : obstacles.polygons())
             inside = inside || contains(polygon, point);
-        for (const Rectangle &rectangle : obstacles.rectangles())
+        for (const Box &rectangle : obstacles.rectangles())
             inside = inside ||
                      ((point.array() > rectangle.min.array()).all() && (point.array() < rectangle.max.array()).all());
         return inside ? -least : least;
@@ -139,7 +139,7 @@ TEST(DistanceField, LowerBoundIsTight)
 TEST(DistanceField, UpperBoundIsTight)
 {
     const double side = 0.25;
-    const Bounds bounds{{0.0, 0.0}, {16.0, 16.0}};
+    const Box bounds{{0.0, 0.0}, {16.0, 16.0}};
     const double far = 40.0 * side + side - 2e-6;
     const Polygon post{{far - 1e-6, far - 1e-6}, {far + 1e-6, far - 1e-6}, {far + 1e-6, far + 1e-6}};
     const ObstacleSet obstacles = ObstacleSet::fromPolygons({post}, bounds);
@@ -157,7 +157,7 @@ TEST(DistanceField, UpperBoundIsTight)
 TEST(DistanceField, ThinObstaclesBlockEveryCellThatTheyTouch)
 {
     // A wall of 0.1 mm that runs askew through cells of half a metre, and a post of a millimetre.
-    const Bounds bounds{{-10.0, -10.0}, {10.0, 10.0}};
+    const Box bounds{{-10.0, -10.0}, {10.0, 10.0}};
     const Polygon wall = rectangle(12.0, 1e-4, {0.3, -0.2, 0.7});
     const Polygon post = rectangle(1e-3, 1e-3, {-7.123, 6.456, 0.2});
     const ObstacleSet obstacles = ObstacleSet::fromPolygons({wall, post}, bounds);

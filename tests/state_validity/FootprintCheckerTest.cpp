@@ -17,7 +17,7 @@ namespace
 {
     const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
     const double INFINITE = std::numeric_limits<double>::infinity();
-    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
 
     ObstacleSet box(const std::vector<Polygon> &polygons = {})
     {
@@ -133,7 +133,7 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
     const Vehicle vehicle;
     const double middle = vehicle.centreOffset();
     const double half = vehicle.length() / 12.0;
-    const Bounds bounds{{0.0, 0.0}, {30.0, 30.0}};
+    const Box bounds{{0.0, 0.0}, {30.0, 30.0}};
     int checked = 0;
     for (int circle = 0; circle < 7; ++circle)
     {

@@ -135,7 +135,7 @@ TEST(FreeLength, LosesNoContactBetweenItsParts)
 {
     const Vehicle vehicle;
     const double front = vehicle.wheelbase + vehicle.frontOverhang;
-    const Bounds bounds{{-10.0, -10.0}, {30.0, 10.0}};
+    const Box bounds{{-10.0, -10.0}, {30.0, 10.0}};
     for (const double curvature : {0.0, 0.1, -0.3, 1.2})
     {
         // Where the first parts end: where a post makes the number of parts looked at change.
@@ -177,7 +177,7 @@ TEST(FreeLength, DrivesAwayFromWhatItAllButTouches)
     const Vehicle vehicle;
     for (const double gap : {1e-8, 1e-6, 1e-4, 9e-4, 1.1e-3})
     {
-        const Bounds bounds{{-20.0, -20.0}, {20.0, 20.0}};
+        const Box bounds{{-20.0, -20.0}, {20.0, 20.0}};
         const Polygon wall = rectangle(1.0, 8.0, {-vehicle.rearOverhang - gap - 0.5, 0.0, 0.0});
         const FootprintChecker checker(ObstacleSet::fromPolygons({wall}, bounds), vehicle);
         EXPECT_EQ(checker.freeLength({}, 0.0, 3.0), 3.0) << gap;
@@ -192,7 +192,7 @@ TEST(FreeLength, DrivesAwayFromWhatItAllButTouches)
 TEST(FreeLength, DoesNotStartFromCollisionsOrContact)
 {
     const Vehicle vehicle;
-    const Bounds bounds{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box bounds{{-20.0, -20.0}, {20.0, 20.0}};
     for (const double gap : {-0.5, -1e-6, -1e-10, 0.0, 1e-10})
     {
         const Polygon wall = rectangle(1.0, 8.0, {-vehicle.rearOverhang - gap - 0.5, 0.0, 0.0});
@@ -227,7 +227,7 @@ TEST(FreeLength, FromAPreparedPoseIsTheSame)
 
 TEST(FreeLength, HalfATurnInFreeSpaceAndNoLengthAtAll)
 {
-    const Bounds bounds{{-50.0, -50.0}, {50.0, 50.0}};
+    const Box bounds{{-50.0, -50.0}, {50.0, 50.0}};
     const FootprintChecker checker(ObstacleSet::fromPolygons({}, bounds), {});
     EXPECT_EQ(checker.freeLength({}, 0.3, 100.0), 100.0) << "several times round";
     EXPECT_EQ(checker.freeLength({}, 5.0, -60.0), 60.0) << "many times round";

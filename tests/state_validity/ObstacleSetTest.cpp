@@ -13,7 +13,7 @@ using namespace parking_test;
 namespace
 {
     const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
 }  // namespace
 
 TEST(ObstacleSet, RectanglesCoverTheOccupiedCellsOnceAndNothingElse)
@@ -22,7 +22,7 @@ TEST(ObstacleSet, RectanglesCoverTheOccupiedCellsOnceAndNothingElse)
     {
         const ObstacleSet obstacles = randomGridWorld(seed).obstacles;
         std::vector<int> covered(obstacles.cells().size(), 0);
-        for (const Rectangle &rectangle : obstacles.rectangles())
+        for (const Box &rectangle : obstacles.rectangles())
             for (std::size_t row = 0; row < obstacles.rows(); ++row)
                 for (std::size_t column = 0; column < obstacles.columns(); ++column)
                 {
@@ -52,7 +52,7 @@ TEST(ObstacleSet, EdgesOfAGridAreTheLinesBetweenOccupiedAndFreeCells)
                 between += column > 0 && at(column, row) != at(column - 1, row);
                 between += row > 0 && at(column, row) != at(column, row - 1);
             }
-        const Eigen::Vector2d size = obstacles.bounds().max - obstacles.bounds().min;
+        const Eigen::Vector2d size = obstacles.bounds().size();
         double length = -2.0 * size.sum();
         for (const Edge &edge : obstacles.edges())
         {
@@ -75,7 +75,7 @@ TEST(ObstacleSet, KeepsPrecisionFarFromTheOrigin)
 {
     // At 4e9 m doubles lie half a micrometre apart, yet differences between them are exact.
     const Eigen::Vector2d offset(4.1e9, -7.3e9);
-    const Bounds bounds{offset - Eigen::Vector2d(5.0, 5.0), offset + Eigen::Vector2d(5.0, 5.0)};
+    const Box bounds{offset - Eigen::Vector2d(5.0, 5.0), offset + Eigen::Vector2d(5.0, 5.0)};
     Polygon triangle{{1.0, 1.0}, {3.0, 1.0}, {1.0, 2.0}};
     for (Eigen::Vector2d &corner : triangle)
         corner += offset;

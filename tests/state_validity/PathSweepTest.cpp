@@ -73,7 +73,7 @@ TEST(PathSweep, AgreesWithDenseSampling)
             obstacles.push_back(box(spot.x, spot.y, random.between(0.01, 0.1)));
         }
         const PolygonWorld world(car, obstacles);
-        const FootprintChecker checker(ObstacleSet::fromPolygons(obstacles, Bounds{{-100.0, -100.0}, {100.0, 100.0}}),
+        const FootprintChecker checker(ObstacleSet::fromPolygons(obstacles, Box{{-100.0, -100.0}, {100.0, 100.0}}),
                                        car);
         double least = 1e9;
         for (const Pose &pose : poses)
@@ -99,7 +99,7 @@ TEST(PathSweep, TheEndOfAPathCountsAndSoDoesItsOnlyPose)
     const Vehicle car;
     const double front = car.wheelbase + car.frontOverhang;
     const std::vector<Polygon> wall{box(front + 3.0, 0.0, 1.0)};
-    const FootprintChecker checker(ObstacleSet::fromPolygons(wall, Bounds{{-20.0, -20.0}, {20.0, 20.0}}), car);
+    const FootprintChecker checker(ObstacleSet::fromPolygons(wall, Box{{-20.0, -20.0}, {20.0, 20.0}}), car);
     EXPECT_TRUE(isPathFree(checker, {{}, {{0.0, 1.9}}}));
     EXPECT_FALSE(isPathFree(checker, {{}, {{0.0, 2.1}}}));
     EXPECT_FALSE(isPathFree(checker, {{}, {{0.0, 2.1, 0.01}}}));

@@ -143,7 +143,7 @@ TEST(EdgeIndex, FirstContactIsThatOfTheNearestEdge)
     for (int world = 0; world < 60; ++world)
     {
         const double slack = 1.0;
-        const Rectangle bounds{{-8.0, -8.0}, {8.0, 8.0}};
+        const Box bounds{{-8.0, -8.0}, {8.0, 8.0}};
         std::vector<Edge> edges;
         for (int i = 0; i < 3 + world; ++i)
         {
@@ -191,7 +191,7 @@ TEST(EdgeIndex, FirstContactIsThatOfTheNearestEdge)
 /** A contact just beyond the end is reported, so that none is lost where a motion is cut in two. */
 TEST(EdgeIndex, FirstContactLooksAHairBeyondTheEnd)
 {
-    const Rectangle bounds{{-8.0, -8.0}, {8.0, 8.0}};
+    const Box bounds{{-8.0, -8.0}, {8.0, 8.0}};
     for (const double curvature : {0.0, 1e-6, 0.2, -0.2, 0.45})
         for (const double direction : {1.0, -1.0})
         {
@@ -215,7 +215,7 @@ TEST(EdgeIndex, SeparationAndDistanceAreTheOracles)
     int apart = 0, crossing = 0;
     for (int world = 0; world < 40; ++world)
     {
-        const Rectangle bounds{{-8.0, -8.0}, {8.0, 8.0}};
+        const Box bounds{{-8.0, -8.0}, {8.0, 8.0}};
         std::vector<Edge> edges;
         std::vector<Polygon> lines;
         for (int i = 0; i < 2 + world; ++i)

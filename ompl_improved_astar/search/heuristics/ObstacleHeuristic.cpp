@@ -39,7 +39,7 @@ namespace parking::search
               std::clamp(parameters.tuning.cellOfLongWays * farthest, cell, parameters.tuning.coarsestCell * cell),
               parameters.inscribedRadius, {toward.x, toward.y}, query.stop);
         if (parameters.eagerObstacles)
-            load(parameters.low, parameters.high);
+            load(parameters.bounds);
         for (const Pose &target : query.targets)
             addTarget(target.x, target.y);
     }
@@ -63,12 +63,12 @@ namespace parking::search
 
     bool ObstacleHeuristic::isOpen(CellState &state, std::int32_t column, std::int32_t row)
     {
-        if (state.passage == Passage::Unknown)
+        if (state.passage == Occupancy::Unknown)
         {
             const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
-            state.passage = mayHoldDisc(x, y, 0.5 * resolution_, REFINEMENTS) ? Passage::Open : Passage::Blocked;
+            state.passage = mayHoldDisc(x, y, 0.5 * resolution_, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
         }
-        return state.passage == Passage::Open;
+        return state.passage == Occupancy::Free;
     }
 
     bool ObstacleHeuristic::mayHoldDisc(double x, double y, double halfSide, int refinements)
@@ -89,12 +89,12 @@ namespace parking::search
         return false;
     }
 
-    void ObstacleHeuristic::load(const Eigen::Vector2d &low, const Eigen::Vector2d &high)
+    void ObstacleHeuristic::load(const Box &box)
     {
-        for (double v = std::floor((low.y() - origin_.y()) / resolution_);
-             v * resolution_ + origin_.y() < high.y() && !shouldStop(); v += 1.0)
-            for (double u = std::floor((low.x() - origin_.x()) / resolution_); u * resolution_ + origin_.x() < high.x();
-                 u += 1.0)
+        for (double v = std::floor((box.min.y() - origin_.y()) / resolution_);
+             v * resolution_ + origin_.y() < box.max.y() && !shouldStop(); v += 1.0)
+            for (double u = std::floor((box.min.x() - origin_.x()) / resolution_);
+                 u * resolution_ + origin_.x() < box.max.x(); u += 1.0)
                 if (TiledGrid<CellState>::contains(u, v))
                 {
                     const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);

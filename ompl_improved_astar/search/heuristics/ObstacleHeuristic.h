@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 
 #include <cstdint>
@@ -38,7 +39,7 @@ namespace parking::search
                    const StopFunction &stop);
 
         /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. */
-        void load(const Eigen::Vector2d &low, const Eigen::Vector2d &high);
+        void load(const Box &box);
 
         /** \brief Adds a target; only before the first question. */
         void addTarget(double x, double y);
@@ -67,17 +68,10 @@ namespace parking::search
         }
 
     private:
-        enum class Passage : std::uint8_t
-        {
-            Unknown,
-            Open,
-            Blocked
-        };
-
         struct CellState
         {
             float g{std::numeric_limits<float>::infinity()};
-            Passage passage{Passage::Unknown};
+            Occupancy passage{Occupancy::Unknown};  // of the disc
             bool settled{false};
         };
 

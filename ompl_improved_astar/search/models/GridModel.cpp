@@ -36,7 +36,7 @@ namespace parking::search
         environment_ = &environment;
         parameters_ = &parameters;
         resolution_ = parameters.xyResolution > 0.0 ? parameters.xyResolution : RESOLUTION;
-        const Eigen::Vector2d size = (parameters.high - parameters.low) / resolution_;
+        const Eigen::Vector2d size = parameters.bounds.size() / resolution_;
         const auto cellsAlong = [](double length)
         {
             return static_cast<std::int32_t>(std::clamp(std::ceil(length), 1.0, 2.0 * TiledGrid<Cell>::REACH));
@@ -61,16 +61,16 @@ namespace parking::search
 
     GridModel::Place GridModel::placeOf(const Pose &pose) const
     {
-        const double column = std::floor((pose.x - parameters_->low.x()) / resolution_);
-        const double row = std::floor((pose.y - parameters_->low.y()) / resolution_);
+        const double column = std::floor((pose.x - parameters_->bounds.min.x()) / resolution_);
+        const double row = std::floor((pose.y - parameters_->bounds.min.y()) / resolution_);
         return {static_cast<std::int32_t>(std::clamp(column, 0.0, columns_ - 1.0)),
                 static_cast<std::int32_t>(std::clamp(row, 0.0, rows_ - 1.0))};
     }
 
     Pose GridModel::centre(const Place &place) const
     {
-        return {parameters_->low.x() + (place.column + 0.5) * resolution_,
-                parameters_->low.y() + (place.row + 0.5) * resolution_, 0.0};
+        return {parameters_->bounds.min.x() + (place.column + 0.5) * resolution_,
+                parameters_->bounds.min.y() + (place.row + 0.5) * resolution_, 0.0};
     }
 
     GridModel::Cell &GridModel::cellAt(const Place &place)

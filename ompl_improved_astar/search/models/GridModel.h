@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 
 #include <array>
@@ -51,13 +52,6 @@ namespace parking::search
 
     private:
         static constexpr std::size_t MOST_STEPS = 32;
-
-        enum class Occupancy : std::int8_t
-        {
-            Blocked = -1,
-            Unknown = 0,
-            Free = 1
-        };
 
         struct Cell
         {

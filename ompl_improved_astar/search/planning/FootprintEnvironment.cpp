@@ -11,15 +11,9 @@ namespace parking
     {
         constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
         constexpr double RADIANS_AT_A_TIME = 1.0;
-
-        bool isInside(const Bounds &bounds, const Pose &pose)
-        {
-            return pose.x >= bounds.min.x() && pose.x <= bounds.max.x() && pose.y >= bounds.min.y() &&
-                   pose.y <= bounds.max.y();
-        }
     }  // namespace
 
-    FootprintEnvironment::FootprintEnvironment(const FootprintChecker &checker, const Bounds &bounds, double tolerance,
+    FootprintEnvironment::FootprintEnvironment(const FootprintChecker &checker, const Box &bounds, double tolerance,
                                                search::MotionEnvironment *judge)
       : checker_(checker),
         bounds_(bounds),
@@ -27,7 +21,7 @@ namespace parking
         judge_(judge)
     {
         // The body stays in the checker's world; where that lies inside of the bounds, so does the rear axle.
-        const Rectangle &world = checker.obstacles().bounds();
+        const Box &world = checker.obstacles().bounds();
         const Pose &frame = checker.obstacles().frame();
         boundsMatter_ = frame.yaw != 0.0 || frame.x + world.min.x() < bounds.min.x() ||
                         frame.y + world.min.y() < bounds.min.y() || frame.x + world.max.x() > bounds.max.x() ||
@@ -36,7 +30,7 @@ namespace parking
 
     bool FootprintEnvironment::isFree(const Pose &pose)
     {
-        return (!boundsMatter_ || isInside(bounds_, pose)) && checker_.isFree(pose, counts_);
+        return (!boundsMatter_ || bounds_.contains(pose.x, pose.y)) && checker_.isFree(pose, counts_);
     }
 
     double FootprintEnvironment::clearance(const Pose &pose)
@@ -68,7 +62,7 @@ namespace parking
     {
         // The rear axle as a box of no size, the bounds as four walls in its frame.
         const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
-        if (!isInside(bounds_, from))
+        if (!bounds_.contains(from.x, from.y))
             return 0.0;
         // Far from the walls, as most poses are: on no arc does the axle get farther than the arc is long.
         if (from.x - bounds_.min.x() > whole && bounds_.max.x() - from.x > whole && from.y - bounds_.min.y() > whole &&
@@ -106,7 +100,7 @@ namespace parking
 
     double FootprintEnvironment::roomAt(double x, double y)
     {
-        if (boundsMatter_ && !isInside(bounds_, {x, y, 0.0}))
+        if (boundsMatter_ && !bounds_.contains(x, y))
             return 0.0;
         const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
         return checker_.field().upperBound(local.x, local.y);
@@ -122,7 +116,7 @@ namespace parking
         const Pose middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y), wrapAngle(from.yaw + 0.5 * turn)};
         const double covered = checker_.clearance(middle, 0.5 * moved, counts_);
         if (covered >= 0.5 * moved)
-            return !boundsMatter_ || (isInside(bounds_, middle) && isInside(bounds_, from));
+            return !boundsMatter_ || (bounds_.contains(middle.x, middle.y) && bounds_.contains(from.x, from.y));
         return moved > tolerance_ && covered > 0.0 && isMotionFree(from, middle) && isMotionFree(middle, to);
     }
 

@@ -2,7 +2,7 @@
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "parking_geometry/Scenario.h"
+#include "parking_geometry/Box.h"
 #include "state_validity/FootprintChecker.h"
 
 namespace parking
@@ -17,7 +17,7 @@ namespace parking
             \param bounds of the rear axle's position, in addition to the checker's world
             \param tolerance metres kept from obstacles along motions
             \param judge has the last word on whole paths; may be nullptr */
-        FootprintEnvironment(const FootprintChecker &checker, const Bounds &bounds, double tolerance,
+        FootprintEnvironment(const FootprintChecker &checker, const Box &bounds, double tolerance,
                              search::MotionEnvironment *judge = nullptr);
 
         bool isFree(const Pose &pose) override;
@@ -43,7 +43,7 @@ namespace parking
         double lengthInside(const Pose &from, double curvature, double length) const;
 
         const FootprintChecker &checker_;
-        Bounds bounds_;
+        Box bounds_;
         double tolerance_;
         search::MotionEnvironment *judge_;
         bool boundsMatter_;

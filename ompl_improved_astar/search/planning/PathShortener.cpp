@@ -119,7 +119,7 @@ namespace parking::search
                 // A straight line bounds what any curve can gain.
                 const Pose &a = pieces_[i].from, &b = pieces_[i + span].from;
                 if (costBefore_[i + span] - costBefore_[i] > widest ||
-                    std::hypot(a.x - b.x, a.y - b.y) >= costBefore_[i + span] - costBefore_[i] - LEAST_GAIN)
+                    positionDistance(a, b) >= costBefore_[i + span] - costBefore_[i] - LEAST_GAIN)
                     continue;
                 if (replace(i, i + span, choice, path))
                 {

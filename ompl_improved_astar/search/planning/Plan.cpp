@@ -20,8 +20,7 @@ namespace parking::search
         search.turningRadius = car.turningRadius;
         search.forwardOnly = car.forwardOnly;
         search.inscribedRadius = car.inscribedRadius;
-        search.low = car.low;
-        search.high = car.high;
+        search.bounds = car.bounds;
         search.steeringAngles = parameters.steeringAngles;
         search.xyResolution = parameters.xyResolution;
         search.headingBins = parameters.headingBins;

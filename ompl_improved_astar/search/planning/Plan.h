@@ -4,6 +4,7 @@
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
@@ -13,18 +14,15 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace parking::search
 {
     /** \brief What the search has to know of the car and the space beyond the parameters. */
     struct CarInSpace
     {
-        double turningRadius{3.0};      ///< metres, of the rear axle
-        bool forwardOnly{false};        ///< never drive in reverse (Dubins)
-        double inscribedRadius{0.0};    ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
-        Eigen::Vector2d low{0.0, 0.0};  ///< corners of the box of the rear axle's positions
-        Eigen::Vector2d high{0.0, 0.0};
+        double turningRadius{3.0};    ///< metres, of the rear axle
+        bool forwardOnly{false};      ///< never drive in reverse (Dubins)
+        double inscribedRadius{0.0};  ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
+        Box bounds;                   ///< of the rear axle's positions
     };
 
     /** \brief What PathPlanner goes by, from the user's parameters and the car. */

@@ -67,27 +67,28 @@ namespace parking_test
     inline CarProblem tightSlot()
     {
         CarProblem problem{slot(2.2), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * parking::PI}}};
-        problem.world.boxes.push_back({-12.0, 9.5, 12.0, 11.0});
+        problem.world.boxes.push_back({{-12.0, 9.5}, {12.0, 11.0}});
         return problem;
     }
 
     /** \brief Parallel to the aisle, 30 cm at each end. */
     inline CarProblem tightParallelSlot()
     {
-        CarProblem problem{DiscCarWorld({-12.0, -2.0, 12.0, 6.0}), {{-8.0, 3.0, 0.0}}, {{0.0, 0.0, 0.0}}};
-        problem.world.boxes = {{-12.0, -2.0, -1.25, 1.0}, {3.85, -2.0, 12.0, 1.0}, {-12.0, -2.0, 12.0, -1.0}};
+        CarProblem problem{DiscCarWorld({{-12.0, -2.0}, {12.0, 6.0}}), {{-8.0, 3.0, 0.0}}, {{0.0, 0.0, 0.0}}};
+        problem.world.boxes = {
+            {{-12.0, -2.0}, {-1.25, 1.0}}, {{3.85, -2.0}, {12.0, 1.0}}, {{-12.0, -2.0}, {12.0, -1.0}}};
         return problem;
     }
 
     /** \brief Walls that have to be driven round, one after the other. */
     inline CarProblem maze(int walls)
     {
-        CarProblem problem{DiscCarWorld({-20.0, -6.0, 20.0, 6.0}), {{-18.0, 0.0, 0.0}}, {{16.0, 0.0, 0.0}}};
-        problem.world.boxes.push_back({-1.0, -2.0, 1.0, 2.0});
+        CarProblem problem{DiscCarWorld({{-20.0, -6.0}, {20.0, 6.0}}), {{-18.0, 0.0, 0.0}}, {{16.0, 0.0, 0.0}}};
+        problem.world.boxes.push_back({{-1.0, -2.0}, {1.0, 2.0}});
         for (int i = 0; i < walls; ++i)
         {
             const double x = -12.0 + 8.0 * i;
-            problem.world.boxes.push_back(i % 2 == 0 ? Box{x, -6.0, x + 0.4, 1.5} : Box{x, -1.5, x + 0.4, 6.0});
+            problem.world.boxes.push_back(i % 2 == 0 ? Box{{x, -6.0}, {x + 0.4, 1.5}} : Box{{x, -1.5}, {x + 0.4, 6.0}});
         }
         return problem;
     }
@@ -96,7 +97,7 @@ namespace parking_test
     {
         using parking::PI;
         std::vector<NamedProblem> problems{
-            {"open", {DiscCarWorld({-12.0, -12.0, 12.0, 12.0}), {{-5.0, 0.0, 0.0}}, {{5.0, 3.0, 2.0}}}, true},
+            {"open", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {{5.0, 3.0, 2.0}}}, true},
             {"doorway", {twoRooms(2.6), {{-9.0, 3.0, 0.0}}, {{6.0, -3.0, PI}}}, true},
             {"closed door", {twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}}, false},
             {"slot, nose out", {slot(2.6), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * PI}}}, true},
@@ -110,8 +111,8 @@ namespace parking_test
 
     inline std::vector<TargetProblem> targetProblems()
     {
-        return {{"open", {DiscCarWorld({-12.0, -12.0, 12.0, 12.0}), {{-5.0, 0.0, 0.0}}, {}}, {6.0, 5.0, 0.0}},
-                {"outside", {DiscCarWorld({-12.0, -12.0, 12.0, 12.0}), {{-5.0, 0.0, 0.0}}, {}}, {30.0, 0.0, 0.0}},
+        return {{"open", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {}}, {6.0, 5.0, 0.0}},
+                {"outside", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {}}, {30.0, 0.0, 0.0}},
                 {"closed door", {twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {}}, {6.0, 0.0, 0.0}},
                 {"in a block", {slot(3.0), {{-8.0, 8.0, 0.0}}, {}}, {4.0, 2.0, 0.0}},
                 {"behind walls", maze(3), {19.9, 0.0, 0.0}}};
@@ -133,7 +134,7 @@ namespace parking_test
         {
             const parking::Pose pose = open.front();
             open.pop();
-            nearest = std::min(nearest, std::hypot(pose.x - target.x, pose.y - target.y));
+            nearest = std::min(nearest, positionDistance(pose, target));
             for (const double steer : {-1.0, 0.0, 1.0})
                 for (const double gear : {-STEP, STEP})
                 {

@@ -62,7 +62,7 @@ namespace
         }
 
     private:
-        parking_test::DiscCarWorld world_{{-1.0, -1.0, 1.0, 1.0}};
+        parking_test::DiscCarWorld world_{{{-1.0, -1.0}, {1.0, 1.0}}};
         SearchParameters parameters_;
         Side side_{Side::Start};
         std::vector<Pose> roots_, targets_;
@@ -266,7 +266,7 @@ TEST(CurveHeuristic, tabulatedLengthsAreThoseOfTheirOwnCurves)
 
 TEST(CostModel, pricesLengthGearSteeringAndCloseness)
 {
-    DiscCarWorld world({-10.0, -10.0, 10.0, 10.0});
+    DiscCarWorld world({{-10.0, -10.0}, {10.0, 10.0}});
     CostModel model;
     model.fullLockCurvature = 0.25;
     EXPECT_DOUBLE_EQ(model.drive({}, {0.1, 3.0}, world), 3.0);

@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
@@ -15,11 +16,7 @@
 
 namespace parking_test
 {
-    /** \brief A solid axis-parallel box. */
-    struct Box
-    {
-        double lowX, lowY, highX, highY;
-    };
+    using parking::Box;
 
     /** \brief The world of the search's tests: a car made of discs along its axis, among boxes inside of a box.
 
@@ -44,10 +41,10 @@ namespace parking_test
         /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
         double distanceFrom(double x, double y) const
         {
-            double least = std::min({x - inside.lowX, inside.highX - x, y - inside.lowY, inside.highY - y});
+            double least = std::min({x - inside.min.x(), inside.max.x() - x, y - inside.min.y(), inside.max.y() - y});
             for (const Box &box : boxes)
-                least = std::min(least, std::hypot(std::max({box.lowX - x, 0.0, x - box.highX}),
-                                                   std::max({box.lowY - y, 0.0, y - box.highY})));
+                least = std::min(least, std::hypot(std::max({box.min.x() - x, 0.0, x - box.max.x()}),
+                                                   std::max({box.min.y() - y, 0.0, y - box.max.y()})));
             return std::max(0.0, least);
         }
 
@@ -111,8 +108,8 @@ namespace parking_test
         {
             for (;;)
             {
-                const double x = random.between(inside.lowX, inside.highX),
-                             y = random.between(inside.lowY, inside.highY);
+                const double x = random.between(inside.min.x(), inside.max.x()),
+                             y = random.between(inside.min.y(), inside.max.y());
                 const parking::Pose pose{x, y, random.between(-parking::PI, parking::PI)};
                 if (gap(pose) > 0.02)
                     return pose;
@@ -124,12 +121,12 @@ namespace parking_test
     inline DiscCarWorld randomField(std::uint64_t seed, std::uint32_t count = 10)
     {
         Random random(seed);
-        DiscCarWorld world({-12.0, -12.0, 12.0, 12.0});
+        DiscCarWorld world({{-12.0, -12.0}, {12.0, 12.0}});
         for (std::uint32_t i = 0; i < count; ++i)
         {
             const double x = random.between(-12.0, 12.0), y = random.between(-12.0, 12.0);
             const double w = random.between(0.2, 3.0), h = random.between(0.2, 3.0);
-            world.boxes.push_back({x - w, y - h, x + w, y + h});
+            world.boxes.push_back({{x - w, y - h}, {x + w, y + h}});
         }
         return world;
     }
@@ -137,18 +134,18 @@ namespace parking_test
     /** \brief Two rooms of 12 m with a doorway of the given width between them; 0: none. */
     inline DiscCarWorld twoRooms(double door)
     {
-        DiscCarWorld world({-12.0, -6.0, 12.0, 6.0});
-        world.boxes.push_back({-0.5, -6.0, 0.5, -0.5 * door});
-        world.boxes.push_back({-0.5, 0.5 * door, 0.5, 6.0});
+        DiscCarWorld world({{-12.0, -6.0}, {12.0, 6.0}});
+        world.boxes.push_back({{-0.5, -6.0}, {0.5, -0.5 * door}});
+        world.boxes.push_back({{-0.5, 0.5 * door}, {0.5, 6.0}});
         return world;
     }
 
     /** \brief A slot of the given width between blocks, off an aisle of 6 m; the car parks at (0, 1) heading out. */
     inline DiscCarWorld slot(double width)
     {
-        DiscCarWorld world({-12.0, -1.0, 12.0, 11.0});
-        world.boxes.push_back({-12.0, -1.0, -0.5 * width, 5.0});
-        world.boxes.push_back({0.5 * width, -1.0, 12.0, 5.0});
+        DiscCarWorld world({{-12.0, -1.0}, {12.0, 11.0}});
+        world.boxes.push_back({{-12.0, -1.0}, {-0.5 * width, 5.0}});
+        world.boxes.push_back({{0.5 * width, -1.0}, {12.0, 5.0}});
         return world;
     }
 
@@ -160,11 +157,7 @@ namespace parking_test
         const auto isOneOf = [](const parking::Pose &pose, const std::vector<parking::Pose> &poses, double tolerance)
         {
             return std::any_of(poses.begin(), poses.end(),
-                               [&](const parking::Pose &each)
-                               {
-                                   return std::hypot(pose.x - each.x, pose.y - each.y) <= tolerance &&
-                                          std::abs(parking::wrapAngle(pose.yaw - each.yaw)) <= tolerance;
-                               });
+                               [&](const parking::Pose &each) { return isSamePose(pose, each, tolerance); });
         };
         if (!isOneOf(path.start, starts, 0.0))
             return "does not begin at a start";

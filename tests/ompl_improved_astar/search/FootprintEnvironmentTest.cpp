@@ -24,12 +24,6 @@ using namespace parking_test;
 namespace
 {
     constexpr double TOLERANCE = 1e-3;
-
-    bool isInside(const Bounds &bounds, const Pose &pose)
-    {
-        return (pose.x >= bounds.min.x()) && (pose.x <= bounds.max.x()) && (pose.y >= bounds.min.y()) &&
-               (pose.y <= bounds.max.y());
-    }
 }  // namespace
 
 TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
@@ -40,7 +34,7 @@ TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
     {
         const World world = randomPolygonWorld(seed);
         const FootprintChecker checker(world.obstacles, vehicle);
-        const Bounds bounds{{-9.0, -4.0}, {7.0, 11.0}};
+        const Box bounds{{-9.0, -4.0}, {7.0, 11.0}};
         FootprintEnvironment environment(checker, bounds, TOLERANCE);
         Random random(seed);
         for (int i = 0; i < 800;)
@@ -49,15 +43,18 @@ TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
             if (!checker.isFree(from))
                 continue;
             ++i;
-            ASSERT_EQ(environment.isFree(from), isInside(bounds, from));
+            ASSERT_EQ(environment.isFree(from), bounds.contains(from.x, from.y));
             const double curvature = random.chance(0.3) ? 0.0 : random.between(-0.25, 0.25);
             const double length = random.magnitude(0.05, 9.0), wanted = std::abs(length);
             const double free = environment.freeLength(from, curvature, length);
             const double byChecker = checker.freeLength(from, curvature, length);
             ASSERT_LE(free, byChecker);
             for (double driven = 0.0; driven < free; driven += 0.01)
-                ASSERT_TRUE(isInside(bounds, advance(from, curvature, std::copysign(driven, length))));
-            if (!isInside(bounds, from))
+            {
+                const Pose at = advance(from, curvature, std::copysign(driven, length));
+                ASSERT_TRUE(bounds.contains(at.x, at.y));
+            }
+            if (!bounds.contains(from.x, from.y))
             {
                 ASSERT_EQ(free, 0.0);
                 continue;
@@ -69,7 +66,7 @@ TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
             }
             // No shorter than need be: just beyond its end is a wall, of one kind or the other.
             const Pose beyond = advance(from, curvature, std::copysign(free + 2.0 * TOLERANCE, length));
-            const bool leaves = !isInside(bounds, beyond);
+            const bool leaves = !bounds.contains(beyond.x, beyond.y);
             ASSERT_TRUE(leaves || free >= byChecker - 1e-12) << free << " of " << byChecker;
             ++(leaves ? atBounds : atObstacles);
         }

@@ -372,9 +372,9 @@ TEST(GridModel, endsAsNearAsTheMapAllows)
             {
                 const Pose centre{cell % world.columns + 0.5, cell / world.columns + 0.5, 0.0};
                 if (world.isPoseFree(centre) && shortestByDijkstra(world, start, centre, false) < INFINITE)
-                    nearest = std::min(nearest, std::hypot(centre.x - goal.x, centre.y - goal.y));
+                    nearest = std::min(nearest, positionDistance(centre, goal));
             }
-            EXPECT_NEAR(std::hypot(path.back().x - goal.x, path.back().y - goal.y), nearest, 1e-9) << "both " << both;
+            EXPECT_NEAR(positionDistance(path.back(), goal), nearest, 1e-9) << "both " << both;
         }
 }
 

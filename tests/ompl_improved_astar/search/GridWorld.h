@@ -63,7 +63,7 @@ namespace parking_test
         bool isBetweenFree(const parking::Pose &from, const parking::Pose &to) const
         {
             const double turn = parking::wrapAngle(to.yaw - from.yaw);
-            const double steps = std::ceil(25.0 * (std::hypot(to.x - from.x, to.y - from.y) + nose * std::abs(turn)));
+            const double steps = std::ceil(25.0 * (positionDistance(to, from) + nose * std::abs(turn)));
             for (double i = 1.0; i <= steps; i += 1.0)
             {
                 const double t = i / steps;
@@ -108,7 +108,7 @@ namespace parking_test
             result.motionModel = "grid8";
             result.searchFromGoal = false;
             result.xyResolution = 1.0;
-            result.high = {columns, rows};
+            result.bounds.max = {columns, rows};
             return result;
         }
 
@@ -160,7 +160,7 @@ namespace parking_test
     {
         double length = 0.0;
         for (std::size_t i = 1; i < path.size(); ++i)
-            length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+            length += positionDistance(path[i], path[i - 1]);
         return length;
     }
 
@@ -216,7 +216,7 @@ namespace parking_test
             return {cell % world.columns + 0.5, cell / world.columns + 0.5, 0.0};
         };
         if (first == last)
-            return world.isBetweenFree(start, goal) ? std::hypot(start.x - goal.x, start.y - goal.y)
+            return world.isBetweenFree(start, goal) ? positionDistance(start, goal)
                                                     : std::numeric_limits<double>::infinity();
         std::vector<double> settled(world.blocked.size(), -1.0);
         using Item = std::pair<double, int>;
@@ -240,7 +240,7 @@ namespace parking_test
                     const int next = row * world.columns + column;
                     const parking::Pose a = place(cell), b = place(next);
                     if (world.isPointFree(b.x, b.y) && world.isBetweenFree({a.x, a.y, 0.0}, {b.x, b.y, 0.0}))
-                        open.push({g + std::hypot(a.x - b.x, a.y - b.y), next});
+                        open.push({g + positionDistance(a, b), next});
                 }
         }
         const double found = settled[static_cast<std::size_t>(last)];

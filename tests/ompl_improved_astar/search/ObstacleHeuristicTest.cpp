@@ -88,12 +88,12 @@ namespace
     DiscCarWorld smallWorld(std::uint64_t seed)
     {
         Random random(seed);
-        DiscCarWorld world({-6.0, -6.0, 6.0, 6.0});
+        DiscCarWorld world({{-6.0, -6.0}, {6.0, 6.0}});
         for (int i = 0; i < 8; ++i)
         {
             const double x = random.between(-6.0, 6.0), y = random.between(-6.0, 6.0);
             const double w = random.between(0.05, 1.5), h = random.between(0.05, 1.5);
-            world.boxes.push_back({x - w, y - h, x + w, y + h});
+            world.boxes.push_back({{x - w, y - h}, {x + w, y + h}});
         }
         return world;
     }
@@ -240,7 +240,7 @@ TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
 
 TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
 {
-    DiscCarWorld world({-300.0, -300.0, 300.0, 300.0});
+    DiscCarWorld world({{-300.0, -300.0}, {300.0, 300.0}});
     HeuristicIn heuristic(world, 0.5, 1.0, {0.0, 0.0});
     heuristic.addTarget(10.0, 0.0);
     heuristic.distance(0.0, 0.0);
@@ -252,7 +252,7 @@ TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
 
 TEST(ObstacleHeuristic, stopsAndGoesOn)
 {
-    DiscCarWorld world({-60.0, -60.0, 60.0, 60.0}, {{-50.0, -1.0, 60.0, 1.0}});
+    DiscCarWorld world({{-60.0, -60.0}, {60.0, 60.0}}, {{{-50.0, -1.0}, {60.0, 1.0}}});
     HeuristicIn heuristic(world, 0.3, 0.5, {50.0, 10.0}), other(world, 0.3, 0.5, {50.0, 10.0});
     heuristic.addTarget(50.0, -10.0);
     other.addTarget(50.0, -10.0);
@@ -290,7 +290,7 @@ TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
     {
         DiscCarWorld world = smallWorld(seed);
         HeuristicIn lazy(world, 0.25, 0.5, {0.0, 0.0}), eager(world, 0.25, 0.5, {0.0, 0.0});
-        eager.load({-6.0, -6.0}, {6.0, 6.0});
+        eager.load({{-6.0, -6.0}, {6.0, 6.0}});
         lazy.addTarget(5.0, 5.0);
         eager.addTarget(5.0, 5.0);
         Random random(seed);
@@ -338,12 +338,12 @@ TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
     // quarter of a cell: the way is hardly longer than straight, while the cells' centres go up and down.
     constexpr double RADIUS = 0.8;
     constexpr int WALLS = 40;
-    DiscCarWorld world({-20.0, -10.0, 2.0 * WALLS + 20.0, 12.0});
+    DiscCarWorld world({{-20.0, -10.0}, {2.0 * WALLS + 20.0, 12.0}});
     for (int i = 0; i < WALLS; ++i)
     {
         const double x = 2.0 * i + 1.5;
-        world.boxes.push_back(i % 2 == 0 ? Box{x - 1e-3, -10.0, x + 1e-3, 1.25 - RADIUS}
-                                         : Box{x - 1e-3, 0.75 + RADIUS, x + 1e-3, 12.0});
+        world.boxes.push_back(i % 2 == 0 ? Box{{x - 1e-3, -10.0}, {x + 1e-3, 1.25 - RADIUS}}
+                                         : Box{{x - 1e-3, 0.75 + RADIUS}, {x + 1e-3, 12.0}});
     }
     const Eigen::Vector2d from(-2.0, 1.0), to(2.0 * WALLS + 2.0, 1.0);
     HeuristicIn heuristic(world, 1.0, RADIUS, {0.0, 0.0});
@@ -355,7 +355,7 @@ TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
 
 TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
 {
-    DiscCarWorld world({-1e6, -1e6, 1e6, 1e6});
+    DiscCarWorld world({{-1e6, -1e6}, {1e6, 1e6}});
     HeuristicIn heuristic(world, 0.03, 0.1, {0.0, 0.0});
     heuristic.addTarget(500.0, 0.0);
     EXPECT_LT(heuristic.lowerBound({0.0, 0.0, 0.0}), 500.0) << "infinite would say that there is no way";

@@ -101,7 +101,7 @@ namespace
         PlanRequest request;
         request.starts = {start};
         request.goals = {goal};
-        request.car.high = {world.columns, world.rows};
+        request.car.bounds.max = {world.columns, world.rows};
         request.parameters.motionModel = "two_wheels";
         return request;
     }

@@ -166,7 +166,7 @@ TEST(PathPlanner, endsWhenTheSolutionIsGoodEnough)
 
 TEST(PathPlanner, endsByItselfWithTheBareCurve)
 {
-    CarProblem problem{DiscCarWorld({-30.0, -30.0, 30.0, 30.0}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
+    CarProblem problem{DiscCarWorld({{-30.0, -30.0}, {30.0, 30.0}}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
     PathPlannerParameters parameters = parametersFor(problem);
     parameters.search.cost = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0};
     parameters.anytime = true;
@@ -292,7 +292,7 @@ TEST(PathPlanner, approximatePathsEndAsNearAsTheCarComes)
                     Path path;
                     ASSERT_TRUE(planner.approximate(target, nullptr, path));
                     EXPECT_EQ(faultOf(path, problem.world, problem.starts, {path.end()}, TURNING_RADIUS), "");
-                    const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);
+                    const double reached = positionDistance(path.end(), target);
                     EXPECT_LE(reached, nearestByFlooding(problem.world, problem.starts.front(), target) + 0.1);
                 }
 }

@@ -100,7 +100,7 @@ TEST(PathShortener, pricesClearanceAsTheWholePathDoes)
 
 TEST(PathShortener, straightensADetourInTheOpen)
 {
-    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
     // An S that comes back to its line.
@@ -155,7 +155,7 @@ TEST(PathShortener, twoQuarterTurnsTheSameWayAreTheShortestCurve)
 
 TEST(PathShortener, shortensOneWideTurn)
 {
-    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(0.0, 0.0);
     for (const double curvature : {1.0 / RADIUS, 0.4 / RADIUS})
@@ -169,7 +169,7 @@ TEST(PathShortener, shortensOneWideTurn)
 
 TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
 {
-    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
     const Path before{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
@@ -188,7 +188,7 @@ TEST(PathShortener, takesNoCurveThatTheWorldRefuses)
         {
             return false;
         }
-    } world({-100.0, -100.0, 100.0, 100.0});
+    } world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     Path path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     EXPECT_FALSE(
@@ -198,7 +198,7 @@ TEST(PathShortener, takesNoCurveThatTheWorldRefuses)
 
 TEST(PathShortener, leavesTrivialPathsAlone)
 {
-    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     for (const std::vector<parking::PathPiece> &segments :
          std::vector<std::vector<parking::PathPiece>>{{}, {{0.0, 1e-3}}, {{0.0, 10.0}}})
@@ -212,7 +212,7 @@ TEST(PathShortener, leavesTrivialPathsAlone)
 
 TEST(PathShortener, stopsWhenTold)
 {
-    DiscCarWorld world({-100.0, -100.0, 100.0, 100.0});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     const CostModel cost = model(1.0, 0.0);
     Random random(3);

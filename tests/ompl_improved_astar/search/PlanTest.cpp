@@ -28,15 +28,17 @@ namespace
 
     CarProblem openField()
     {
-        return {DiscCarWorld({-30.0, -30.0, 30.0, 30.0}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
+        return {DiscCarWorld({{-30.0, -30.0}, {30.0, 30.0}}), {{0.0, 0.0, 0.0}}, {{8.0, 3.0, 1.0}}};
     }
 
     /** The goal is in a room without a door. */
     CarProblem walledIn()
     {
         CarProblem problem = openField();
-        problem.world.boxes = {
-            {10.0, 10.0, 25.0, 10.5}, {10.0, 25.0, 25.0, 25.5}, {10.0, 10.0, 10.5, 25.0}, {25.0, 10.0, 25.5, 25.5}};
+        problem.world.boxes = {{{10.0, 10.0}, {25.0, 10.5}},
+                               {{10.0, 25.0}, {25.0, 25.5}},
+                               {{10.0, 10.0}, {10.5, 25.0}},
+                               {{25.0, 10.0}, {25.5, 25.5}}};
         problem.goals = {{17.0, 17.0, 0.0}};
         return problem;
     }
@@ -91,7 +93,7 @@ TEST(Plan, tellsATimeoutFromAnEndlessTask)
 TEST(Plan, namesInvalidEnds)
 {
     CarProblem problem = openField();
-    problem.world.boxes = {{5.0, 0.0, 12.0, 8.0}};
+    problem.world.boxes = {{{5.0, 0.0}, {12.0, 8.0}}};
     PlanRequest request = requestFor(problem);
     request.parameters.approximate = false;
     EXPECT_EQ(plan(problem.world, request).outcome, PlanOutcome::InvalidGoal);

@@ -117,7 +117,7 @@ TEST(Search, forwardOnlyNeverReverses)
     }
     EXPECT_GT(found, 15);
     // A goal just behind the car: it has to go round.
-    CarProblem behind{DiscCarWorld({-20.0, -20.0, 20.0, 20.0}), {{0.0, 0.0, 0.0}}, {{-1.0, 0.0, 0.0}}};
+    CarProblem behind{DiscCarWorld({{-20.0, -20.0}, {20.0, 20.0}}), {{0.0, 0.0, 0.0}}, {{-1.0, 0.0, 0.0}}};
     SearchParameters parameters = carParameters();
     EXPECT_NEAR(solve(behind, parameters).path.length(), 1.0, 1e-9);
     parameters.forwardOnly = true;
@@ -223,8 +223,7 @@ TEST(Search, eagerLoadingIsTheSameSearchButForTheLoading)
     {
         const CarProblem problem = randomProblem(seed);
         SearchParameters parameters = carParameters();
-        parameters.low = {-12.0, -12.0};
-        parameters.high = {12.0, 12.0};
+        parameters.bounds = {{-12.0, -12.0}, {12.0, 12.0}};
         parameters.inscribedRadius = problem.world.radius;
         const Result lazy = solve(problem, parameters);
         parameters.eagerObstacles = true;
@@ -293,7 +292,7 @@ TEST(Search, joinsTheCheapestPairOfRootsInTheOpen)
     {
         SCOPED_TRACE(seed);
         Random random(seed);
-        CarProblem problem{DiscCarWorld({-60.0, -60.0, 60.0, 60.0}), {}, {}};
+        CarProblem problem{DiscCarWorld({{-60.0, -60.0}, {60.0, 60.0}}), {}, {}};
         for (int i = 0; i < 3; ++i)
         {
             problem.starts.push_back(random.poseIn(-10.0, 10.0));
@@ -317,7 +316,7 @@ TEST(Search, goalsAddedLaterAreReached)
             SCOPED_TRACE(nearWeight);
             CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
             // The new goal stands behind a wall in the start's own room.
-            problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
+            problem.world.boxes.push_back({{-6.0, -6.0}, {-5.6, 2.2}});
             SearchParameters parameters = carParameters();
             parameters.bidirectional = bidirectional;
             parameters.searchFromGoal = false;
@@ -337,7 +336,7 @@ TEST(Search, changedHeuristicsDoNotLoseOpenNodes)
 {
     // With a weight that falls near the goal, a goal added close by lowers what the open nodes are worth.
     CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
-    problem.world.boxes.push_back({-6.0, -6.0, -5.6, 2.2});
+    problem.world.boxes.push_back({{-6.0, -6.0}, {-5.6, 2.2}});
     SearchParameters parameters = carParameters();
     parameters.bidirectional = false;
     parameters.searchFromGoal = false;
@@ -353,7 +352,7 @@ TEST(Search, changedHeuristicsDoNotLoseOpenNodes)
 TEST(Search, startsAddedLaterAreUsed)
 {
     CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{9.0, -2.0, 0.5 * PI}}};
-    problem.world.boxes.push_back({5.6, -6.0, 6.0, 2.2});
+    problem.world.boxes.push_back({{5.6, -6.0}, {6.0, 2.2}});
     SearchParameters parameters = carParameters();
     parameters.inscribedRadius = problem.world.radius;
     Search search;
@@ -381,10 +380,10 @@ TEST(Search, aGoalAfterATargetIsReached)
 TEST(Search, farGoalsOfASmallCarAreNotTakenForUnreachable)
 {
     // 150 m are 750 turning radii of a model car.
-    CarProblem problem{DiscCarWorld({-20.0, -20.0, 200.0, 20.0}), {{0.0, 0.0, 0.0}}, {{150.0, 0.0, 0.0}}};
+    CarProblem problem{DiscCarWorld({{-20.0, -20.0}, {200.0, 20.0}}), {{0.0, 0.0, 0.0}}, {{150.0, 0.0, 0.0}}};
     problem.world.offsets = {0.0, 0.1};
     problem.world.radius = 0.1;
-    problem.world.boxes.push_back({70.0, -1.0, 71.0, 1.0});
+    problem.world.boxes.push_back({{70.0, -1.0}, {71.0, 1.0}});
     SearchParameters parameters = carParameters();
     parameters.turningRadius = 0.2;
     parameters.inscribedRadius = 0.1;
@@ -408,7 +407,7 @@ TEST(Search, comesAsNearToATargetAsTheCarCan)
         Path path;
         ASSERT_TRUE(search.nearestPath(target, path));
         EXPECT_EQ(faultOf(path, world, problem.starts, {path.end()}, TURNING_RADIUS), "");
-        const double reached = std::hypot(path.end().x - target.x, path.end().y - target.y);
+        const double reached = positionDistance(path.end(), target);
         EXPECT_LE(reached, nearestByFlooding(world, problem.starts.front(), target) + 0.1);
     }
     Path path;

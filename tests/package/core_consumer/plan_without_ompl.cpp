@@ -11,7 +11,7 @@ int main()
 {
     // A wall across the world with a gap of four metres.
     const parking::Vehicle car;
-    const parking::Bounds bounds{{-20.0, -15.0}, {20.0, 15.0}};
+    const parking::Box bounds{{-20.0, -15.0}, {20.0, 15.0}};
     const auto world = parking::ObstacleSet::fromPolygons(
         {{{-0.5, -15.0}, {0.5, -15.0}, {0.5, 2.0}, {-0.5, 2.0}}, {{-0.5, 6.0}, {0.5, 6.0}, {0.5, 15.0}, {-0.5, 15.0}}},
         bounds);
@@ -39,7 +39,7 @@ int main()
     }
     const parking::Path path = planner.bestPath();
     const parking::Pose end = path.end();
-    if (std::hypot(end.x - goal.x, end.y - goal.y) > 1e-6 || !(path.length() > 20.0))
+    if (positionDistance(end, goal) > 1e-6 || !(path.length() > 20.0))
     {
         std::cerr << "the path ends at " << end.x << ' ' << end.y << " after " << path.length() << " m\n";
         return 1;

@@ -121,7 +121,7 @@ namespace
     }
 
     /** Number of cells whose middle the outlines hold by the even-odd rule, compared cell by cell. */
-    void expectOutlinesCover(const OccupancyGrid &grid, Cell kind, const Bounds &window)
+    void expectOutlinesCover(const OccupancyGrid &grid, Cell kind, const Box &window)
     {
         const std::vector<Polygon> outlines = outlineCells(grid, kind, window);
         for (std::size_t row = 0; row < grid.height(); ++row)
@@ -179,7 +179,7 @@ TEST(CellOutlines, CoverExactlyTheCells)
                 for (std::size_t column = 0; column < grid.width(); ++column)
                     if (random() % share == 0)
                         grid.set(column, row, Cell::Occupied);
-            const Bounds everything{{-100, -100}, {100, 100}}, part{{0, 0}, {5, 3}}, nothing{{200, 200}, {300, 300}};
+            const Box everything{{-100, -100}, {100, 100}}, part{{0, 0}, {5, 3}}, nothing{{200, 200}, {300, 300}};
             expectOutlinesCover(grid, Cell::Occupied, everything);
             expectOutlinesCover(grid, Cell::Free, everything);
             expectOutlinesCover(grid, Cell::Occupied, part);
@@ -211,12 +211,12 @@ TEST(CellOutlines, OneBlockIsOneOutlineOfFourCorners)
 
 TEST(SvgMap, ShowsAtLeastWhatWasAskedAtEqualScaleWithYUp)
 {
-    for (const Bounds &asked : {Bounds{{0, 0}, {10, 10}}, Bounds{{0, 0}, {100, 1}}, Bounds{{0, 0}, {1, 100}}})
+    for (const Box &asked : {Box{{0, 0}, {10, 10}}, Box{{0, 0}, {100, 1}}, Box{{0, 0}, {1, 100}}})
     {
         const SvgMap map(asked);
         EXPECT_LE((map.view().min - asked.min).maxCoeff(), 1e-9);
         EXPECT_GE((map.view().max - asked.max).minCoeff(), -1e-9);
-        const Eigen::Vector2d size = map.view().max - map.view().min;
+        const Eigen::Vector2d size = map.view().size();
         EXPECT_NEAR(map.width() / size.x(), map.height() / size.y(), 1e-9);
         EXPECT_LE(map.height(), map.width() + 1e-9);
         EXPECT_GE(map.height(), 0.35 * map.width());
@@ -236,8 +236,8 @@ TEST(SvgScenario, FitsTheViewToThePathNotToTheMap)
 {
     const Scenario scenario = slotScenario();
     const SampledPath path = zigzag();
-    const Bounds view = viewAround(scenario, path);
-    EXPECT_LT((view.max - view.min).maxCoeff(), 40.0);
+    const Box view = viewAround(scenario, path);
+    EXPECT_LT(view.size().maxCoeff(), 40.0);
     for (const PathState &state : path)
         for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(state.pose))
         {

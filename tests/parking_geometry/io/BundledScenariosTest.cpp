@@ -137,7 +137,7 @@ TEST_P(BundledScenario, UsesARealCarAndIsOfSensibleSize)
     const Scenario scenario = read(GetParam().name);
     EXPECT_EQ(scenario.name, GetParam().name);
     EXPECT_NE(scenario.vehicle.name, "tpcap");
-    const Eigen::Vector2d size = scenario.bounds.max - scenario.bounds.min;
+    const Eigen::Vector2d size = scenario.bounds.size();
     EXPECT_LE(size.maxCoeff(), 100.0);
     EXPECT_GE(size.minCoeff(), 15.0);
     EXPECT_GT(obstaclesOf(scenario).size(), 5u);

@@ -20,7 +20,7 @@ using namespace parking_test;
 
 namespace
 {
-    ob::SpaceInformationPtr spaceOf(const Bounds &box)
+    ob::SpaceInformationPtr spaceOf(const Box &box)
     {
         const auto space = std::make_shared<ob::SE2StateSpace>();
         ob::RealVectorBounds bounds(2);
@@ -42,7 +42,7 @@ namespace
                       (point.array() >= obstacles.bounds().max.array()).any();
         for (const Polygon &polygon : obstacles.polygons())
             inside = inside || contains(polygon, point);
-        for (const Rectangle &rectangle : obstacles.rectangles())
+        for (const Box &rectangle : obstacles.rectangles())
             inside = inside ||
                      ((point.array() >= rectangle.min.array()).all() && (point.array() <= rectangle.max.array()).all());
         double least = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ namespace
         return inside ? 0.0 : least;
     }
 
-    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
 }  // namespace
 
 TEST(CircleValidityChecker, IsTheDistanceToTheNearestObstacle)

@@ -20,7 +20,7 @@ using namespace parking_test;
 
 namespace
 {
-    ob::SpaceInformationPtr spaceOf(const std::shared_ptr<ob::SE2StateSpace> &space, const Bounds &box)
+    ob::SpaceInformationPtr spaceOf(const std::shared_ptr<ob::SE2StateSpace> &space, const Box &box)
     {
         ob::RealVectorBounds bounds(2);
         for (unsigned int axis = 0; axis < 2; ++axis)
@@ -45,7 +45,7 @@ namespace
         return "no exception";
     }
 
-    const Bounds BOX{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
 }  // namespace
 
 TEST(FclFootprintChecker, AnswersAsTheOracleWithinTheBoundsInEverySpace)
@@ -56,7 +56,7 @@ TEST(FclFootprintChecker, AnswersAsTheOracleWithinTheBoundsInEverySpace)
     {
         const World world = randomPolygonWorld(3);
         // Bounds within the world: what lies between is free of obstacles in part, yet not valid.
-        const Bounds half{{-15.0, -15.0}, {4.0, 15.0}};
+        const Box half{{-15.0, -15.0}, {4.0, 15.0}};
         const ob::SpaceInformationPtr si = spaceOf(space, half);
         const Vehicle vehicle;
         const auto checker = std::make_shared<FclFootprintChecker>(si, world.obstacles, vehicle);

@@ -28,7 +28,7 @@ namespace
 
     struct Planar
     {
-        Planar(const SpacePtr &space, const ObstacleSet &obstacles, const Bounds &box)
+        Planar(const SpacePtr &space, const ObstacleSet &obstacles, const Box &box)
         {
             ob::RealVectorBounds bounds(2);
             for (unsigned int axis = 0; axis < 2; ++axis)
@@ -229,7 +229,7 @@ TEST(SweptMotionValidator, AcceptsWhatKeepsItsDistance)
 TEST(SweptMotionValidator, LongCurvesAreCheckedBetweenTheirEnds)
 {
     // A post that stands beside the middle of a straight motion of 12 m, and is cut by nothing but that.
-    const Bounds box{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box box{{-20.0, -20.0}, {20.0, 20.0}};
     for (const double gap : {-0.01, 0.01})
     {
         const Vehicle vehicle;
@@ -255,7 +255,7 @@ TEST(SweptMotionValidator, LongCurvesAreCheckedBetweenTheirEnds)
 TEST(SweptMotionValidator, MotionsStayWithinTheBoundsOfTheSpace)
 {
     // From one heading to the other with a turn in between that leads out of the bounds of the space, not of the world.
-    const Bounds world{{-50.0, -50.0}, {50.0, 50.0}}, box{{-20.0, -20.0}, {20.0, 4.0}};
+    const Box world{{-50.0, -50.0}, {50.0, 50.0}}, box{{-20.0, -20.0}, {20.0, 4.0}};
     for (const SpacePtr &space : {dubins(), symmetricDubins()})
     {
         const Planar setup(space, ObstacleSet::fromPolygons({}, world), box);
@@ -276,7 +276,7 @@ TEST(SweptMotionValidator, MotionsStayWithinTheBoundsOfTheSpace)
 
 TEST(SweptMotionValidator, TheEndMustBeValidByTheCheckerOfTheSpaceInformation)
 {
-    const Bounds box{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box box{{-20.0, -20.0}, {20.0, 20.0}};
     for (const SpacePtr &space : {reedsShepp(), plain()})
     {
         const Planar setup(space, ObstacleSet::fromPolygons({}, box), box);
@@ -302,7 +302,7 @@ TEST(SweptMotionValidator, TheEndMustBeValidByTheCheckerOfTheSpaceInformation)
 
 TEST(SweptMotionValidator, TheLastValidStateMayTakeThePlaceOfEitherEnd)
 {
-    const Bounds box{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box box{{-20.0, -20.0}, {20.0, 20.0}};
     for (const SpacePtr &space : {reedsShepp(), plain()})
         for (const bool first : {true, false})
             for (const double x : {7.0, 3.76})  // stopped on the way, and at once
@@ -321,7 +321,7 @@ TEST(SweptMotionValidator, TheLastValidStateMayTakeThePlaceOfEitherEnd)
 
 TEST(SweptMotionValidator, StatesThatAreTheSameAndStatesThatAreNotFinite)
 {
-    const Bounds box{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box box{{-20.0, -20.0}, {20.0, 20.0}};
     for (const SpacePtr &space : {reedsShepp(), dubins(), symmetricDubins(), plain()})
     {
         const Planar setup(space, ObstacleSet::fromPolygons({}, box), box);
@@ -341,7 +341,7 @@ TEST(SweptMotionValidator, StatesThatAreTheSameAndStatesThatAreNotFinite)
 
 TEST(SweptMotionValidator, RefusesBadInput)
 {
-    const Bounds box{{-20.0, -20.0}, {20.0, 20.0}};
+    const Box box{{-20.0, -20.0}, {20.0, 20.0}};
     const Planar setup(reedsShepp(), ObstacleSet::fromPolygons({}, box), box);
     for (const double tolerance : {0.0, -1e-3, 0.2, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THROW(SweptMotionValidator(setup.si, tolerance), ompl::Exception) << tolerance;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief An axis-parallel box in metres: the bounds of a world, an obstacle, what a drawing shows.
+
+        In which frame it lies is said where it is used. A rectangle at any angle is an OrientedBox. */
+    struct Box
+    {
+        Eigen::Vector2d min{0.0, 0.0};
+        Eigen::Vector2d max{0.0, 0.0};
+
+        Eigen::Vector2d size() const
+        {
+            return max - min;
+        }
+
+        /** \brief Does the point lie inside, or on the outline? */
+        bool contains(double x, double y) const
+        {
+            return x >= min.x() && x <= max.x() && y >= min.y() && y <= max.y();
+        }
+
+        /** \brief Grows until it contains the point. */
+        void include(const Eigen::Vector2d &point)
+        {
+            min = min.cwiseMin(point);
+            max = max.cwiseMax(point);
+        }
+    };
+}  // namespace parking
