@@ -33,9 +33,9 @@ namespace
             return planner.checkedStates() + statistics.expanded + statistics.generated + statistics.heuristicCells;
         }
 
-        /** Stopped at the first question, the tenth and so on until the \e latest, the planner does no more than \e
-           most units of work between one question and the next, and after the answer that stops it; and it does not go
-           on asking. */
+        /** Stopped at the first question, the tenth and so on until the \e latest, the planner does at most \e most
+            units of work between one question and the next, and after the answer that stops it; and it does not go on
+            asking. */
         static void expectPrompt(PlanningProblem &problem, std::uint64_t most, std::function<std::uint64_t()> work = {},
                                  unsigned int latest = 1000)
         {

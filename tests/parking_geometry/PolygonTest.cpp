@@ -1,8 +1,8 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Polygon.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -65,22 +65,21 @@ TEST(Polygon, ContainsPointsOfANonConvexPolygonInEitherOrientation)
 
 TEST(Polygon, ContainsAgreesWithTheWindingAngle)
 {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    parking_test::Random random(11);
     int inside = 0;
     for (int i = 0; i < 400; ++i)
     {
         // Star-shaped about the origin, so simple whatever the radii.
         Polygon polygon;
-        const int corners = 3 + static_cast<int>(uniform(random) * 9.0);
+        const int corners = 3 + random.below(9);
         for (int k = 0; k < corners; ++k)
         {
-            const double angle = 2.0 * 3.14159265358979 * k / corners, radius = 0.3 + 2.0 * uniform(random);
+            const double angle = 2.0 * 3.14159265358979 * k / corners, radius = random.between(0.3, 2.3);
             polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
         }
         for (int k = 0; k < 50; ++k)
         {
-            const Eigen::Vector2d point(5.0 * uniform(random) - 2.5, 5.0 * uniform(random) - 2.5);
+            const Eigen::Vector2d point(random.between(-2.5, 2.5), random.between(-2.5, 2.5));
             double turned = 0.0;
             for (std::size_t j = 0; j < polygon.size(); ++j)
             {

@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Vehicle.h"
 
 #include "parking_geometry/Polygon.h"
@@ -7,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -120,13 +120,12 @@ TEST(Vehicle, FootprintHasItsCornersInOrder)
 
 TEST(Vehicle, FootprintMovesRigidlyWithItsPose)
 {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> uniform(-100.0, 100.0);
+    parking_test::Random random(7);
     const Vehicle car;
     const std::array<Eigen::Vector2d, 4> home = car.footprint({});
     for (int i = 0; i < 1000; ++i)
     {
-        const Pose pose{uniform(random), uniform(random), uniform(random)};
+        const Pose pose{random.between(-100.0, 100.0), random.between(-100.0, 100.0), random.between(-100.0, 100.0)};
         const std::array<Eigen::Vector2d, 4> body = car.footprint(pose);
         for (std::size_t k = 0; k < 4; ++k)
         {

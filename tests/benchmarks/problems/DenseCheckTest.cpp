@@ -2,6 +2,7 @@
 
 #include "benchmarks/problems/DenseCheck.h"
 #include "benchmarks/worlds/PolygonOracle.h"
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace
 {
@@ -55,19 +55,18 @@ namespace
     {
         const Scenario worlds[] = {readScenario(PARKING_SOURCE_DIR "/benchmarks/scenarios/perpendicular.yaml"),
                                    readScenario(PARKING_SOURCE_DIR "/benchmarks/scenarios/underground_garage.yaml")};
-        std::mt19937 random(5);
+        parking_test::Random random(5);
         for (const Scenario &scenario : worlds)
         {
             SCOPED_TRACE(scenario.name);
             const DenseCheck check(scenario);
             const parking_test::PolygonOracle oracle(scenario);
-            std::uniform_real_distribution<double> x(scenario.bounds.min.x(), scenario.bounds.max.x());
-            std::uniform_real_distribution<double> y(scenario.bounds.min.y(), scenario.bounds.max.y());
-            std::uniform_real_distribution<double> yaw(-PI, PI);
+            const Box &bounds = scenario.bounds;
             int free = 0;
             for (int i = 0; i < 20000; ++i)
             {
-                const Pose pose{x(random), y(random), yaw(random)};
+                const Pose pose{random.between(bounds.min.x(), bounds.max.x()),
+                                random.between(bounds.min.y(), bounds.max.y()), random.between(-PI, PI)};
                 const bool found = check.isFree(pose);
                 free += found ? 1 : 0;
                 // Up to a hundredth of a millimetre both answers are right.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
+#include "tests/ompl_improved_astar/AfterAsking.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <cmath>

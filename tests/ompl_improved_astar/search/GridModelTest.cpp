@@ -32,7 +32,7 @@ namespace
         grid.begin(world, parameters);
         grid.addStart(start);
         grid.addGoal(goal);
-        const Outcome outcome = grid.run(nullptr);
+        const Outcome outcome = grid.run(afterAsking());
         return {outcome, posesOf(grid.bestPath()), grid.statistics()};
     }
 
@@ -363,7 +363,7 @@ TEST(GridModel, endsAsNearAsTheMapAllows)
             grid.begin(world, parameters);
             grid.addStart(start);
             grid.addGoal(goal);
-            ASSERT_EQ(grid.run(nullptr), Outcome::Exhausted);
+            ASSERT_EQ(grid.run(afterAsking()), Outcome::Exhausted);
             const std::vector<Pose> path = nearest(grid, goal);
             ASSERT_FALSE(path.empty());
             EXPECT_EQ(faultOf(path, world, start, path.back()), "");
@@ -385,13 +385,13 @@ TEST(GridModel, withoutAGoalItGoesNearTheTarget)
     grid.begin(world, world.parameters());
     grid.addStart({0.5, 0.5, 0.0});
     grid.setTarget({5.5, 2.5, 0.0});
-    EXPECT_EQ(grid.run(nullptr), Outcome::Exhausted);
+    EXPECT_EQ(grid.run(afterAsking()), Outcome::Exhausted);
     const std::vector<Pose> path = nearest(grid, {5.5, 2.5, 0.0});
     ASSERT_FALSE(path.empty());
     EXPECT_NEAR(std::hypot(path.back().x - 5.5, path.back().y - 2.5), 2.0, 1e-9);
     Search empty;
     empty.begin(world, world.parameters());
-    EXPECT_EQ(empty.run(nullptr), Outcome::Exhausted);
+    EXPECT_EQ(empty.run(afterAsking()), Outcome::Exhausted);
     EXPECT_TRUE(nearest(empty, {}).empty());
 }
 
@@ -421,7 +421,7 @@ TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
         for (const Pose &start : starts)
             for (const Pose &goal : goals)
                 best = std::min(best, shortestByDijkstra(world, start, goal, false));
-        ASSERT_EQ(grid.run(nullptr) == Outcome::Improved, best < INFINITE);
+        ASSERT_EQ(grid.run(afterAsking()) == Outcome::Improved, best < INFINITE);
         if (best < INFINITE)
         {
             ASSERT_NEAR(lengthOf(posesOf(grid.bestPath())), best, 1e-9);
@@ -441,7 +441,7 @@ TEST(GridModel, oneObjectServesManyQueries)
         reused.begin(world, world.parameters());
         reused.addStart(start);
         reused.addGoal(goal);
-        ASSERT_EQ(reused.run(nullptr), fresh.outcome);
+        ASSERT_EQ(reused.run(afterAsking()), fresh.outcome);
         expectSamePath(posesOf(reused.bestPath()), fresh.path);
         ASSERT_EQ(reused.statistics().expanded, fresh.statistics.expanded);
     }
@@ -458,7 +458,7 @@ TEST(GridModel, nodesFormTreesOfFreeEdges)
         grid.begin(world, world.parameters());
         grid.addStart(start);
         grid.addGoal(goal);
-        grid.run(nullptr);
+        grid.run(afterAsking());
         std::vector<std::pair<Pose, NodeIndex>> nodes;
         std::vector<char> sides;
         for (const Side side : {Side::Start, Side::Goal})

@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/Search.h"
+#include "tests/ompl_improved_astar/AfterAsking.h"
 
 #include <cmath>
 #include <cstdint>

@@ -41,14 +41,6 @@ namespace
         cost.fullLockCurvature = 1.0 / parameters.search.turningRadius;
         return cost;
     }
-
-    StopFunction afterAsking(int times)
-    {
-        return [times, asked = 0]() mutable
-        {
-            return ++asked > times;
-        };
-    }
 }  // namespace
 
 TEST(PathPlanner, solvesAndReportsWhatItReturns)

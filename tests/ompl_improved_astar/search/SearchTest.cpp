@@ -327,7 +327,7 @@ TEST(Search, goalsAddedLaterAreReached)
             const Pose goal{-3.5, -4.0, 0.5 * PI};
             ASSERT_GT(problem.world.gap(goal), 0.0);
             search.addGoal(goal);
-            ASSERT_EQ(search.run(nullptr), SearchOutcome::Improved);
+            ASSERT_EQ(search.run(afterAsking()), SearchOutcome::Improved);
             EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {goal}, TURNING_RADIUS), "");
         }
 }
@@ -346,7 +346,7 @@ TEST(Search, changedHeuristicsDoNotLoseOpenNodes)
     problem.begin(search, parameters);
     EXPECT_EQ(search.run([&] { return search.statistics().expanded >= 1; }), SearchOutcome::Stopped);
     search.addGoal({-3.5, -4.0, 0.5 * PI});
-    EXPECT_EQ(search.run(nullptr), SearchOutcome::Improved);
+    EXPECT_EQ(search.run(afterAsking()), SearchOutcome::Improved);
 }
 
 TEST(Search, startsAddedLaterAreUsed)
@@ -357,10 +357,10 @@ TEST(Search, startsAddedLaterAreUsed)
     parameters.inscribedRadius = problem.world.radius;
     Search search;
     problem.begin(search, parameters);
-    EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
+    EXPECT_EQ(search.run(afterAsking()), SearchOutcome::Exhausted);
     const Pose start{3.5, -4.0, 0.5 * PI};
     search.addStart(start);
-    ASSERT_EQ(search.run(nullptr), SearchOutcome::Improved);
+    ASSERT_EQ(search.run(afterAsking()), SearchOutcome::Improved);
     EXPECT_EQ(faultOf(search.bestPath(), problem.world, {start}, problem.goals, TURNING_RADIUS), "");
 }
 
@@ -403,7 +403,7 @@ TEST(Search, comesAsNearToATargetAsTheCarCan)
         search.begin(world, carParameters());
         search.addStart(problem.starts.front());
         search.setTarget(target);
-        EXPECT_EQ(search.run(nullptr), SearchOutcome::Exhausted);
+        EXPECT_EQ(search.run(afterAsking()), SearchOutcome::Exhausted);
         Path path;
         ASSERT_TRUE(search.nearestPath(target, path));
         EXPECT_EQ(faultOf(path, world, problem.starts, {path.end()}, TURNING_RADIUS), "");

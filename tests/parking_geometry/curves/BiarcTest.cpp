@@ -1,9 +1,9 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/curves/Biarc.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace
 {
@@ -11,18 +11,14 @@ namespace
 
     TEST(Biarc, LeadsFromPoseToPoseExactly)
     {
-        std::mt19937_64 random(7);
-        const auto uniform = [&random](double low, double high)
-        {
-            return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-        };
+        parking_test::Random random(7);
         for (int i = 0; i < 2000; ++i)
         {
             const int direction = i % 2 == 0 ? 1 : -1;
-            const Pose from{uniform(-9.0, 9.0), uniform(-9.0, 9.0), uniform(-PI, PI)};
+            const Pose from{random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-PI, PI)};
             const double share = i % 3 == 0 ? 1e-6 : 1.0;  // nearly straight ones, too
-            const Pose to =
-                compose(from, {direction * uniform(0.1, 3.0), share * uniform(-0.1, 0.1), share * uniform(-1.2, 1.2)});
+            const Pose to = compose(from, {direction * random.between(0.1, 3.0), share * random.between(-0.1, 0.1),
+                                           share * random.between(-1.2, 1.2)});
             const auto path = biarc(from, to, direction);
             ASSERT_TRUE(path);
             ASSERT_LE(path->pieces.size(), 2u);

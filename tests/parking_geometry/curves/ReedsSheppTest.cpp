@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
@@ -6,8 +7,6 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
-
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -21,19 +20,6 @@ namespace
         Path path{from, {curve.pieces.begin(), curve.pieces.begin() + static_cast<long>(curve.count)}};
         return path.end();
     }
-
-    class RandomPoses
-    {
-    public:
-        Pose operator()(double extent)
-        {
-            std::uniform_real_distribution<double> position(-extent, extent), angle(-PI, PI);
-            return {position(generator_), position(generator_), angle(generator_)};
-        }
-
-    private:
-        std::mt19937 generator_{20240701};
-    };
 
     template <class Space>
     double omplDistance(Space &space, const Pose &a, const Pose &b)
@@ -49,13 +35,13 @@ namespace
 
 TEST(ReedsShepp, EveryWordEndsAtTheGoalAndTheShortestIsFirst)
 {
-    RandomPoses random;
+    parking_test::Random random(1);
     std::vector<ReedsSheppCurve> curves;
     for (const double extent : {0.5, 3.0, 20.0})
         for (int i = 0; i < 20000; ++i)
         {
             const ReedsShepp solver(1.0 + (i % 7));
-            const Pose from = random(extent), to = random(extent);
+            const Pose from = random.poseIn(-extent, extent), to = random.poseIn(-extent, extent);
             solver.candidates(from, to, curves);
             ASSERT_FALSE(curves.empty());
             for (const ReedsSheppCurve &curve : curves)
@@ -72,7 +58,7 @@ TEST(ReedsShepp, EveryWordEndsAtTheGoalAndTheShortestIsFirst)
 
 TEST(ReedsShepp, LengthAgreesWithOmpl)
 {
-    RandomPoses random;
+    parking_test::Random random(1);
     for (const double radius : {1.0, 3.0, 5.3})
     {
         const ReedsShepp solver(radius), dubins(radius, CurveFamily::Dubins);
@@ -85,7 +71,7 @@ TEST(ReedsShepp, LengthAgreesWithOmpl)
         dubinsSpace->setBounds(bounds);
         for (int i = 0; i < 20000; ++i)
         {
-            const Pose from = random(12.0), to = random(12.0);
+            const Pose from = random.poseIn(-12.0, 12.0), to = random.poseIn(-12.0, 12.0);
             ASSERT_NEAR(solver.distance(from, to), omplDistance(reedsSheppSpace, from, to), 1e-6);
             ASSERT_NEAR(dubins.distance(from, to), omplDistance(dubinsSpace, from, to), 1e-6);
         }
@@ -94,12 +80,12 @@ TEST(ReedsShepp, LengthAgreesWithOmpl)
 
 TEST(ReedsShepp, DubinsDrivesForwardsOnly)
 {
-    RandomPoses random;
+    parking_test::Random random(1);
     const ReedsShepp solver(2.0, CurveFamily::Dubins);
     std::vector<ReedsSheppCurve> curves;
     for (int i = 0; i < 20000; ++i)
     {
-        const Pose from = random(8.0), to = random(8.0);
+        const Pose from = random.poseIn(-8.0, 8.0), to = random.poseIn(-8.0, 8.0);
         solver.candidates(from, to, curves);
         ASSERT_FALSE(curves.empty());
         for (const ReedsSheppCurve &curve : curves)

@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/drawing/Svg.h"
 
 #include "parking_geometry/drawing/CellOutlines.h"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -170,14 +170,14 @@ TEST(SvgText, TicksAreRound)
 
 TEST(CellOutlines, CoverExactlyTheCells)
 {
-    std::mt19937 random(8);
+    parking_test::Random random(8);
     for (const Pose &origin : {Pose{}, Pose{3.0, -2.0, 0.7}, Pose{-1.0, 2.0, -2.5}})
-        for (const unsigned share : {2u, 4u, 10u})
+        for (const double share : {0.5, 0.25, 0.1})
         {
             OccupancyGrid grid(23, 17, 0.5, origin);
             for (std::size_t row = 0; row < grid.height(); ++row)
                 for (std::size_t column = 0; column < grid.width(); ++column)
-                    if (random() % share == 0)
+                    if (random.chance(share))
                         grid.set(column, row, Cell::Occupied);
             const Box everything{{-100, -100}, {100, 100}}, part{{0, 0}, {5, 3}}, nothing{{200, 200}, {300, 300}};
             expectOutlinesCover(grid, Cell::Occupied, everything);

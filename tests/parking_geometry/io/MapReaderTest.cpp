@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -202,9 +202,9 @@ TEST_F(MapReader, ReadsPalettePng)
 TEST_F(MapReader, ReadsInterlacedPng)
 {
     TestPng image = grey(17, 13, {});
-    std::mt19937 random(4);
+    parking_test::Random random(4);
     for (int i = 0; i < 17 * 13; ++i)
-        image.samples.push_back(random() % 3 == 0 ? 0 : random() % 2 ? 205 : 254);
+        image.samples.push_back(random.index(3) == 0 ? 0 : random.chance(0.5) ? 205 : 254);
     const std::string plain = cells(encodePng(image));
     image.interlaced = true;
     EXPECT_EQ(cells(encodePng(image)), plain);
@@ -317,8 +317,7 @@ TEST_F(MapReader, DamagedImagesGiveErrorsAndNothingWorse)
     const std::vector<std::string> images = {"P2 # c\n4 3 255\n1 2 3 4 250 6 7 8 9 200 11 12\n",
                                              raw("P5\n# c\n3 2 300\n", {1, 2, 0, 4, 0, 6, 1, 8, 0, 7, 0, 3}),
                                              encodePng(colours), encodePng(palette)};
-    std::mt19937 random(5);
-    std::uniform_int_distribution<int> byte(0, 255);
+    parking_test::Random random(5);
     const auto expectSound = [this](const std::string &image)
     {
         try
@@ -340,11 +339,11 @@ TEST_F(MapReader, DamagedImagesGiveErrorsAndNothingWorse)
             for (int k = 0; k < 3; ++k)
             {
                 std::string changed = image;
-                changed[i] = static_cast<char>(byte(random));
+                changed[i] = static_cast<char>(random.index(256));
                 expectSound(changed);
             }
             std::string longer = image;
-            longer.insert(i, 1, static_cast<char>(byte(random)));
+            longer.insert(i, 1, static_cast<char>(random.index(256)));
             expectSound(longer);
         }
 }

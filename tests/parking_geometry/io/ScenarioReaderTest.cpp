@@ -1,3 +1,4 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 
 #include "tests/parking_geometry/ExpectError.h"
@@ -5,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -388,23 +388,21 @@ TEST_F(YamlReader, DamagedFilesGiveErrorsAndNothingWorse)
 {
     const std::string slot = with(SCENARIO, "goal: [15.5, 20, -0.25]\n",
                                   "slot: {kind: parallel, pose: [15, 15, 1], length: 6, width: 2.5, entry: reverse}\n");
-    std::mt19937 random(2);
-    std::uniform_int_distribution<int> byte(0, 255);
+    parking_test::Random random(2);
     const std::string nasty = "[]{}:,#&*!|>'\"%@`-?\n\t 0e9.+\\";
-    std::uniform_int_distribution<std::size_t> pick(0, nasty.size() - 1);
     for (const std::string &text : {CASE, SCENARIO, slot})
         for (std::size_t i = 0; i < text.size(); ++i)
         {
             SCOPED_TRACE("position " + std::to_string(i));
             expectSound(folder_.write("damaged", text.substr(0, i) + (i ? "" : " ")));
             std::string changed = text;
-            changed[i] = static_cast<char>(byte(random));
+            changed[i] = static_cast<char>(random.index(256));
             expectSound(folder_.write("damaged", changed));
             changed = text;
-            changed[i] = nasty[pick(random)];
+            changed[i] = nasty[random.index(nasty.size())];
             expectSound(folder_.write("damaged", changed));
             changed = text;
-            changed.insert(i, 1, nasty[pick(random)]);
+            changed.insert(i, 1, nasty[random.index(nasty.size())]);
             expectSound(folder_.write("damaged", changed));
             changed = text;
             changed.erase(i, 1);

@@ -1,10 +1,10 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 #include "tests/parking_geometry/io/TestImages.h"
 
 #include <filesystem>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -180,13 +180,13 @@ TEST_F(SurroundOcc, ServesAsTheMapOfAScenario)
 TEST_F(SurroundOcc, DamagedFilesGiveErrorsAndNothingWorse)
 {
     const std::string bytes = encodeNpy({1, 2, 3, 4, 5, 6, 7, 8});
-    std::mt19937 random(6);
+    parking_test::Random random(6);
     for (std::size_t i = 1; i < bytes.size(); ++i)
         for (const bool cut : {true, false})
         {
             std::string changed = cut ? bytes.substr(0, i) : bytes;
             if (!cut)
-                changed[i] = static_cast<char>(random() % 256);
+                changed[i] = static_cast<char>(random.index(256));
             try
             {
                 readSurroundOcc(folder_.write("x.npy", changed));

@@ -1,10 +1,10 @@
+#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/text/NearestName.h"
 
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -65,10 +65,10 @@ TEST(Text, NumbersAreWrittenSoThatTheyReadBack)
     EXPECT_EQ(formatNumber(0.1), "0.1");
     EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
     EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity()), "-inf");
-    std::mt19937_64 random(3);
+    parking_test::Random random(3);
     for (int i = 0; i < 20000; ++i)
     {
-        const double number = std::ldexp(static_cast<double>(random()) - 9e18, static_cast<int>(random() % 1200) - 700);
+        const double number = std::ldexp(static_cast<double>(random.bits()) - 9e18, random.below(1200) - 700);
         double value = 0.0;
         ASSERT_TRUE(parseNumber(formatNumber(number), value)) << formatNumber(number);
         EXPECT_EQ(value, number);
