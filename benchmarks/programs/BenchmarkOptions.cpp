@@ -13,30 +13,24 @@ namespace parking
 {
     namespace
     {
-        using Texts = std::vector<std::string>;
-
         constexpr std::size_t MAX_SHARDS = 100000;
 
         po::options_description describe()
         {
             po::options_description options("Options");
             auto add = options.add_options();
-            add("output", po::value<std::string>()->value_name("DIR"),
-                "folder for all results (default: the configuration's, or results-NAME)");
-            add("time", po::value<std::string>()->value_name("S"), "seconds for each run");
-            add("runs", po::value<std::string>()->value_name("N"), "runs of each planner on each problem");
-            add("seed", po::value<std::string>()->value_name("N"), "of all random numbers");
-            add("scenarios", po::value<Texts>()->value_name("FILE|DIR")->composing(),
+            add("output", oneValue("DIR"), "folder for all results (default: the configuration's, or results-NAME)");
+            add("time", oneValue("S"), "seconds for each run");
+            add("runs", oneValue("N"), "runs of each planner on each problem");
+            add("seed", oneValue("N"), "of all random numbers");
+            add("scenarios", manyValues("FILE|DIR"),
                 "scenarios instead of the configuration's; may be given several times");
-            add("planner", po::value<Texts>()->value_name("NAME")->composing(),
+            add("planner", manyValues("NAME"),
                 "run only this planner of the configuration; may be given several times");
-            add("plugin", po::value<Texts>()->value_name("LIB.so")->composing(),
-                "load planners from a library; may be given several times");
-            add("shard", po::value<std::string>()->value_name("I/N"),
-                "do part I of N (1/N to N/N) and leave its runs to be merged");
+            add("plugin", manyValues("LIB.so"), "load planners from a library; may be given several times");
+            add("shard", oneValue("I/N"), "do part I of N (1/N to N/N) and leave its runs to be merged");
             add("merge", "run nothing: put the runs in the output folder together, or those of --from");
-            add("from", po::value<Texts>()->value_name("FILE|DIR")->composing(),
-                "with --merge: where the runs are; may be given several times");
+            add("from", manyValues("FILE|DIR"), "with --merge: where the runs are; may be given several times");
             add("fresh", "start over, whatever is finished");
             add("no-report", "leave out the HTML report");
             add("quiet", "tell no progress");

@@ -13,34 +13,28 @@ namespace parking
 {
     namespace
     {
-        using Texts = std::vector<std::string>;
-
         constexpr std::size_t MAX_RUNS = 1000000;
 
         po::options_description describe()
         {
             po::options_description options("Options");
             auto add = options.add_options();
-            add("planner", po::value<std::string>()->value_name("NAME"), "planner (default improved_astar)");
-            add("vehicle", po::value<std::string>()->value_name("NAME|FILE"),
-                "car instead of the scenario's: a known name or a YAML file");
-            add("set", po::value<Texts>()->value_name("KEY=VALUE")->composing(),
-                "sets a parameter of the planner; may be given several times");
-            add("space", po::value<std::string>()->value_name("NAME"),
-                "reeds_shepp (default), dubins or se2 (default for the grid models)");
-            add("footprint", po::value<std::string>()->value_name("NAME"),
-                "rectangle (default) or circle (default for the grid models)");
-            add("circle-radius", po::value<std::string>()->value_name("M"), "metres; default: half of the car's width");
-            add("time-limit", po::value<std::string>()->value_name("S"), "seconds for each run (default 5)");
-            add("runs", po::value<std::string>()->value_name("N"),
+            add("planner", oneValue("NAME"), "planner (default improved_astar)");
+            add("vehicle", oneValue("NAME|FILE"), "car instead of the scenario's: a known name or a YAML file");
+            add("set", manyValues("KEY=VALUE"), "sets a parameter of the planner; may be given several times");
+            add("space", oneValue("NAME"), "reeds_shepp (default), dubins or se2 (default for the grid models)");
+            add("footprint", oneValue("NAME"), "rectangle (default) or circle (default for the grid models)");
+            add("circle-radius", oneValue("M"), "metres; default: half of the car's width");
+            add("time-limit", oneValue("S"), "seconds for each run (default 5)");
+            add("runs", oneValue("N"),
                 "plan N times with seeds seed, seed + 1, ... "
                 "(default 1); the first run's path is the result");
-            add("seed", po::value<std::string>()->value_name("N"), "of the random numbers (default 1)");
+            add("seed", oneValue("N"), "of the random numbers (default 1)");
             add("track", "drive the path with the model predictive controller");
-            add("json", po::value<std::string>()->value_name("FILE|-"), "write the result, - to standard output");
-            add("svg", po::value<std::string>()->value_name("FILE"), "draw the result");
-            add("html", po::value<std::string>()->value_name("FILE"), "with --track: a page that shows the drive");
-            add("plugin", po::value<Texts>()->value_name("LIB.so")->composing(), "load planners from a library");
+            add("json", oneValue("FILE|-"), "write the result, - to standard output");
+            add("svg", oneValue("FILE"), "draw the result");
+            add("html", oneValue("FILE"), "with --track: a page that shows the drive");
+            add("plugin", manyValues("LIB.so"), "load planners from a library");
             add("help", "this text");
             return options;
         }

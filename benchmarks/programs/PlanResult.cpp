@@ -100,6 +100,21 @@ namespace parking
                 track.push_back({point.x, point.y, point.yaw});
             return track;
         }
+
+        json trajectoryJson(const Scenario &scenario, const DriveResult &drive)
+        {
+            json trajectory = json::array();
+            for (const TrajectoryPoint &point : drive.trajectory)
+            {
+                json each = poseJson(scenario, {point.x, point.y, point.yaw});
+                each["t"] = point.t;
+                each["v"] = point.v;
+                each["steering"] = point.steering;
+                each["acceleration"] = point.acceleration;
+                trajectory.push_back(std::move(each));
+            }
+            return trajectory;
+        }
     }  // namespace
 
     json parametersJson(const ompl::base::Planner &planner)
@@ -186,18 +201,7 @@ namespace parking
             return text;
         if (run.path)
             text["tracking"] = trackingJson(result);
-        json trajectory = json::array();
-        if (result.drive)
-            for (const TrajectoryPoint &point : result.drive->trajectory)
-            {
-                json each = poseJson(scenario, {point.x, point.y, point.yaw});
-                each["t"] = point.t;
-                each["v"] = point.v;
-                each["steering"] = point.steering;
-                each["acceleration"] = point.acceleration;
-                trajectory.push_back(std::move(each));
-            }
-        text["trajectory"] = std::move(trajectory);
+        text["trajectory"] = result.drive ? trajectoryJson(scenario, *result.drive) : json::array();
         return text;
     }
 

@@ -144,9 +144,9 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("seeds", po::value<std::string>()->value_name("N"), "disturbed drives of each problem (default 20)");
-        add("first-seed", po::value<std::string>()->value_name("N"), "their first seed (default 1)");
-        add("output", po::value<std::string>()->value_name("FILE.md"), "write the table there, too");
+        add("seeds", oneValue("N"), "disturbed drives of each problem (default 20)");
+        add("first-seed", oneValue("N"), "their first seed (default 1)");
+        add("output", oneValue("FILE.md"), "write the table there, too");
         add("no-smoothing", "drive the planner's arcs as they are");
         add("help", "this text");
         options.add_options()("scenario", po::value<std::vector<std::string>>());

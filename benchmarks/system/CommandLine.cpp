@@ -18,6 +18,16 @@ namespace po = boost::program_options;
 
 namespace parking
 {
+    po::typed_value<std::string> *oneValue(const char *name)
+    {
+        return po::value<std::string>()->value_name(name);
+    }
+
+    po::typed_value<std::vector<std::string>> *manyValues(const char *name)
+    {
+        return po::value<std::vector<std::string>>()->value_name(name)->composing();
+    }
+
     CommandLine::CommandLine(const std::vector<std::string> &arguments, const po::options_description &options,
                              const po::positional_options_description &positional)
     {

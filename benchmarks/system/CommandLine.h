@@ -8,10 +8,17 @@
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/positional_options.hpp>
+#include <boost/program_options/value_semantic.hpp>
 #include <boost/program_options/variables_map.hpp>
 
 namespace parking
 {
+    /** \brief The value of an option, a text; \e name stands for it in the help. */
+    boost::program_options::typed_value<std::string> *oneValue(const char *name);
+
+    /** \brief The same of an option that may be given several times. */
+    boost::program_options::typed_value<std::vector<std::string>> *manyValues(const char *name);
+
     /** \brief A command line that was read: what each option was given. Options must be written out in full.
 
         Options that were not given are empty; the caller has the defaults: `line.positive("time").value_or(5.0)`. The
