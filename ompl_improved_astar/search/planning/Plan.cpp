@@ -8,6 +8,29 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        std::vector<Pose> freeOf(const std::vector<Pose> &poses, MotionEnvironment &environment)
+        {
+            std::vector<Pose> result;
+            for (const Pose &pose : poses)
+                if (isFinite(pose) && environment.isFree(pose))
+                    result.push_back(pose);
+            return result;
+        }
+
+        std::size_t nearest(const std::vector<Pose> &poses, const Pose &to)
+        {
+            const auto off = [&to](const Pose &pose)
+            {
+                return positionDistance(pose, to) + std::abs(wrapAngle(pose.yaw - to.yaw));
+            };
+            const auto found = std::min_element(poses.begin(), poses.end(),
+                                                [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
+            return static_cast<std::size_t>(found - poses.begin());
+        }
+    }  // namespace
+
     PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car)
     {
         PathPlannerParameters result;
@@ -65,18 +88,13 @@ namespace parking::search
         PlanResult result;
         PathPlanner planner;
         planner.begin(environment, plannerParameters(request.parameters, request.car));
-        const auto addFree = [&](const std::vector<Pose> &poses, auto add)
-        {
-            bool any = false;
-            for (const Pose &pose : poses)
-                if (isFinite(pose) && environment.isFree(pose))
-                {
-                    add(pose);
-                    any = true;
-                }
-            return any;
-        };
-        if (!addFree(request.starts, [&](const Pose &pose) { planner.addStart(pose); }))
+        const std::vector<Pose> starts = freeOf(request.starts, environment),
+                                goals = freeOf(request.goals, environment);
+        for (const Pose &start : starts)
+            planner.addStart(start);
+        for (const Pose &goal : goals)
+            planner.addGoal(goal);
+        if (starts.empty())
         {
             result.outcome = PlanOutcome::InvalidStart;
             result.reason = "no start is free of obstacles";
@@ -87,8 +105,7 @@ namespace parking::search
             return (request.maxExpansions > 0 && planner.statistics().expanded >= request.maxExpansions) ||
                    (request.stop && request.stop());
         };
-        const bool hasGoal = addFree(request.goals, [&](const Pose &pose) { planner.addGoal(pose); });
-        if (!hasGoal)
+        if (goals.empty())
         {
             result.outcome = PlanOutcome::InvalidGoal;
             result.reason = "no goal is free of obstacles";
@@ -107,15 +124,7 @@ namespace parking::search
             result.path = planner.bestPath();
             result.cost = planner.bestCost();
             result.suboptimalityBound = planner.suboptimalityBound();
-            const Pose end = result.path.end();
-            const auto off = [&end](const Pose &goal)
-            {
-                return positionDistance(goal, end) + std::abs(wrapAngle(goal.yaw - end.yaw));
-            };
-            result.goal = static_cast<std::size_t>(std::min_element(request.goals.begin(), request.goals.end(),
-                                                                    [&off](const Pose &a, const Pose &b)
-                                                                    { return off(a) < off(b); }) -
-                                                   request.goals.begin());
+            result.goal = nearest(request.goals, result.path.end());
         }
         else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
