@@ -21,7 +21,7 @@ namespace ompl::geometric
 
         Improved A* plans motions of a car among obstacles: the paths that it returns can be driven, forwards and in
         reverse, at or above a minimum turning radius. It searches from the goal and from the start at once, over motion
-        primitives at a ladder of resolutions, and joins the two trees by Reeds-Shepp (or Dubins) curves. Every
+        primitives at a ladder of resolutions, and joins the two frontiers by Reeds-Shepp (or Dubins) curves. Every
         improvement of the paper that it is named after is a parameter, and so is the paper's own search on a grid of
         positions.
 
@@ -74,10 +74,10 @@ namespace ompl::geometric
 
         void clear() override;
 
-        /** \brief Forgets starts, goals and trees, but keeps memory and what depends on the space only. */
+        /** \brief Forgets starts, goals and frontiers, but keeps memory and what depends on the space only. */
         void clearQuery() override;
 
-        /** \brief Both trees and, when it is exact, the last solution; edges point in the direction of driving. The
+        /** \brief Both frontiers and, when it is exact, the last solution; edges point in the direction of driving. The
             states stay valid until the query ends. */
         void getPlannerData(base::PlannerData &data) const override;
 

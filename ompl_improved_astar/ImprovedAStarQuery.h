@@ -50,7 +50,7 @@ namespace ompl::geometric
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length
         std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;
-        std::array<std::vector<base::State *>, 3> dataStates;  ///< of both trees and of the solution
+        std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
 
         explicit Query(base::SpaceInformationPtr information) : si(std::move(information))
         {

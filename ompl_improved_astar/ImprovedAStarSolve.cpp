@@ -200,19 +200,19 @@ namespace ompl::geometric
             ob::State *state;
             std::uint32_t parent;
         };
-        std::vector<Node> trees[2];
+        std::vector<Node> frontiers[2];
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
         {
             const parking::search::Search &search = std::as_const(query_->planner).search();
             const auto &nodes =
                 search.frontier(side == 0 ? parking::search::Side::Start : parking::search::Side::Goal).nodes();
             for (std::size_t i = 0; i < nodes.size(); ++i)
-                trees[side].push_back({query_->dataState(side, i, nodes[i].pose), nodes[i].parent});
+                frontiers[side].push_back({query_->dataState(side, i, nodes[i].pose), nodes[i].parent});
         }
 
         ob::State *ends[2] = {nullptr, nullptr};
         for (int side = 0; side < 2; ++side)
-            for (const Node &node : trees[side])
+            for (const Node &node : frontiers[side])
             {
                 if (node.state == nullptr)
                     continue;
@@ -226,10 +226,10 @@ namespace ompl::geometric
                         ends[side] = node.state;
                     continue;
                 }
-                const ob::PlannerDataVertex parent(trees[side][node.parent].state, side + 1);
+                const ob::PlannerDataVertex parent(frontiers[side][node.parent].state, side + 1);
                 side == 0 ? data.addEdge(parent, vertex) : data.addEdge(vertex, parent);
             }
-        // The solution itself, whose curves are in neither tree.
+        // The solution itself, whose curves are in neither frontier.
         if (ends[0] == nullptr || ends[1] == nullptr)
             return;
         for (std::size_t i = 1; i < query_->solution.size(); ++i)

@@ -220,7 +220,8 @@ namespace parking
             {"adaptive_resolution", &P::adaptiveResolution, yesOrNo(), "",
              "search finely where coarse steps do not get through (car model)"},
             {"analytic_expansion", &P::analyticExpansion, yesOrNo(), "",
-             "join the two trees by Reeds-Shepp or Dubins curves (car model); without it nothing ends exactly at the "
+             "join the two frontiers by Reeds-Shepp or Dubins curves (car model); without it nothing ends exactly at "
+             "the "
              "goal"},
             {"reverse_penalty", &P::reversePenalty, between(0.0, 100.0, 0.1), "", "extra cost per metre in reverse"},
             {"gear_change_penalty", &P::gearChangePenalty, between(0.0, 100.0, 0.1), "m",

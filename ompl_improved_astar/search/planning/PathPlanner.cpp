@@ -199,7 +199,7 @@ namespace parking::search
         Search *search = &search_;
         if (search_.hasGoal() && !search_.hasSeenAllFromStart())
         {
-            // The trees were after the goal itself. What is left of the time goes into coming near to it.
+            // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it.
             if (starts_.empty() || (stop && stop()))
                 return search_.nearestPath(target, path);
             if (!approach_)

@@ -56,7 +56,7 @@ namespace parking::search
             axles.
 
             Spends what is left of the time on a search of its own, unless there is none left or everything has been
-            seen from the start: then what the trees have seen has to do. \return false when there is no start */
+            seen from the start: then what the frontiers have seen has to do. \return false when there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         bool hasSolution() const
