@@ -4,7 +4,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 #include "parking_geometry/text/Text.h"
-#include "state_validity/PathSweep.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>

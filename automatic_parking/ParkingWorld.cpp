@@ -2,8 +2,8 @@
 
 #include "parking_geometry/Error.h"
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/PathSweep.h"
 #include "state_validity/fcl/FclContactTest.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>

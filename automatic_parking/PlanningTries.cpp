@@ -3,7 +3,7 @@
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
-#include "state_validity/PathSweep.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "state_validity/ObstacleSet.h"
 #include "state_validity/OrientedBox.h"
-#include "state_validity/SweepFront.h"
-#include "state_validity/SweptBox.h"
+#include "state_validity/sweeps/SweepFront.h"
+#include "state_validity/sweeps/SweptBox.h"
 
 #include <atomic>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "state_validity/PathSweep.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include "parking_geometry/curves/PathArcs.h"
 

@@ -1,4 +1,4 @@
-#include "state_validity/SweepFront.h"
+#include "state_validity/sweeps/SweepFront.h"
 
 #include <algorithm>
 

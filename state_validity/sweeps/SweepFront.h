@@ -1,7 +1,7 @@
 #pragma once
 
 #include "state_validity/OrientedBox.h"
-#include "state_validity/SweptBox.h"
+#include "state_validity/sweeps/SweptBox.h"
 
 #include <cmath>
 #include <initializer_list>

@@ -1,4 +1,4 @@
-#include "state_validity/SweptBox.h"
+#include "state_validity/sweeps/SweptBox.h"
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
-#include "state_validity/PathSweep.h"
+#include "state_validity/sweeps/PathSweep.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 #include "tests/parking_geometry/ExpectError.h"
 

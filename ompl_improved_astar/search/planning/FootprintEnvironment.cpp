@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 
-#include "state_validity/SweptBox.h"
+#include "state_validity/sweeps/SweptBox.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "state_validity/PathSweep.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include "benchmarks/worlds/RandomParking.h"
 #include "tests/parking_geometry/PolygonWorld.h"

@@ -1,8 +1,8 @@
-#include "state_validity/SweptBox.h"
+#include "state_validity/sweeps/SweptBox.h"
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/EdgeIndex.h"
-#include "state_validity/SweepFront.h"
+#include "state_validity/sweeps/SweepFront.h"
 
 #include <algorithm>
 #include <cmath>
