@@ -7,16 +7,13 @@ namespace parking::search
     void Frontier::begin(const std::string &openList, std::size_t levels, double turnsRatio)
     {
         if (openListName_ != openList)
-            open_.clear();
+            queues_.clear();
         openListName_ = openList;
-        open_.resize(levels);
-        for (std::unique_ptr<OpenList> &list : open_)
-            if (list)
-                list->clear();
-            else
-                list = search::openLists().make(openList);
-        turns_.assign(levels, 0);
+        levels_ = levels;
         turnsRatio_ = turnsRatio;
+        queueCount_ = 0;
+        queueTurn_ = 0;
+        setQueues(1);
         nodes_.clear();
         cells_.clear();
         roots_.clear();
@@ -59,20 +56,49 @@ namespace parking::search
         return index;
     }
 
-    bool Frontier::isExhausted() const
+    void Frontier::clear(Queue &queue)
     {
-        return std::all_of(open_.begin(), open_.end(),
+        queue.open.resize(levels_);
+        for (std::unique_ptr<OpenList> &list : queue.open)
+            if (list)
+                list->clear();
+            else
+                list = search::openLists().make(openListName_);
+        queue.turns.assign(levels_, 0);
+    }
+
+    void Frontier::setQueues(std::size_t count)
+    {
+        if (queues_.size() < count)
+            queues_.resize(count);
+        for (; queueCount_ < count; ++queueCount_)
+            clear(queues_[queueCount_]);
+        queueCount_ = count;
+    }
+
+    bool Frontier::Queue::isEmpty() const
+    {
+        return std::all_of(open.begin(), open.end(),
                            [](const std::unique_ptr<OpenList> &list) { return list->empty(); });
     }
 
-    std::size_t Frontier::chooseLevel() const
+    std::size_t Frontier::chooseQueue()
     {
+        do
+            queueTurn_ = (queueTurn_ + 1) % queueCount_;
+        while (queues_[queueTurn_].isEmpty());
+        return queueTurn_;
+    }
+
+    std::size_t Frontier::chooseLevel(std::size_t queue) const
+    {
+        const auto &[open, turnsTaken] = queues_[queue];
         std::size_t best = 0;
         double fewest = std::numeric_limits<double>::infinity(), ratio = 1.0;
-        for (std::size_t level = 0; level < open_.size(); ++level, ratio *= turnsRatio_)
+        for (std::size_t level = 0; level < open.size(); ++level, ratio *= turnsRatio_)
         {
-            const double turns = static_cast<double>(turns_[level]) * ratio;
-            if (!open_[level]->empty() && turns < fewest)
+            const double turns = static_cast<double>(turnsTaken[level]) * ratio;
+            if (!open[level]->empty() && turns < fewest)
             {
                 fewest = turns;
                 best = level;

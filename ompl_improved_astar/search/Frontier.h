@@ -15,8 +15,11 @@
 
 namespace parking::search
 {
-    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and what is open, a
-        list for each level of resolution. */
+    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and what is open: a
+        queue, with a list for each level of resolution.
+
+        A side that is stuck gets further queues, which order the open nodes by other estimates (see Detours) and take
+        turns with the first one. Every open node is in the first queue, whatever the others hold. */
     class Frontier
     {
     public:
@@ -66,34 +69,56 @@ namespace parking::search
         /** \brief Puts a node into a cell, as a new one or in the place of \e index. */
         NodeIndex place(const Node &node, NodeIndex index, std::uint64_t cell);
 
-        void push(std::size_t level, double f, NodeIndex index)
+        /** \brief Adds a node that holds no cell. */
+        NodeIndex append(const Node &node)
         {
-            open_[level]->push(f, nodes_[index].h, index);
+            nodes_.push_back(node);
+            return static_cast<NodeIndex>(nodes_.size() - 1);
         }
-        OpenList::Entry pop(std::size_t level)
+
+        void push(std::size_t queue, std::size_t level, double f, double h, NodeIndex index)
         {
-            return open_[level]->pop();
+            queues_[queue].open[level]->push(f, h, index);
+        }
+        OpenList::Entry pop(std::size_t queue, std::size_t level)
+        {
+            return queues_[queue].open[level]->pop();
         }
 
         /** \brief Nothing is open on any level. */
-        bool isExhausted() const;
-
-        /** \brief The level whose turn it is among those with open nodes; something must be open. */
-        std::size_t chooseLevel() const;
-
-        void countTurn(std::size_t level)
+        bool isExhausted() const
         {
-            ++turns_[level];
+            return queues_.front().isEmpty();
         }
 
-        /** \brief The open lists, one for each level. */
+        /** \brief How many queues take turns. */
+        std::size_t queues() const
+        {
+            return queueCount_;
+        }
+
+        /** \brief From now on so many queues take turns; those that are new are empty. */
+        void setQueues(std::size_t count);
+
+        /** \brief The queue whose turn it is among those that are not empty; something must be open. */
+        std::size_t chooseQueue();
+
+        /** \brief The level whose turn it is among those of a queue with open nodes. */
+        std::size_t chooseLevel(std::size_t queue) const;
+
+        void countTurn(std::size_t queue, std::size_t level)
+        {
+            ++queues_[queue].turns[level];
+        }
+
+        /** \brief All that is open, with stale entries among it: the lists of the first queue, one for each level. */
         const std::vector<std::unique_ptr<OpenList>> &openLists() const
         {
-            return open_;
+            return queues_.front().open;
         }
         std::vector<std::unique_ptr<OpenList>> &openLists()
         {
-            return open_;
+            return queues_.front().open;
         }
 
         /** \brief Adds the pieces between a node and its root, as the car drives them on the goal's side. */
@@ -117,12 +142,25 @@ namespace parking::search
             return (static_cast<std::uint64_t>(level + 1) << 61) | cell;
         }
 
+        /** Open nodes in one order: a list for each level. */
+        struct Queue
+        {
+            std::vector<std::unique_ptr<OpenList>> open;
+            std::vector<std::uint64_t> turns;
+
+            bool isEmpty() const;
+        };
+
+        void clear(Queue &queue);
+
         Side side_;
         std::vector<Node> nodes_;
         CellTable cells_;
-        std::vector<std::unique_ptr<OpenList>> open_;
+        std::vector<Queue> queues_;
+        std::size_t queueCount_{1};
+        std::size_t queueTurn_{0};
+        std::size_t levels_{1};
         std::string openListName_;
-        std::vector<std::uint64_t> turns_;
         double turnsRatio_{1.0};
         std::vector<NodeIndex> roots_;
     };

@@ -119,6 +119,17 @@ namespace parking::search
         virtual bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                           const Offer &offer) = 0;
 
+        /** \brief Moves from a node by the shortest motion that leads, or would lead, to a pose without regard to
+            obstacles, as far as that is free.
+
+            \param motions the way, one motion after the other, from the root outwards; overwritten. None when nothing
+            of it is free, and for a model that cannot go where it is told to. */
+        virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/,
+                                 std::vector<Successor> &motions)
+        {
+            motions.clear();
+        }
+
         /** \brief Length of the shortest motion between two poses without regard to obstacles: a lower bound of the
             cost of any path that the model can drive. */
         virtual double distance(const Pose &from, const Pose &to) const = 0;

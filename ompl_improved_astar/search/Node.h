@@ -49,8 +49,14 @@ namespace parking::search
         float mobility{0.0f};  ///< metres of the longest free motion from here, known after the first expansion
         NodeIndex parent{NO_NODE};
         std::uint8_t level{0};  ///< the coarsest level on which its cell was free
-        bool expanded{false};
-        bool queued{false};    ///< of roots: has been put into the open list
-        bool farthest{false};  ///< the motion ended for want of reach, not because a shorter step was wanted
+        std::uint8_t next{0};   ///< the level on which it is expanded next
+        bool queued{false};     ///< of roots: has been put into the open list
+        bool fixed{false};     ///< others were reached from here before it is expanded: must stay as it is
+        bool farthest{false};   ///< the motion ended for want of reach, not because a shorter step was wanted
+
+        bool isExpanded() const
+        {
+            return next > level;
+        }
     };
 }  // namespace parking::search

@@ -13,7 +13,10 @@ namespace parking::search
         constexpr double ROUNDING = 1e-9;  // metres of cost: nodes and entries that differ by less are equal
     }                                      // namespace
 
-    Search::Search() : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)}, leastDropped_{INFINITE, INFINITE}
+    Search::Search()
+      : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)},
+        leastDropped_{INFINITE, INFINITE},
+        farthest_{INFINITE, INFINITE}
     {
     }
 
@@ -55,6 +58,7 @@ namespace parking::search
         underWay_.node = NO_NODE;
         loadingTime_ = 0.0;
         statistics_ = {};
+        endDetours();
     }
 
     void Search::addRoot(Side side, const Pose &pose)
@@ -135,6 +139,7 @@ namespace parking::search
             if (improved_)
             {
                 improved_ = false;
+                endDetours();
                 return SearchOutcome::Improved;
             }
             if (parameters_.eagerObstacles && !loaded_ && !load())
@@ -152,13 +157,17 @@ namespace parking::search
                 return SearchOutcome::Exhausted;
             }
             step(frontier(side));
+            if (isStuck())
+                takeDetours();
+            if (mayExplore())
+                explore();
         }
     }
 
     void Search::close(Frontier &own, const OpenList::Entry &entry)
     {
-        own.node(entry.node).expanded = true;
         const Node &node = own.node(entry.node);
+        noteProgress(own, entry.node);
         // Models that aim do so at the closed node of least cost (paper, "Bidirectional Search"), the others are joined
         // with the one that has come farthest.
         if (own.bestClosed != NO_NODE)
@@ -180,15 +189,17 @@ namespace parking::search
 
     void Search::step(Frontier &own)
     {
-        const std::size_t level = own.chooseLevel();
-        const OpenList::Entry entry = own.pop(level);
-        const Node &node = own.node(entry.node);
-        const bool first = !node.expanded;
+        const std::size_t queue = own.chooseQueue();
+        const std::size_t level = own.chooseLevel(queue);
+        const OpenList::Entry entry = own.pop(queue, level);
+        Node &node = own.node(entry.node);
+        const bool first = !node.isExpanded();
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
-        if ((!first && node.level == level) || node.g + node.h >= costBound_ ||
-            entry.f > priority(own, node) + ROUNDING)
+        if (node.next != level || node.g + node.h >= costBound_ ||
+            (queue == 0 && entry.f > priority(own, node, node.h) + ROUNDING))
             return;
-        own.countTurn(level);
+        own.countTurn(queue, level);
+        node.next = static_cast<std::uint8_t>(level + 1);
         if (first)
             close(own, entry);
         if (first && !traits_.joinsAfar)
@@ -223,7 +234,7 @@ namespace parking::search
             joinAround(own, index);
         if (underWay_.first && environment_->wasInterrupted())
         {
-            own.node(index).expanded = false;
+            own.node(index).next = own.node(index).level;
             push(own, underWay_.level, index);
             return true;
         }
@@ -234,17 +245,21 @@ namespace parking::search
         return true;
     }
 
-    void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
+    double Search::costThrough(const Frontier &own, const Node &parent, const Successor &successor) const
     {
-        const Node &parent = own.node(parentIndex);
-        ++statistics_.generated;
         const PathPiece drive = successor.motion.drive();
         // On the goal's side the car will drive the motion the other way.
-        double g = parent.g + (own.side() == Side::Start
-                                   ? parameters_.cost.drive(parent.pose, drive, *environment_)
-                                   : parameters_.cost.drive(successor.pose, drive.reversed(), *environment_));
-        if (parent.parent != NO_NODE)
-            g += parameters_.cost.join(parent.motion.drive(), drive);
+        const double cost = own.side() == Side::Start
+                                ? parameters_.cost.drive(parent.pose, drive, *environment_)
+                                : parameters_.cost.drive(successor.pose, drive.reversed(), *environment_);
+        const double joined = parent.parent != NO_NODE ? parameters_.cost.join(parent.motion.drive(), drive) : 0.0;
+        return parent.g + cost + joined;
+    }
+
+    void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
+    {
+        ++statistics_.generated;
+        const double g = costThrough(own, own.node(parentIndex), successor);
         if (g >= costBound_)
             return;
         Node node;
@@ -262,7 +277,7 @@ namespace parking::search
             if (holder != NO_NODE)
             {
                 const Node &other = own.node(holder);
-                if (other.g > g + ROUNDING && other.level == level && !other.expanded)
+                if (other.g > g + ROUNDING && other.level == level && !other.isExpanded() && !other.fixed)
                     replaced = holder;  // not yet expanded: simply replaced by the cheaper one
                 else if (!(other.g > g + model_->worthKeeping(level)))
                 {
@@ -277,7 +292,7 @@ namespace parking::search
             node.h = estimateOf(own.side(), node.pose);
             if (g + node.h >= costBound_)
                 return;
-            node.level = static_cast<std::uint8_t>(level);
+            node.level = node.next = static_cast<std::uint8_t>(level);
             if (hasTarget_ && node.h < nearest_ - parameters_.tuning.leastProgress)
             {
                 nearest_ = node.h;

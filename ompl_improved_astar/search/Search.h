@@ -178,6 +178,25 @@ namespace parking::search
             std::size_t next{0};
         };
 
+        /** The way of another disc than the inscribed one, and what has come farthest by it. */
+        struct Detour
+        {
+            ObstacleHeuristic way;
+            NodeIndex best{NO_NODE};
+            double nearest{std::numeric_limits<double>::infinity()};
+
+            double estimate(const Node &node, double noWay);
+        };
+
+        /** Exploration: the nodes from which random poses are made for, by side. */
+        struct Exploration
+        {
+            std::array<std::vector<NodeIndex>, 2> nodes;
+            unsigned int samples{0};
+            std::uint64_t since{0};  // expansions when the detours began
+            std::vector<Successor> motions;
+        };
+
         Frontier &frontier(Side side)
         {
             return frontiers_[static_cast<std::size_t>(side)];
@@ -198,11 +217,14 @@ namespace parking::search
         bool chooseSide(Side &side);
         void step(Frontier &own);
         bool finishExpansion();
+        double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, const OpenList::Entry &entry);
 
         // SearchJoins.cpp: joining the frontiers
         void joinAround(const Frontier &own, NodeIndex index);
+        void joinAfar(const Frontier &own, NodeIndex index);
+        void joinPair(const Frontier &own, NodeIndex index, NodeIndex partner);
         bool join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom);
 
         // SearchEstimates.cpp: what nodes are worth
@@ -215,11 +237,22 @@ namespace parking::search
         void queueRoots(Frontier &own);
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
-        double priority(const Frontier &own, const Node &node) const;
+        double priority(const Frontier &own, const Node &node, double ahead) const;
         void push(Frontier &own, std::size_t level, NodeIndex index);
         void rekey(Frontier &own);
         float estimateOf(Side side, const Pose &pose);
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
+
+        // SearchDetours.cpp: what is done when the search is stuck
+        void noteProgress(const Frontier &own, NodeIndex index);
+        bool isStuck() const;
+        bool mayExplore() const;
+        void takeDetours();
+        void endDetours();
+        void pushToDetours(Frontier &own, std::size_t level, NodeIndex index);
+        void explore();
+        NodeIndex keepExplored(Frontier &own, Node node);
+        NodeIndex nearestExplored(Side side, const Pose &pose) const;
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
@@ -249,5 +282,9 @@ namespace parking::search
         mutable SearchStatistics statistics_;
         Expansion expansion_;  // of the node under way
         UnderWay underWay_;
+        std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, one for each further queue
+        Exploration exploration_;
+        std::array<double, 2> farthest_;  // least h of the closed nodes, by side
+        std::uint64_t progressAt_{0};     // expansions when it fell last
     };
 }  // namespace parking::search

@@ -25,6 +25,7 @@ namespace parking::search
             confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;
         for (const Side side : {Side::Start, Side::Goal})
             beginGuides(side);
+        endDetours();
         if (hasTarget_)
             aimAtTarget();
         else
@@ -156,20 +157,23 @@ namespace parking::search
         return own.roundObstacles ? std::max(ahead, own.obstacles.lowerBound(pose)) : ahead;
     }
 
-    double Search::priority(const Frontier &own, const Node &node) const
+    double Search::priority(const Frontier &own, const Node &node, double ahead) const
     {
         // What is estimated to an aim that moves must not depend on where it is now.
         if (hasTarget_ || traits_.aims || traits_.complete)
-            return node.g + parameters_.weights.at(node.h) * node.h;
+            return node.g + parameters_.weights.at(ahead) * ahead;
         double nearest = INFINITE;
         for (const Pose &target : guides(own.side()).targets)
             nearest = std::min(nearest, positionDistance(node.pose, target));
-        return node.g + parameters_.weights.at(nearest) * node.h;
+        return node.g + parameters_.weights.at(nearest) * ahead;
     }
 
     void Search::push(Frontier &own, std::size_t level, NodeIndex index)
     {
-        own.push(level, priority(own, own.node(index)), index);
+        const Node &node = own.node(index);
+        own.push(0, level, priority(own, node, node.h), node.h, index);
+        if (own.queues() > 1)
+            pushToDetours(own, level, index);
     }
 
     void Search::rekey(Frontier &own)
@@ -179,7 +183,7 @@ namespace parking::search
                 [this, &own](OpenList::Entry &entry)
                 {
                     const Node &node = own.node(entry.node);
-                    entry.f = priority(own, node);
+                    entry.f = priority(own, node, node.h);
                     return node.g + node.h < costBound_;
                 });
     }
@@ -231,7 +235,7 @@ namespace parking::search
                 for (const OpenList::Entry &entry : frontier(side).openLists()[level]->entries())
                 {
                     const Node &node = frontier(side).node(entry.node);
-                    if (!node.expanded || node.level != level)  // else a stale entry
+                    if (node.next == level)  // else a stale entry
                         least = std::min(least, node.g + admissible(side, node.pose));
                 }
             ofSearch = traits_.complete ? std::max(ofSearch, least) : std::min(ofSearch, least);

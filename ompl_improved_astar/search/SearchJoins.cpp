@@ -10,27 +10,38 @@ namespace parking::search
     {
         const Frontier &other = frontier(opposite(own.side()));
         const Node &node = own.node(index);
-        const auto joinWith = [&](NodeIndex partner)
-        {
-            // Swept from this node, where a collision is more likely than at what the other side has reached.
-            own.side() == Side::Start ? join(index, partner, Side::Start) : join(partner, index, Side::Goal);
-        };
         if (!traits_.joinsAfar)
         {
             // The other side's node must be closed, too; a root that never moved counts as such.
             const NodeIndex partner = other.holderOf(model_->cell(node.pose, 0), 0);
-            if (partner != NO_NODE && (other.node(partner).expanded || other.node(partner).parent == NO_NODE))
-                joinWith(partner);
+            if (partner != NO_NODE && (other.node(partner).isExpanded() || other.node(partner).parent == NO_NODE))
+                joinPair(own, index, partner);
             return;
         }
         // Curves from a node that can hardly move hardly ever get away. Leaving them out would make the bound false.
         if (node.mobility < parameters_.tuning.confined * std::min<double>(node.h, 2.0 * traits_.reach) &&
             !boundIsKept_)
             return;
+        joinAfar(own, index);
+    }
+
+    void Search::joinPair(const Frontier &own, NodeIndex index, NodeIndex partner)
+    {
+        // Swept from the own side's node, where a collision is more likely than at what the other side has reached.
+        own.side() == Side::Start ? join(index, partner, Side::Start) : join(partner, index, Side::Goal);
+    }
+
+    void Search::joinAfar(const Frontier &own, NodeIndex index)
+    {
+        const Frontier &other = frontier(opposite(own.side()));
         for (const NodeIndex root : other.roots())
-            joinWith(root);
+            joinPair(own, index, root);
         if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.node(other.bestClosed).parent != NO_NODE)
-            joinWith(other.bestClosed);
+            joinPair(own, index, other.bestClosed);
+        if (other.queues() > 1)
+            for (const std::unique_ptr<Detour> &detour : detours_)
+                if (detour->best != NO_NODE && detour->best != other.bestClosed)
+                    joinPair(own, index, detour->best);
     }
 
     bool Search::join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom)

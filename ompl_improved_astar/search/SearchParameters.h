@@ -46,6 +46,7 @@ namespace parking::search
         bool adaptiveResolution{true};  ///< refine where coarse steps do not get through
         bool analyticExpansion{true};   ///< join the two sides by curves
         bool obstacleHeuristic{true};   ///< guide round obstacles by ObstacleHeuristic
+        bool detours{true};             ///< try other ways round obstacles when stuck
         bool eagerObstacles{false};     ///< find out what is free before the search instead of during it
         CostModel cost;
         SearchTuning tuning;

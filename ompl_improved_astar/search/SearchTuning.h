@@ -37,6 +37,23 @@ namespace parking::search
         double coarsestCell{3.0};            ///< but at most so many times heuristicCell
         /** @} */
 
+        /** \name Detours, when the search is stuck
+
+            Chosen by hand on the problems of docs/planner.md, which they leave as they were, and on random queries with
+            the seeds that docs/planner.md names.
+            @{ */
+        std::uint64_t leastExpansions{150};     ///< before a search is called stuck,
+        std::uint64_t stalledExpansions{60};    ///< and so many since either side came nearer to the other
+        double nearer{0.25};                    ///< by this much
+        double narrowDisc{1.6};                 ///< in inscribed radii: of the disc that keeps out of gaps
+        double wideDisc{2.5};                   ///< and of the one that keeps to where a car can turn
+        double dear{21.0};                      ///< what a metre costs the wide disc where it does not fit
+        double noWay{1.2};                      ///< factor on the estimate of a node that a disc finds no way from
+        std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
+        std::uint64_t stalledDetours{50};       ///< expansions with detours before the world is explored, too,
+        std::uint64_t explorationPeriod{3};     ///< by one move in so many expansions
+        /** @} */
+
         /** \name Thinking again after the first solution
             @{ */
         double afterthought{0.3};            ///< share of the expansions so far that is spent on it,

@@ -85,6 +85,7 @@ namespace
                                                           {"approximate", "1"},
                                                           {"bidirectional", "1"},
                                                           {"clearance_weight", "0"},
+                                                          {"detours", "1"},
                                                           {"gear_change_penalty", "0.5"},
                                                           {"heading_bins", "72"},
                                                           {"heuristic_weight_far", "2.5"},
@@ -236,6 +237,7 @@ namespace
         set = {};
         set.bidirectional = set.adaptiveResolution = set.shortening = false;
         set.searchFrom = "start";
+        set.detours = false;
         expected["hybrid_astar"] = set;
 
         EXPECT_EQ(parking::parameterSetNames().size(), expected.size());

@@ -14,7 +14,7 @@ namespace parking::search
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
-        constexpr std::uint64_t MAX_CELLS = 4000000;  // a world without walls must not fill the memory
+        constexpr std::uint64_t MOST_CELLS = 4000000;  // a world without walls must not fill the memory
 
         struct Later
         {
@@ -28,6 +28,13 @@ namespace parking::search
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
     {
+        begin(query, {query.parameters.inscribedRadius}, MOST_CELLS);
+        if (query.parameters.eagerObstacles)
+            load(query.parameters.bounds);
+    }
+
+    void ObstacleHeuristic::begin(const HeuristicQuery &query, const Disc &disc, std::uint64_t mostCells)
+    {
         const SearchParameters &parameters = query.parameters;
         double farthest = 0.0;
         for (const Pose &root : query.roots)
@@ -37,21 +44,21 @@ namespace parking::search
         const Pose &toward = query.roots.empty() ? query.targets.front() : query.roots.front();
         reset(query.environment,
               std::clamp(parameters.tuning.cellOfLongWays * farthest, cell, parameters.tuning.coarsestCell * cell),
-              parameters.inscribedRadius, {toward.x, toward.y}, query.stop);
-        if (parameters.eagerObstacles)
-            load(parameters.bounds);
+              disc, {toward.x, toward.y}, query.stop);
+        mostCells_ = mostCells;
         for (const Pose &target : query.targets)
             addTarget(target.x, target.y);
     }
 
-    void ObstacleHeuristic::reset(MotionEnvironment &environment, double resolution, double radius,
+    void ObstacleHeuristic::reset(MotionEnvironment &environment, double resolution, const Disc &disc,
                                   const Eigen::Vector2d &toward, const StopFunction &stop)
     {
         stop_ = &stop;
         stopped_ = false;
         environment_ = &environment;
         resolution_ = resolution;
-        radius_ = radius;
+        disc_ = disc;
+        mostCells_ = MOST_CELLS;
         states_.clear();
         open_.clear();
         settled_ = 0;
@@ -66,17 +73,19 @@ namespace parking::search
         if (state.passage == Occupancy::Unknown)
         {
             const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
-            state.passage = mayHoldDisc(x, y, 0.5 * resolution_, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
+            const double half = 0.5 * resolution_;
+            state.passage = mayHoldDisc(disc_.radius, x, y, half, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
+            state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, x, y, half, REFINEMENTS);
         }
         return state.passage == Occupancy::Free;
     }
 
-    bool ObstacleHeuristic::mayHoldDisc(double x, double y, double halfSide, int refinements)
+    bool ObstacleHeuristic::mayHoldDisc(double radius, double x, double y, double halfSide, int refinements)
     {
         const double room = environment_->roomAt(x, y);
-        if (room >= radius_)
+        if (room >= radius)
             return true;
-        if (room + 2.0 * HALF_DIAGONAL * halfSide < radius_)
+        if (room + 2.0 * HALF_DIAGONAL * halfSide < radius)
             return false;
         if (refinements == 0)
             return true;
@@ -84,7 +93,7 @@ namespace parking::search
         const double quarter = 0.5 * halfSide;
         for (const double dx : {-quarter, quarter})
             for (const double dy : {-quarter, quarter})
-                if (mayHoldDisc(x + dx, y + dy, quarter, refinements - 1))
+                if (mayHoldDisc(radius, x + dx, y + dy, quarter, refinements - 1))
                     return true;
         return false;
     }
@@ -148,8 +157,11 @@ namespace parking::search
                 settled.column, settled.row,
                 [this, here](CellState &next, std::int32_t column, std::int32_t row, bool diagonal)
                 {
-                    const float g = here + (diagonal ? DIAGONAL : 1.0f);
-                    if (next.settled || g >= next.g || !isOpen(next, column, row))
+                    const float step = diagonal ? DIAGONAL : 1.0f;
+                    if (next.settled || here + step >= next.g || !isOpen(next, column, row))
+                        return;
+                    const float g = next.dear ? here + step * static_cast<float>(disc_.dear) : here + step;
+                    if (g >= next.g)
                         return;
                     next.g = g;
                     push(g, column, row);
@@ -175,7 +187,7 @@ namespace parking::search
                 stopped_ = true;
                 return std::numeric_limits<double>::infinity();
             }
-            if (settled_ >= MAX_CELLS)
+            if (settled_ >= mostCells_)
                 return 0.0;
             if (!settleNext(entry))
                 return leftGrid_ ? 0.0 : std::numeric_limits<double>::infinity();
@@ -209,7 +221,7 @@ namespace parking::search
         Eigen::Vector2d best = goal;
         double nearest = std::numeric_limits<double>::infinity();
         Entry entry;
-        while (nearest > HALF_DIAGONAL * resolution_ && settled_ < MAX_CELLS && settleNext(entry))
+        while (nearest > HALF_DIAGONAL * resolution_ && settled_ < mostCells_ && settleNext(entry))
         {
             const Eigen::Vector2d centre = origin_ + resolution_ * Eigen::Vector2d(entry.column + 0.5, entry.row + 0.5);
             const double away = (centre - goal).norm();

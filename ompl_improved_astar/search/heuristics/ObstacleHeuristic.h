@@ -14,6 +14,14 @@
 
 namespace parking::search
 {
+    /** \brief The disc whose way round the obstacles is looked for. */
+    struct Disc
+    {
+        double radius{0.0};  ///< metres: what it does not fit through is closed
+        double wide{0.0};    ///< metres: where a disc of this radius does not fit, the way is dear; 0: nowhere
+        double dear{1.0};    ///< a metre there counts as so many, at least 1
+    };
+
     /** \brief How far a disc has to go from here to the nearest of some target points, round the obstacles.
 
         A resumable A* from the targets over a grid of eight neighbours (D. Silver, "Cooperative pathfinding", 2005:
@@ -28,14 +36,19 @@ namespace parking::search
     public:
         void begin(const HeuristicQuery &query) override;
 
+        /** \brief As begin(), for another disc than the one inscribed in the car.
+
+            \param mostCells so many are settled; of what lies beyond nothing is known */
+        void begin(const HeuristicQuery &query, const Disc &disc, std::uint64_t mostCells);
+
         /** \brief Forgets everything, for a new world or query; memory is kept.
 
             \param environment must outlive the questions
             \param resolution side of a cell in metres
-            \param radius of the disc in metres
+            \param disc whose way it is
             \param toward point that most questions will be near: guides the order in which cells are settled
             \param stop asked now and then; must outlive the questions, too */
-        void reset(MotionEnvironment &environment, double resolution, double radius, const Eigen::Vector2d &toward,
+        void reset(MotionEnvironment &environment, double resolution, const Disc &disc, const Eigen::Vector2d &toward,
                    const StopFunction &stop);
 
         /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. */
@@ -73,6 +86,7 @@ namespace parking::search
             float g{std::numeric_limits<float>::infinity()};
             Occupancy passage{Occupancy::Unknown};  // of the disc
             bool settled{false};
+            bool dear{false};
         };
 
         /** Ordered by f, then by the larger g. */
@@ -83,7 +97,7 @@ namespace parking::search
         };
 
         bool isOpen(CellState &state, std::int32_t column, std::int32_t row);
-        bool mayHoldDisc(double x, double y, double halfSide, int refinements);
+        bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         float estimate(std::int32_t column, std::int32_t row) const;
         void push(float g, std::int32_t column, std::int32_t row);
         bool settleNext(Entry &settled);
@@ -96,7 +110,8 @@ namespace parking::search
         MotionEnvironment *environment_{nullptr};
         const StopFunction *stop_{nullptr};
         double resolution_{1.0};
-        double radius_{0.0};
+        Disc disc_;
+        std::uint64_t mostCells_{0};
         Eigen::Vector2d origin_{0.0, 0.0};
         float towardColumn_{0.0f}, towardRow_{0.0f};
         TiledGrid<CellState> states_;

@@ -129,6 +129,31 @@ namespace parking::search
         }
     }
 
+    void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions)
+    {
+        motions.clear();
+        // On the goal's side the car will drive from there to here.
+        const ReedsSheppCurve curve = side == Side::Start ? curves_.shortest(from, to) : curves_.shortest(to, from);
+        Pose pose = from;
+        for (std::size_t k = 0; k < curve.count; ++k)
+        {
+            const Arc piece = side == Side::Start ? curve.pieces[k]
+                                                  : Arc{curve.pieces[curve.count - 1 - k].curvature,
+                                                        -curve.pieces[curve.count - 1 - k].length};
+            const double free = environment_->freeLength(pose, piece.curvature, piece.length);
+            const bool isWhole = free >= std::abs(piece.length);
+            if (free >= shortest_)
+            {
+                const double driven = std::copysign(free, piece.length);
+                const Pose end = advance(pose, piece.curvature, driven);
+                pose = {end.x, end.y, wrapAngle(end.yaw)};
+                motions.push_back({{0.0, piece.curvature, driven, 0.0}, pose, true});
+            }
+            if (!isWhole)
+                return;
+        }
+    }
+
     bool CarModel::join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound, const Offer &offer)
     {
         const double before = fromStart.g + fromGoal.g;

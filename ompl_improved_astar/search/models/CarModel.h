@@ -32,6 +32,7 @@ namespace parking::search
                     Expansion &expansion) override;
         bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                   const Offer &offer) override;
+        void moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions) override;
         double distance(const Pose &from, const Pose &to) const override
         {
             return curves_.distance(from, to);

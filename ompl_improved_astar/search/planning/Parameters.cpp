@@ -181,6 +181,7 @@ namespace parking
                                           {
                                               fromStartOnly(set);
                                               set.adaptiveResolution = false;
+                                              set.detours = false;
                                               set.shortening = false;
                                           }}};
     }  // namespace
@@ -215,6 +216,8 @@ namespace parking
              "eight neighbours); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
              "guide the search round obstacles (car model)"},
+            {"detours", &P::detours, yesOrNo(), "",
+             "when the search is stuck: try ways through wider gaps, and explore (car model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
              "when to find out which cells are free: as the search asks, or all of them beforehand"},
             {"adaptive_resolution", &P::adaptiveResolution, yesOrNo(), "",

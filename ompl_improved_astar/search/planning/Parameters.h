@@ -29,6 +29,7 @@ namespace parking
         double nearGoalDistance{5.0};
         double tieBreak{1e-3};
         bool obstacleHeuristic{true};
+        bool detours{true};
         std::string obstacleLoading{"lazy"};
         bool adaptiveResolution{true};
         bool analyticExpansion{true};

@@ -53,6 +53,7 @@ namespace parking::search
         search.adaptiveResolution = parameters.adaptiveResolution;
         search.analyticExpansion = parameters.analyticExpansion;
         search.obstacleHeuristic = parameters.obstacleHeuristic;
+        search.detours = parameters.detours;
         search.eagerObstacles = parameters.obstacleLoading == "eager";
         search.cost.reversePenalty = parameters.reversePenalty;
         search.cost.gearChangePenalty = parameters.gearChangePenalty;

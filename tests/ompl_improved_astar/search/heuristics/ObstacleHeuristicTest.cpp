@@ -182,7 +182,7 @@ namespace
     public:
         HeuristicIn(DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward)
         {
-            reset(world, resolution, radius, toward, stop);
+            reset(world, resolution, {radius}, toward, stop);
         }
 
         StopFunction stop;
@@ -277,9 +277,9 @@ TEST(ObstacleHeuristic, resetForgetsTheWorldAndTheTargets)
     heuristic.addTarget(6.0, 0.0);
     EXPECT_EQ(heuristic.distance(-6.0, 0.0), INFINITE);
     world.boxes = open.boxes;
-    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0}, heuristic.stop);
+    heuristic.reset(world, 0.3, {0.9}, {-6.0, 0.0}, heuristic.stop);
     EXPECT_EQ(heuristic.distance(-6.0, 0.0), INFINITE) << "without a target";
-    heuristic.reset(world, 0.3, 0.9, {-6.0, 0.0}, heuristic.stop);
+    heuristic.reset(world, 0.3, {0.9}, {-6.0, 0.0}, heuristic.stop);
     heuristic.addTarget(6.0, 0.0);
     EXPECT_NEAR(heuristic.distance(-6.0, 0.0), 12.0, 0.6);
 }

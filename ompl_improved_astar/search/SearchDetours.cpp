@@ -1,0 +1,201 @@
+// What the search does when it is stuck.
+
+#include "ompl_improved_astar/search/Search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        constexpr unsigned int MOST_SAMPLES_OF_A_MOVE = 8;  // that may lie inside of obstacles
+
+        /** The radical inverse: the elements of a Halton sequence. */
+        double halton(unsigned int index, unsigned int base)
+        {
+            double result = 0.0, digit = 1.0;
+            for (; index > 0; index /= base)
+            {
+                digit /= base;
+                result += digit * (index % base);
+            }
+            return result;
+        }
+    }  // namespace
+
+    void Search::noteProgress(const Frontier &own, NodeIndex index)
+    {
+        const Node &node = own.node(index);
+        double &farthest = farthest_[static_cast<std::size_t>(own.side())];
+        if (node.h < farthest - parameters_.tuning.nearer * parameters_.turningRadius)
+        {
+            farthest = node.h;
+            progressAt_ = statistics_.expanded;
+        }
+        if (own.queues() == 1)
+            return;
+        for (const std::unique_ptr<Detour> &detour : detours_)
+            if (const double ahead = detour->estimate(node, parameters_.tuning.noWay); ahead < detour->nearest)
+            {
+                detour->nearest = ahead;
+                detour->best = index;
+            }
+    }
+
+    bool Search::isStuck() const
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        return parameters_.detours && traits_.joinsAfar && !hasTarget_ && !hasSolution() &&
+               frontier(confined_).queues() == 1 && statistics_.expanded >= tuning.leastExpansions &&
+               statistics_.expanded > progressAt_ + tuning.stalledExpansions && !guides(confined_).targets.empty();
+    }
+
+    double Search::Detour::estimate(const Node &node, double noWay)
+    {
+        const double length = way.distance(node.pose.x, node.pose.y);
+        return length < INFINITE ? std::max<double>(node.h, length) : noWay * node.h;
+    }
+
+    void Search::takeDetours()
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        const double inscribed = parameters_.inscribedRadius;
+        const Disc discs[] = {{tuning.narrowDisc * inscribed},
+                              {inscribed, tuning.wideDisc * inscribed, tuning.dear},
+                              {tuning.wideDisc * inscribed}};
+        const Guides &own = guides(confined_);
+        const HeuristicQuery query{*environment_, parameters_, confined_, own.roots, own.targets, stop_};
+        detours_.resize(std::size(discs));
+        for (std::size_t i = 0; i < detours_.size(); ++i)
+        {
+            if (!detours_[i])
+                detours_[i] = std::make_unique<Detour>();
+            detours_[i]->way.begin(query, discs[i], tuning.mostDetourCells);
+            detours_[i]->best = NO_NODE;
+            detours_[i]->nearest = INFINITE;
+        }
+        Frontier &stuck = frontier(confined_);
+        stuck.setQueues(1 + detours_.size());
+        for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
+            if (const Node &node = stuck.node(i);
+                node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded()))
+                pushToDetours(stuck, node.next, i);
+        exploration_.since = statistics_.expanded;
+    }
+
+    void Search::endDetours()
+    {
+        for (Frontier &each : frontiers_)
+            each.setQueues(1);
+        for (std::vector<NodeIndex> &nodes : exploration_.nodes)
+            nodes.clear();
+        exploration_.samples = 0;
+        farthest_ = {INFINITE, INFINITE};
+        progressAt_ = statistics_.expanded;
+    }
+
+    void Search::pushToDetours(Frontier &own, std::size_t level, NodeIndex index)
+    {
+        const Node &node = own.node(index);
+        for (std::size_t i = 0; i < detours_.size(); ++i)
+        {
+            const double ahead = detours_[i]->estimate(node, parameters_.tuning.noWay);
+            own.push(1 + i, level, priority(own, node, ahead), ahead, index);
+        }
+    }
+
+    bool Search::mayExplore() const
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        return frontier(confined_).queues() > 1 && !improved_ &&
+               statistics_.expanded >= exploration_.since + tuning.stalledDetours &&
+               statistics_.expanded % tuning.explorationPeriod == 0 && parameters_.bounds.size().minCoeff() > 0.0;
+    }
+
+    NodeIndex Search::nearestExplored(Side side, const Pose &pose) const
+    {
+        NodeIndex best = NO_NODE;
+        double nearest = INFINITE;
+        const auto look = [&](const std::vector<NodeIndex> &nodes)
+        {
+            for (const NodeIndex index : nodes)
+            {
+                const Pose &node = frontier(side).node(index).pose;
+                if (positionDistance(node, pose) >= nearest)
+                    continue;
+                const double length = side == Side::Start ? model_->distance(node, pose) : model_->distance(pose, node);
+                if (length < nearest)
+                {
+                    nearest = length;
+                    best = index;
+                }
+            }
+        };
+        look(frontier(side).roots());
+        look(exploration_.nodes[static_cast<std::size_t>(side)]);
+        return best;
+    }
+
+    NodeIndex Search::keepExplored(Frontier &own, Node node)
+    {
+        // Only cells that are empty are left from: else a search without a way would never end.
+        const std::size_t levels = parameters_.adaptiveResolution ? traits_.levels : 1;
+        for (std::size_t level = 0; level < levels; ++level)
+        {
+            const std::uint64_t cell = model_->cell(node.pose, level);
+            if (own.holderOf(cell, level) != NO_NODE)
+                continue;
+            node.level = node.next = static_cast<std::uint8_t>(level);
+            const NodeIndex index = own.place(node, NO_NODE, cell);
+            push(own, level, index);
+            return index;
+        }
+        node.next = static_cast<std::uint8_t>(traits_.levels);
+        return own.append(node);
+    }
+
+    void Search::explore()
+    {
+        // A step of RRT-Connect (J. J. Kuffner and S. M. LaValle, 2000) with a sequence that fills the space evenly and
+        // is the same each time.
+        const Box &bounds = parameters_.bounds;
+        Pose sample;
+        for (unsigned int tries = 0; tries < MOST_SAMPLES_OF_A_MOVE; ++tries)
+        {
+            const unsigned int i = ++exploration_.samples;
+            const Eigen::Vector2d at =
+                bounds.min + Eigen::Vector2d(halton(i, 3), halton(i, 5)).cwiseProduct(bounds.size());
+            sample = {at.x(), at.y(), wrapAngle(2.0 * PI * halton(i, 7))};
+            if (environment_->roomAt(sample.x, sample.y) >= parameters_.inscribedRadius)
+                break;
+        }
+        const Side side = !parameters_.bidirectional      ? confined_
+                          : exploration_.samples % 2 == 0 ? Side::Start
+                                                          : Side::Goal;
+        Frontier &own = frontier(side);
+        NodeIndex index = nearestExplored(side, sample);
+        if (index == NO_NODE)
+            return;
+        model_->moveTowards(side, own.node(index).pose, sample, exploration_.motions);
+        if (exploration_.motions.empty())
+            return;
+        for (const Successor &successor : exploration_.motions)
+        {
+            Node node;
+            node.pose = successor.pose;
+            node.g = costThrough(own, own.node(index), successor);
+            node.motion = successor.motion;
+            node.parent = index;
+            node.farthest = node.fixed = true;
+            node.h = estimateOf(side, node.pose);
+            index = keepExplored(own, node);
+        }
+        exploration_.nodes[static_cast<std::size_t>(side)].push_back(index);
+        joinAfar(own, index);
+        if (const NodeIndex partner = nearestExplored(opposite(side), own.node(index).pose);
+            partner != NO_NODE && !improved_)
+            joinPair(own, index, partner);
+    }
+}  // namespace parking::search

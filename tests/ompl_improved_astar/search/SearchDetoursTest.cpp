@@ -1,0 +1,115 @@
+// What the search does when it is stuck.
+
+#include "ompl_improved_astar/search/Search.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr std::uint64_t MOST_EXPANSIONS = 6000;
+
+    /** A row of parked cars between two aisles. The gaps are wide enough for the car, the aisles too narrow to turn
+       into one of them: the disc's way leads through the gaps, the car has to go round the end of the row. */
+    CarProblem rowOfCars()
+    {
+        CarProblem problem{DiscCarWorld({{-40.0, -9.5}, {40.0, 9.5}}), {{-10.0, -6.5, 0.0}}, {{-10.0, 6.5, 0.0}}};
+        for (double x = -40.0; x < 33.0; x += 4.0)
+            problem.world.boxes.push_back({{x, -4.0}, {x + 1.95, 4.0}});
+        return problem;
+    }
+
+    struct Counts
+    {
+        bool solved;
+        std::uint64_t expanded;
+        double length;
+    };
+
+    Counts searched(CarProblem problem, bool detours, Eigen::Vector2d half = {40.0, 9.5},
+                    SearchParameters parameters = carParameters())
+    {
+        parameters.inscribedRadius = problem.world.radius;
+        parameters.detours = detours;
+        parameters.bounds = {-half, half};
+        Search search;
+        problem.begin(search, parameters);
+        const SearchOutcome outcome = search.run([&] { return search.statistics().expanded >= MOST_EXPANSIONS; });
+        EXPECT_EQ(search.hasSolution(), outcome == SearchOutcome::Improved);
+        if (search.hasSolution())
+        {
+            const Path path = search.bestPath();
+            EXPECT_TRUE(isSamePose(path.start, problem.starts.front(), 1e-9));
+            EXPECT_TRUE(isSamePose(path.end(), problem.goals.front(), 1e-6));
+            EXPECT_NEAR(search.bestCost(), pathCost(parameters.cost, path, problem.world), 1e-6);
+            Pose pose = path.start;
+            for (const PathPiece &piece : path.pieces)
+            {
+                EXPECT_LE(std::abs(piece.curvature), 1.0 / TURNING_RADIUS + 1e-9);
+                for (double part = 0.0; part <= 1.0; part += 0.01)
+                    EXPECT_GT(problem.world.gap(advance(pose, piece.curvature, part * piece.length)), -1e-9);
+                pose = advance(pose, piece.curvature, piece.length);
+            }
+        }
+        return {search.hasSolution(), search.statistics().expanded,
+                search.hasSolution() ? search.bestPath().length() : std::numeric_limits<double>::infinity()};
+    }
+}  // namespace
+
+TEST(SearchDetours, leadOutOfATrap)
+{
+    const Counts with = searched(rowOfCars(), true), without = searched(rowOfCars(), false);
+    EXPECT_TRUE(with.solved);
+    EXPECT_LT(10 * with.expanded, without.expanded);
+}
+
+// Nothing of them is to be noticed before the search is stuck.
+TEST(SearchDetours, leaveOtherSearchesAsTheyAre)
+{
+    int compared = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        const Counts without = searched(randomProblem(seed), false, {12.0, 12.0});
+        if (!without.solved || without.expanded >= carParameters().tuning.leastExpansions)
+            continue;
+        const Counts with = searched(randomProblem(seed), true, {12.0, 12.0});
+        EXPECT_EQ(with.expanded, without.expanded);
+        EXPECT_EQ(with.length, without.length);
+        ++compared;
+    }
+    EXPECT_GT(compared, 20);
+}
+
+TEST(SearchDetours, areTheSameEachTime)
+{
+    const Counts once = searched(rowOfCars(), true), again = searched(rowOfCars(), true);
+    EXPECT_EQ(once.expanded, again.expanded);
+    EXPECT_EQ(once.length, again.length);
+}
+
+// Where nothing is known of the room, no disc shows another way. In small worlds exploration seldom pays: these are the
+// two of 400 fields in which it does.
+TEST(SearchDetours, explorationFindsWaysWithoutDiscs)
+{
+    std::uint64_t with = 0, without = 0;
+    SearchParameters notExploring = carParameters();
+    notExploring.tuning.stalledDetours = 2 * MOST_EXPANSIONS;
+    for (const std::uint64_t seed : {349u, 393u})
+    {
+        CarProblem problem = randomProblem(seed, 14);
+        problem.world.tellsRoom = false;
+        const Counts exploring = searched(problem, true, {12.0, 12.0});
+        EXPECT_TRUE(exploring.solved) << seed;
+        with += exploring.expanded;
+        without += searched(problem, true, {12.0, 12.0}, notExploring).expanded;
+    }
+    EXPECT_LT(3 * with, 2 * without);
+}
