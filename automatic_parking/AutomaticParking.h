@@ -3,9 +3,9 @@
 #include "automatic_parking/ParkingPlanner.h"
 #include "automatic_parking/ParkingStatus.h"
 #include "parking_geometry/Scenario.h"
-#include "path_tracking/reference/Trajectory.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/simulation/Evaluation.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/curves/Path.h"
-#include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/drawing/SvgFigure.h"
-#include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <string>
 #include <vector>

@@ -30,6 +30,7 @@ namespace parking
                 "plan N times with seeds seed, seed + 1, ... "
                 "(default 1); the first run's path is the result");
             add("seed", oneValue("N"), "of the random numbers (default 1)");
+            add("trajectory", "optimise the path in time: the fastest trajectory near it");
             add("track", "drive the path with the model predictive controller");
             add("json", oneValue("FILE|-"), "write the result, - to standard output");
             add("svg", oneValue("FILE"), "draw the result");
@@ -65,6 +66,7 @@ namespace parking
         result.timeLimit = line.positive("time-limit").value_or(result.timeLimit);
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
+        result.trajectory = line.given("trajectory");
         result.track = line.given("track");
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");

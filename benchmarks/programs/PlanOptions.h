@@ -24,6 +24,7 @@ namespace parking
         double timeLimit{5.0};
         std::size_t runs{1};
         std::uint_fast32_t seed{1};
+        bool trajectory{false};
         bool track{false};
         std::string json;  ///< file, "-" for standard output, empty for none
         std::string svg;

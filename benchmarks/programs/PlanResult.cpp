@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 #include <utility>
 
@@ -18,8 +19,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double MS = 1e3;              // milliseconds in a second
-        constexpr double DEGREES = 180.0 / PI;  // in a radian
+        constexpr double MS = 1e3;                // milliseconds in a second
+        constexpr double TRAJECTORY_STEP = 0.05;  // seconds between samples
+        constexpr double DEGREES = 180.0 / PI;    // in a radian
 
         json vehicleJson(const Vehicle &vehicle)
         {
@@ -69,6 +71,48 @@ namespace parking
                     {"collisions", figures.collisions}};
         }
 
+        json trajectoryJson(const Scenario &scenario, const Trajectory &trajectory)
+        {
+            json samples = json::array();
+            for (const TrajectoryPoint &point : trajectory)
+            {
+                json each = poseJson(scenario, {point.x, point.y, point.yaw});
+                each["t"] = point.t;
+                each["v"] = point.v;
+                each["steering"] = point.steering;
+                each["acceleration"] = point.acceleration;
+                each["steering_rate"] = point.steeringRate;
+                samples.push_back(std::move(each));
+            }
+            return samples;
+        }
+
+        void addTrajectoryTo(json &text, const Scenario &scenario, const PlanResult &result)
+        {
+            text["planned_trajectory"] = json::array();
+            if (!result.trajectory)
+            {
+                text["trajectory_optimization"] = {{"message", result.trajectoryError}};
+                return;
+            }
+            const OptimizedTrajectory &optimized = *result.trajectory;
+            const TpcapCost cost = tpcapCost(optimized.motion);
+            text["planned_trajectory"] =
+                trajectoryJson(scenario, sample(optimized.motion, scenario.vehicle, TRAJECTORY_STEP));
+            text["trajectory_optimization"] = {{"duration_s", optimized.motion.duration()},
+                                               {"time_ms", MS * result.trajectoryTime},
+                                               {"fallback", optimized.fallback},
+                                               {"message", optimized.reason},
+                                               {"rounds", optimized.rounds},
+                                               {"iterations", optimized.iterations},
+                                               {"tpcap_cost",
+                                                {{"J", cost.total()},
+                                                 {"time_s", cost.time},
+                                                 {"control_effort", cost.controlEffort},
+                                                 {"steering_integral", cost.steeringIntegral},
+                                                 {"gear_changes", cost.gearChanges}}}};
+        }
+
         json runJson(const PlanRun &run)
         {
             json each{{"status", toString(run.status)},
@@ -99,21 +143,6 @@ namespace parking
             for (const TrajectoryPoint &point : drive.trajectory)
                 track.push_back({point.x, point.y, point.yaw});
             return track;
-        }
-
-        json trajectoryJson(const Scenario &scenario, const DriveResult &drive)
-        {
-            json trajectory = json::array();
-            for (const TrajectoryPoint &point : drive.trajectory)
-            {
-                json each = poseJson(scenario, {point.x, point.y, point.yaw});
-                each["t"] = point.t;
-                each["v"] = point.v;
-                each["steering"] = point.steering;
-                each["acceleration"] = point.acceleration;
-                trajectory.push_back(std::move(each));
-            }
-            return trajectory;
         }
     }  // namespace
 
@@ -197,11 +226,13 @@ namespace parking
                                {"states", run.path->recheck.states},
                                {"collisions", run.path->recheck.collisions},
                                {"reason", run.path->recheck.reason}};
+        if (options.trajectory)
+            addTrajectoryTo(text, scenario, result);
         if (!options.track)
             return text;
         if (run.path)
             text["tracking"] = trackingJson(result);
-        text["trajectory"] = result.drive ? trajectoryJson(scenario, *result.drive) : json::array();
+        text["trajectory"] = result.drive ? trajectoryJson(scenario, result.drive->trajectory) : json::array();
         return text;
     }
 
@@ -230,6 +261,12 @@ namespace parking
                         ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
                         : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
         }
+        if (result.trajectory)
+            text += "  trajectory: " + fixed(result.trajectory->motion.duration(), 2) + " s, found in " +
+                    fixed(MS * result.trajectoryTime, 1) + " ms" +
+                    (result.trajectory->fallback ? " (stops to steer: " + result.trajectory->reason + ")" : "") + "\n";
+        else if (!result.trajectoryError.empty())
+            text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
             text += "  driven: " + result.drive->message + " after " + fixed(result.drive->evaluation.travelTime, 1) +
                     " s, " + fixed(100.0 * result.drive->evaluation.finalPositionError, 1) +
@@ -263,6 +300,23 @@ namespace parking
             for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle))
                 figure.addPlot(plot);
         return figure.toString();
+    }
+
+    void addTrajectory(const Problem &problem, PlanResult &result)
+    {
+        const PlanRun &run = result.first();
+        if (!run.path)
+            return;
+        const std::clock_t begin = std::clock();
+        try
+        {
+            result.trajectory = TrajectoryOptimizer(problem.footprint()).optimize(run.path->path);
+        }
+        catch (const Error &error)
+        {
+            result.trajectoryError = error.what();
+        }
+        result.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     }
 
     void addDrive(const Problem &problem, PlanResult &result)

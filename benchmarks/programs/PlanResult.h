@@ -3,6 +3,7 @@
 #include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/programs/PlanOptions.h"
 #include "path_tracking/simulation/ClosedLoop.h"
+#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,9 @@ namespace parking
         std::vector<PlanRun> runs;  ///< at least one; the first one's path is the result
         std::optional<DriveResult> drive;
         std::string driveError;  ///< why the path cannot be driven; empty otherwise
+        std::optional<OptimizedTrajectory> trajectory;
+        std::string trajectoryError;  ///< why there is no trajectory; empty otherwise
+        double trajectoryTime{0.0};   ///< seconds of processor time
 
         const PlanRun &first() const
         {
@@ -42,6 +46,9 @@ namespace parking
 
     /** \brief Map, car along the path, curvature; with a drive its track, speed, acceleration and steering angle. */
     std::string resultSvg(const Problem &problem, const PlanResult &result);
+
+    /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result. */
+    void addTrajectory(const Problem &problem, PlanResult &result);
 
     /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
     void addDrive(const Problem &problem, PlanResult &result);

@@ -49,6 +49,8 @@ namespace
         result.parameters = parametersJson(*problem.prepare(entry, options.settings).planner);
         for (std::size_t run = 0; run < options.runs; ++run)
             result.runs.push_back(planOnce(problem, entry, options.settings, options.timeLimit, options.seed + run));
+        if (options.trajectory)
+            addTrajectory(problem, result);
         if (options.track)
             addDrive(problem, result);
 

@@ -3,7 +3,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/reference/ReferencePath.h"
-#include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
 #include <optional>

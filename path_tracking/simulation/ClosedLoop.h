@@ -3,9 +3,9 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/control/TrackingController.h"
-#include "path_tracking/reference/Trajectory.h"
 #include "path_tracking/simulation/Evaluation.h"
 #include "path_tracking/simulation/Plant.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
 #include <functional>

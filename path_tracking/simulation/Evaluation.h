@@ -1,7 +1,7 @@
 #pragma once
 
 #include "parking_geometry/Pose.h"
-#include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
 #include <limits>

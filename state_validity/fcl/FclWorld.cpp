@@ -1,6 +1,6 @@
 #include "state_validity/fcl/FclWorld.h"
 
-#include "state_validity/fcl/ConvexDecomposition.h"
+#include "state_validity/ConvexDecomposition.h"
 
 #include <algorithm>
 

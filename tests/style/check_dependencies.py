@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     PLANNER: [VALIDITY, GEOMETRY],
     f'{PLANNER}/search': [VALIDITY, GEOMETRY],
     TRACKING: [GEOMETRY],
+    f'{TRACKING}/trajectory': [VALIDITY, GEOMETRY],
     PIPELINE: LIBRARIES,
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
@@ -47,6 +48,7 @@ NEVER = {
     PLANNER: ['fcl/', 'ceres/', 'ompl/tools/'] + READERS,
     f'{PLANNER}/search': OUTSIDE + ADAPTERS,
     TRACKING: ['ompl/', 'fcl/'] + READERS,
+    f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

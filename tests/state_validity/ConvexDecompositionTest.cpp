@@ -1,4 +1,4 @@
-#include "state_validity/fcl/ConvexDecomposition.h"
+#include "state_validity/ConvexDecomposition.h"
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"

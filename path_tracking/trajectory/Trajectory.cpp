@@ -1,4 +1,4 @@
-#include "path_tracking/reference/Trajectory.h"
+#include "path_tracking/trajectory/Trajectory.h"
 
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"

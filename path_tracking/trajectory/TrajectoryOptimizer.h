@@ -1,0 +1,91 @@
+#pragma once
+
+#include "parking_geometry/curves/Path.h"
+#include "path_tracking/trajectory/TimedMotion.h"
+#include "path_tracking/trajectory/program/ConvexPiece.h"
+#include "path_tracking/trajectory/program/MotionProblem.h"
+#include "state_validity/FootprintChecker.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What a TrajectoryOptimizer aims at. */
+    struct TrajectoryOptions
+    {
+        MotionWeights weights;  ///< by default time alone
+        double margin{0.002};   ///< metres that body and obstacles keep beyond the checker's margin
+        double step{0.3};       ///< seconds between two nodes, about
+        std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
+        std::optional<double> finalSteering{0.0};    ///< likewise at the end
+        std::size_t mostRounds{6};                   ///< programs that are solved at most
+
+        /** \brief Weights of the Trajectory Planning Competition of Automated Parking, per 100. */
+        static MotionWeights tpcapWeights()
+        {
+            return {1.0, 0.1, 0.1};
+        }
+
+        /** \brief Throws parking::Error naming the first field that is not finite or out of its range. */
+        void validate() const;
+    };
+
+    /** \brief What optimising a trajectory came to. */
+    struct OptimizedTrajectory
+    {
+        TimedMotion motion;         ///< collision free, within the limits
+        bool fallback{false};       ///< the motion is stopAndSteer()'s
+        std::string reason;         ///< why there is none better; empty otherwise
+        std::size_t rounds{0};      ///< programs that were solved
+        std::size_t iterations{0};  ///< of the interior point method, all rounds
+    };
+
+    /** \brief From a path to the fastest trajectory nearby.
+
+        The path is cut at its cusps. Each stretch gets nodes in time, from a guess that drives along the path; between
+        two stretches, and at the ends, the car stands as long as it turns its wheels. A nonlinear program (see
+        MotionProgram) moves all of this to where it takes the least time: cusps too, and the wheels turn while the car
+        rolls. Obstacles are convex pieces, each kept apart by one line per checkpoint, chosen beforehand (see
+        SeparationPlan). The result is then integrated and swept by other code (see collisionsOf()); if it touches
+        anything there is another round with more checkpoints, and after the last one the path is driven as it is (see
+        stopAndSteer()).
+
+        Deterministic. Const calls from several threads are safe. */
+    class TrajectoryOptimizer
+    {
+    public:
+        /** \brief \param checker is referred to: the world, the car and the margin that holds for everybody
+
+            Throws parking::Error for invalid options and a car whose limits are not positive and finite. */
+        explicit TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options = {});
+
+        const TrajectoryOptions &options() const
+        {
+            return options_;
+        }
+
+        /** \brief The best motion found near \e path, in the coordinates of the checker.
+
+            Never slower than stopping to steer, when time is all that counts.
+
+            \param interrupted asked about every millisecond; once it says yes the path is driven as it is, unless the
+            result is there already; may be empty
+            Throws parking::Error for a path that no car can drive, or that collides. */
+        OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
+
+    private:
+        class Search;
+
+        Pose toLocal(const Pose &pose) const;
+        double costOf(const TimedMotion &motion) const;
+
+        const FootprintChecker &checker_;
+        TrajectoryOptions options_;
+        Vehicle body_;  // enlarged by the checker's margin
+        std::vector<ConvexPiece> pieces_;
+    };
+}  // namespace parking

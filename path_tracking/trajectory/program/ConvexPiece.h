@@ -1,0 +1,26 @@
+#pragma once
+
+#include "state_validity/ObstacleSet.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief A convex obstacle: corners counter-clockwise, and the lines of its sides. */
+    struct ConvexPiece
+    {
+        std::vector<Eigen::Vector2d> corners;
+        std::vector<Eigen::Vector2d> normals;  ///< outwards, of unit length; side k leads from corner k to the next
+        std::vector<double> offsets;           ///< normals[k] . p = offsets[k] on side k
+        Box box;
+
+        /** \brief \e corners counter-clockwise; sides shorter than a micrometre are left out. */
+        explicit ConvexPiece(std::vector<Eigen::Vector2d> corners);
+    };
+
+    /** \brief The obstacles of a world as convex pieces, in its local frame. The outside of the bounds is four of them,
+        rectangles that reach beyond. Throws parking::Error as convexPieces() does. */
+    std::vector<ConvexPiece> convexPieces(const ObstacleSet &obstacles);
+}  // namespace parking

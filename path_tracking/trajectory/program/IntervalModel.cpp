@@ -1,0 +1,270 @@
+#include "path_tracking/trajectory/program/IntervalModel.h"
+
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        /** Entries of a pair of nodes. */
+        constexpr int H = NODE_DURATION;
+        constexpr int SECOND = NODE_SIZE;
+        constexpr int V0 = NODE_SPEED, V1 = SECOND + NODE_SPEED;
+        constexpr int YAW0 = NODE_YAW, YAW1 = SECOND + NODE_YAW;
+        constexpr int PHI0 = NODE_STEERING, PHI1 = SECOND + NODE_STEERING;
+
+        /** Weights of begin, way at the begin, end and way at the end in the Hermite polynomial. */
+        Eigen::Vector4d hermite(double t)
+        {
+            const double t2 = t * t, t3 = t2 * t;
+            return {1.0 - 3.0 * t2 + 2.0 * t3, t - 2.0 * t2 + t3, 3.0 * t2 - 2.0 * t3, t3 - t2};
+        }
+
+        /** The entry that turns the way of x, y or yaw at the begin. */
+        int angleOf(int e)
+        {
+            return e < 2 ? YAW0 : PHI0;
+        }
+    }  // namespace
+
+    void SpanTerms::add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,
+                        const Eigen::Vector3d &poseShift)
+    {
+        const Eigen::Vector4d w = hermite(fraction);
+        const Eigen::Matrix4d square = w * w.transpose();
+        for (int e = 0; e < 3; ++e)
+        {
+            gradient.segment<4>(4 * e) += poseGradient[e] * w;
+            shift.segment<4>(4 * e) += poseShift[e] * w;
+            for (int f = 0; f < 3; ++f)
+                hessian.block<4, 4>(4 * e, 4 * f) += poseHessian(e, f) * square;
+        }
+    }
+
+    IntervalModel::IntervalModel(int direction, double wheelbase, const NodeVector &begin, const NodeVector &end)
+      : direction_(direction),
+        wheelbase_(wheelbase),
+        duration_(begin[NODE_DURATION]),
+        a_(begin),
+        b_(end),
+        begin_(wayOf(begin)),
+        end_(wayOf(end)),
+        speed_(0.5 * (begin[NODE_SPEED] + end[NODE_SPEED])),
+        steering_(0.5 * (begin[NODE_STEERING] + end[NODE_STEERING])),
+        yaw_(0.5 * (begin[NODE_YAW] + end[NODE_YAW]) + (begin_.way[2] - end_.way[2]) / 8.0),
+        cosine_(std::cos(yaw_)),
+        sine_(std::sin(yaw_)),
+        tangent_(std::tan(steering_))
+    {
+    }
+
+    IntervalModel::Way IntervalModel::wayOf(const NodeVector &node) const
+    {
+        const double c = std::cos(node[NODE_YAW]), s = std::sin(node[NODE_YAW]), t = std::tan(node[NODE_STEERING]);
+        const Eigen::Vector3d towards(c, s, t / wheelbase_), turned(-s, c, (1.0 + t * t) / wheelbase_);
+        const double v = node[NODE_SPEED], way = direction_ * duration_ * v;
+        return {way * towards, direction_ * v * towards, direction_ * duration_ * towards, way * turned};
+    }
+
+    Eigen::Vector3d IntervalModel::gaps() const
+    {
+        const double way = direction_ * duration_ * speed_;
+        const Eigen::Vector3d middle(way * cosine_, way * sine_, way * tangent_ / wheelbase_);
+        return b_.head<3>() - a_.head<3>() - (begin_.way + 4.0 * middle + end_.way) / 6.0;
+    }
+
+    PairVector IntervalModel::yawRow() const
+    {
+        PairVector row = PairVector::Zero();
+        row[YAW0] = row[YAW1] = 0.5;
+        row[H] = (begin_.byDuration[2] - end_.byDuration[2]) / 8.0;
+        row[V0] = begin_.bySpeed[2] / 8.0;
+        row[V1] = -end_.bySpeed[2] / 8.0;
+        row[PHI0] = begin_.byAngle[2] / 8.0;
+        row[PHI1] = -end_.byAngle[2] / 8.0;
+        return row;
+    }
+
+    GapRows IntervalModel::gapRows() const
+    {
+        GapRows rows = GapRows::Zero();
+        const Eigen::Vector3d towards(cosine_, sine_, tangent_ / wheelbase_);
+        const double d = direction_, h = duration_, v = speed_;
+        for (int e = 0; e < 3; ++e)
+        {
+            rows(e, e) = -1.0;
+            rows(e, SECOND + e) = 1.0;
+            rows(e, H) = -(begin_.byDuration[e] + end_.byDuration[e] + 4.0 * d * v * towards[e]) / 6.0;
+            rows(e, V0) = -(begin_.bySpeed[e] + 2.0 * d * h * towards[e]) / 6.0;
+            rows(e, V1) = -(end_.bySpeed[e] + 2.0 * d * h * towards[e]) / 6.0;
+            rows(e, angleOf(e)) -= begin_.byAngle[e] / 6.0;
+            rows(e, SECOND + angleOf(e)) -= end_.byAngle[e] / 6.0;
+        }
+        const PairVector yaw = yawRow();
+        rows.row(0) += 4.0 / 6.0 * d * h * v * sine_ * yaw.transpose();
+        rows.row(1) -= 4.0 / 6.0 * d * h * v * cosine_ * yaw.transpose();
+        const double slope = (1.0 + tangent_ * tangent_) / wheelbase_;
+        rows(2, PHI0) -= 2.0 / 6.0 * d * h * v * slope;
+        rows(2, PHI1) -= 2.0 / 6.0 * d * h * v * slope;
+        return rows;
+    }
+
+    void IntervalModel::addGapCurvature(const Eigen::Vector3d &prices, IntervalTerms &terms) const
+    {
+        if (direction_ == 0.0)
+            return;
+        const double h = duration_, v = speed_;
+        const Eigen::Vector3d m = -4.0 / 6.0 * direction_ * prices;
+        const double along = m[0] * cosine_ + m[1] * sine_, across = m[1] * cosine_ - m[0] * sine_;
+        const double turning = m[2] * tangent_ / wheelbase_;
+        const double turning1 = m[2] * (1.0 + tangent_ * tangent_) / wheelbase_;
+        const double turning2 = 2.0 * turning1 * tangent_;
+        PairVector speed = PairVector::Zero(), steering = speed, duration = speed;
+        speed[V0] = speed[V1] = 0.5;
+        steering[PHI0] = steering[PHI1] = 0.5;
+        duration[H] = 1.0;
+        const PairVector yaw = yawRow();
+        const PairVector byYaw = v * across * duration + h * across * speed - 0.5 * h * v * along * yaw;
+        const PairVector bySteering =
+            v * turning1 * duration + h * turning1 * speed + 0.5 * h * v * turning2 * steering;
+        const PairVector bySpeed = (along + turning) * duration;
+        const PairMatrix half =
+            byYaw * yaw.transpose() + bySteering * steering.transpose() + bySpeed * speed.transpose();
+        terms.hessian += half + half.transpose();
+        terms.wayAtBegin -= prices / 6.0;
+        terms.wayAtEnd -= prices / 6.0;
+        // The yaw in the middle depends on the ways, too.
+        terms.wayAtBegin[2] += h * v * across / 8.0;
+        terms.wayAtEnd[2] -= h * v * across / 8.0;
+    }
+
+    Eigen::Vector3d IntervalModel::poseAt(double fraction) const
+    {
+        const Eigen::Vector4d w = hermite(fraction);
+        return w[0] * a_.head<3>() + w[1] * begin_.way + w[2] * b_.head<3>() + w[3] * end_.way;
+    }
+
+    Eigen::Vector3d IntervalModel::poseStep(double fraction, const PairVector &step) const
+    {
+        const Eigen::Vector4d w = hermite(fraction);
+        const Eigen::Vector3d angles0(step[YAW0], step[YAW0], step[PHI0]), angles1(step[YAW1], step[YAW1], step[PHI1]);
+        const Eigen::Vector3d begin =
+            begin_.byDuration * step[H] + begin_.bySpeed * step[V0] + begin_.byAngle.cwiseProduct(angles0);
+        const Eigen::Vector3d end =
+            end_.byDuration * step[H] + end_.bySpeed * step[V1] + end_.byAngle.cwiseProduct(angles1);
+        return w[0] * step.head<3>() + w[1] * begin + w[2] * step.segment<3>(SECOND) + w[3] * end;
+    }
+
+    void IntervalModel::addSpan(const SpanTerms &span, IntervalTerms &terms) const
+    {
+        Eigen::Matrix<double, 12, PAIR_SIZE> chain = Eigen::Matrix<double, 12, PAIR_SIZE>::Zero();
+        for (int e = 0; e < 3; ++e)
+        {
+            chain(4 * e, e) = 1.0;
+            chain(4 * e + 2, SECOND + e) = 1.0;
+            chain(4 * e + 1, H) = begin_.byDuration[e];
+            chain(4 * e + 1, V0) = begin_.bySpeed[e];
+            chain(4 * e + 1, angleOf(e)) = begin_.byAngle[e];
+            chain(4 * e + 3, H) = end_.byDuration[e];
+            chain(4 * e + 3, V1) = end_.bySpeed[e];
+            chain(4 * e + 3, SECOND + angleOf(e)) = end_.byAngle[e];
+            terms.wayAtBegin[e] += span.gradient[4 * e + 1];
+            terms.wayAtEnd[e] += span.gradient[4 * e + 3];
+        }
+        const Eigen::Matrix<double, 12, PAIR_SIZE> half = span.hessian * chain;
+        terms.hessian.noalias() += chain.transpose() * half;
+        terms.gradient.noalias() += chain.transpose() * span.gradient;
+        terms.shift.noalias() += chain.transpose() * span.shift;
+    }
+
+    void IntervalModel::addWayCurvature(IntervalTerms &terms) const
+    {
+        if (direction_ == 0.0)
+            return;
+        const double d = direction_, h = duration_;
+        for (const bool begin : {true, false})
+        {
+            const Eigen::Vector3d &m = begin ? terms.wayAtBegin : terms.wayAtEnd;
+            const NodeVector &node = begin ? a_ : b_;
+            const int first = begin ? 0 : SECOND, yaw = first + NODE_YAW, v = first + NODE_SPEED;
+            const int phi = first + NODE_STEERING;
+            const double c = std::cos(node[NODE_YAW]), s = std::sin(node[NODE_YAW]), t = std::tan(node[NODE_STEERING]);
+            const double along = d * (m[0] * c + m[1] * s), across = d * (m[1] * c - m[0] * s);
+            const double turning1 = d * m[2] * (1.0 + t * t) / wheelbase_, speed = node[NODE_SPEED];
+            terms.couple(H, v, along + d * m[2] * t / wheelbase_);
+            terms.couple(H, yaw, speed * across);
+            terms.couple(v, yaw, h * across);
+            terms.hessian(yaw, yaw) -= h * speed * along;
+            terms.couple(H, phi, speed * turning1);
+            terms.couple(v, phi, h * turning1);
+            terms.hessian(phi, phi) += h * speed * 2.0 * turning1 * t;
+        }
+    }
+
+    double IntervalModel::cost(const MotionWeights &w) const
+    {
+        const double phi0 = a_[NODE_STEERING], phi1 = b_[NODE_STEERING], v0 = a_[NODE_SPEED], v1 = b_[NODE_SPEED];
+        const double cost = duration_ * (w.time + w.steering * (phi0 * phi0 + phi0 * phi1 + phi1 * phi1) / 3.0);
+        if (direction_ == 0.0)
+            return cost;
+        const double dv = v1 - v0, dphi = phi1 - phi0;
+        return cost + w.effort * (dv * dv + (v0 * v0 + v0 * v1 + v1 * v1) / 3.0 * dphi * dphi) / duration_;
+    }
+
+    void IntervalModel::addCost(const MotionWeights &w, IntervalTerms &terms) const
+    {
+        const double phi0 = a_[NODE_STEERING], phi1 = b_[NODE_STEERING];
+        terms.cost[H] += w.time + w.steering * (phi0 * phi0 + phi0 * phi1 + phi1 * phi1) / 3.0;
+        if (w.steering > 0.0)
+        {
+            const double by0 = w.steering * (2.0 * phi0 + phi1) / 3.0, by1 = w.steering * (phi0 + 2.0 * phi1) / 3.0;
+            terms.cost[PHI0] += duration_ * by0;
+            terms.cost[PHI1] += duration_ * by1;
+            terms.couple(H, PHI0, by0);
+            terms.couple(H, PHI1, by1);
+            terms.hessian(PHI0, PHI0) += w.steering * duration_ * 2.0 / 3.0;
+            terms.hessian(PHI1, PHI1) += w.steering * duration_ * 2.0 / 3.0;
+            terms.couple(PHI0, PHI1, w.steering * duration_ / 3.0);
+        }
+        if (w.effort > 0.0 && direction_ != 0.0)
+            addEffort(w.effort, terms);
+    }
+
+    void IntervalModel::addEffort(double weight, IntervalTerms &terms) const
+    {
+        // e (dv^2 + q dphi^2), where q is the mean square of the speed.
+        const double v0 = a_[NODE_SPEED], v1 = b_[NODE_SPEED], dv = v1 - v0;
+        const double dphi = b_[NODE_STEERING] - a_[NODE_STEERING], square = dphi * dphi, h = duration_;
+        const double e = weight / h;
+        const double q = (v0 * v0 + v0 * v1 + v1 * v1) / 3.0, q0 = (2.0 * v0 + v1) / 3.0, q1 = (v0 + 2.0 * v1) / 3.0;
+        const double total = dv * dv + q * square;
+        const std::array<int, 4> entry{V0, V1, PHI0, PHI1};
+        const std::array<double, 4> slope{-2.0 * dv + q0 * square, 2.0 * dv + q1 * square, -2.0 * q * dphi,
+                                          2.0 * q * dphi};
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+            terms.cost[entry[i]] += e * slope[i];
+            terms.couple(H, entry[i], -e * slope[i] / h);
+        }
+        terms.cost[H] -= e * total / h;
+        terms.hessian(H, H) += 2.0 * e * total / (h * h);
+        terms.hessian(V0, V0) += e * (2.0 + 2.0 / 3.0 * square);
+        terms.hessian(V1, V1) += e * (2.0 + 2.0 / 3.0 * square);
+        terms.couple(V0, V1, e * (-2.0 + square / 3.0));
+        terms.hessian(PHI0, PHI0) += 2.0 * e * q;
+        terms.hessian(PHI1, PHI1) += 2.0 * e * q;
+        terms.couple(PHI0, PHI1, -2.0 * e * q);
+        terms.couple(V0, PHI0, -2.0 * e * q0 * dphi);
+        terms.couple(V0, PHI1, 2.0 * e * q0 * dphi);
+        terms.couple(V1, PHI0, -2.0 * e * q1 * dphi);
+        terms.couple(V1, PHI1, 2.0 * e * q1 * dphi);
+    }
+
+    Pose MotionProblem::poseAt(std::size_t interval, double fraction) const
+    {
+        const Eigen::Vector3d pose =
+            IntervalModel(directions[interval], vehicle.wheelbase, nodes[interval], nodes[interval + 1])
+                .poseAt(fraction);
+        return {pose[0], pose[1], pose[2]};
+    }
+}  // namespace parking

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <vector>
+
+namespace parking
+{
+    /** \brief A moment of a guessed motion. */
+    struct GuessPoint
+    {
+        double t{0.0};         ///< seconds since the begin of the stretch
+        Pose pose;             ///< yaw not wrapped
+        double speed{0.0};     ///< m/s, not negative
+        double steering{0.0};  ///< radians
+    };
+
+    /** \brief How a stretch of a path might be driven: along the path as fast as the acceleration allows, the steering
+        angle smoothed over some way round its jumps, however fast the wheels would have to turn. Where an optimisation
+        begins: nodes that are spread evenly over such a drive leave it the most freedom. */
+    class StretchGuess
+    {
+    public:
+        /** \param path in one direction, without turns on the spot
+            \param window metres to either side over which the steering angle is averaged, positive */
+        StretchGuess(const Path &path, const Vehicle &vehicle, double window);
+
+        int direction() const
+        {
+            return direction_;
+        }
+        double duration() const
+        {
+            return points_.back().t;
+        }
+
+        /** \brief At \e t seconds, cut to the stretch. */
+        GuessPoint at(double t) const;
+
+    private:
+        int direction_;
+        std::vector<GuessPoint> points_;
+    };
+}  // namespace parking

@@ -1,0 +1,128 @@
+#include "path_tracking/trajectory/program/MotionOutline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double STEERING_WINDOW = 0.5;    // metres over which a guess turns the wheels, to either side
+        constexpr double FEWEST_INTERVALS = 8.0;   // of a stretch
+        constexpr double SPARE_STANDSTILL = 0.02;  // seconds
+
+        constexpr int bit(int entry)
+        {
+            return 1 << entry;
+        }
+
+        constexpr int POSE = bit(NODE_X) | bit(NODE_Y) | bit(NODE_YAW);
+    }  // namespace
+
+    MotionOutline::MotionOutline(const Path &path, const Vehicle &vehicle, double step,
+                                 std::optional<double> initialSteering, std::optional<double> finalSteering)
+      : steeringRate_(vehicle.maxSteeringRate)
+    {
+        double yaw = path.start.yaw;
+        for (const Stretch &stretch : path.stretches())
+        {
+            Path part = path.part(stretch.first, stretch.last);
+            part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
+            guesses_.emplace_back(part, vehicle, STEERING_WINDOW);
+            yaw = guesses_.back().at(guesses_.back().duration()).pose.yaw;
+        }
+        const auto standstill = [&](GuessPoint at, double from, double to, int fixed)
+        {
+            at.steering = from;
+            addNode(at, std::abs(to - from) / steeringRate_ + SPARE_STANDSTILL, fixed);
+        };
+        const auto addInterval = [&](std::size_t guess, double begin)
+        {
+            directions_.push_back(0);
+            guessOf_.push_back(guess);
+            begins_.push_back(begin);
+        };
+        if (initialSteering)
+        {
+            const GuessPoint begin = guesses_.front().at(0.0);
+            standstill(begin, *initialSteering, begin.steering, POSE | bit(NODE_SPEED) | bit(NODE_STEERING));
+            addInterval(0, 0.0);
+        }
+        for (std::size_t i = 0; i < guesses_.size(); ++i)
+        {
+            const bool last = i + 1 == guesses_.size();
+            addStretch(guesses_[i], step, i == 0);
+            const GuessPoint end = guesses_[i].at(guesses_[i].duration());
+            if (!last)
+                standstill(end, end.steering, guesses_[i + 1].at(0.0).steering, bit(NODE_SPEED));
+            else if (finalSteering)
+                standstill(end, end.steering, *finalSteering, POSE | bit(NODE_SPEED));
+            else
+                addNode(end, 0.0, POSE | bit(NODE_SPEED) | bit(NODE_DURATION));
+            if (!last || finalSteering)
+                addInterval(i, guesses_[i].duration());
+            if (last && finalSteering)
+            {
+                GuessPoint wheels = end;
+                wheels.steering = *finalSteering;
+                addNode(wheels, 0.0, POSE | bit(NODE_SPEED) | bit(NODE_STEERING) | bit(NODE_DURATION));
+            }
+        }
+    }
+
+    void MotionOutline::addNode(const GuessPoint &at, double duration, int fixed)
+    {
+        NodeVector node;
+        node << at.pose.x, at.pose.y, at.pose.yaw, at.speed, at.steering, duration;
+        nodes_.push_back(node);
+        fixed_.push_back(static_cast<std::uint8_t>(fixed));
+    }
+
+    void MotionOutline::addStretch(const StretchGuess &guess, double step, bool first)
+    {
+        const double count = std::max(FEWEST_INTERVALS, std::ceil(guess.duration() / step));
+        const double h = guess.duration() / count;
+        for (double k = 0.0; k < count; k += 1.0)
+        {
+            addNode(guess.at(k * h), h, k > 0.0 ? 0 : bit(NODE_SPEED) | (first ? POSE : 0));
+            directions_.push_back(guess.direction());
+            guessOf_.push_back(static_cast<std::size_t>(&guess - guesses_.data()));
+            begins_.push_back(k * h);
+        }
+    }
+
+    void MotionOutline::write(MotionProblem &problem) const
+    {
+        problem.directions = directions_;
+        problem.nodes = nodes_;
+        problem.fixed = fixed_;
+    }
+
+    Pose MotionOutline::poseAt(std::size_t interval, double fraction) const
+    {
+        const double h = directions_[interval] != 0 ? nodes_[interval][NODE_DURATION] : 0.0;
+        return guesses_[guessOf_[interval]].at(begins_[interval] + fraction * h).pose;
+    }
+
+    std::vector<GuessedCheckpoint> checkpointsAlong(
+        const std::vector<int> &directions, double wheelbase, double spacing,
+        const std::function<Pose(std::size_t interval, double fraction)> &poseAt)
+    {
+        std::vector<GuessedCheckpoint> points;
+        for (std::size_t k = 0; k < directions.size(); ++k)
+        {
+            if (directions[k] == 0)
+                continue;
+            const Pose from = poseAt(k, 0.0), to = poseAt(k, 1.0);
+            if (points.empty())
+                points.push_back({k, 0.0, from, true});
+            const double way = positionDistance(from, to) + 0.5 * wheelbase * std::abs(to.yaw - from.yaw);
+            const double parts = std::max(1.0, std::ceil(way / spacing));
+            for (double p = 1.0; p <= parts; p += 1.0)
+                points.push_back({k, p / parts, poseAt(k, p / parts), false});
+        }
+        if (!points.empty())
+            points.back().fixed = true;
+        return points;
+    }
+}  // namespace parking

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "path_tracking/trajectory/program/IntervalModel.h"
+#include "path_tracking/trajectory/program/MotionProblem.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace parking
+{
+    /** \brief Multipliers and slacks of an interior point method for a MotionProgram. */
+    struct MotionDuals
+    {
+        std::vector<Eigen::Vector4d> joints;  ///< y, of the joints
+        std::vector<double> prices;           ///< z, of the inequalities
+        std::vector<double> slacks;           ///< s, what the inequalities should be worth
+    };
+
+    /** \brief The functions of a MotionProblem, their derivatives, and the linear systems of an interior point method.
+
+        Minimise the cost f(n) over the nodes n, where the joints c(n) = 0 and the inequalities g(n) >= 0. Per interval
+        there are four joints: x, y, yaw, and that it lasts as long as the next. All derivatives are exact. */
+    class MotionProgram
+    {
+    public:
+        explicit MotionProgram(MotionProblem problem);
+
+        const MotionProblem &problem() const
+        {
+            return problem_;
+        }
+        std::size_t intervals() const
+        {
+            return problem_.directions.size();
+        }
+
+        /** \brief Number of inequalities: limits first, then the rows of the problem. */
+        std::size_t inequalities() const
+        {
+            return limits_.size() + problem_.rows.size();
+        }
+
+        /** \brief f, c and g at \e nodes. \return f */
+        double evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
+                        std::vector<double> &values) const;
+
+        /** \brief Linearises everything at \e nodes: after it system(), right(), the gradients and apply() are valid.
+
+            The system is that of Newton's method for the barrier problem with \e barrier (mu), with inequalities and
+            joints eliminated: W + G^T (z / s) G + A^T A / \e softness. */
+        void linearize(const std::vector<NodeVector> &nodes, const MotionDuals &duals, double barrier, double softness);
+
+        BlockTridiagonal &system()
+        {
+            return system_;
+        }
+        const std::vector<NodeVector> &right() const
+        {
+            return right_;
+        }
+
+        /** \brief Gradient of the Lagrangian f + y c - z g. */
+        const std::vector<NodeVector> &gradient() const
+        {
+            return gradient_;
+        }
+
+        /** \brief Gradient of f. */
+        const std::vector<NodeVector> &costGradient() const
+        {
+            return costGradient_;
+        }
+
+        /** \brief A times \e step and G times \e step, of the linearisation. */
+        void apply(const std::vector<NodeVector> &step, std::vector<Eigen::Vector4d> &joints,
+                   std::vector<double> &values) const;
+
+    private:
+        using JointRows = Eigen::Matrix<double, 4, PAIR_SIZE>;
+
+        /** coefficient . (three entries of the two nodes of an interval) + constant >= 0. */
+        struct Limit
+        {
+            std::array<int, 3> entry;
+            std::array<double, 3> coefficient;
+            double constant;
+
+            template <class Pair>
+            double slope(const Pair &pair) const
+            {
+                return coefficient[0] * pair[entry[0]] + coefficient[1] * pair[entry[1]] +
+                       coefficient[2] * pair[entry[2]];
+            }
+        };
+
+        void addLimits(std::size_t interval);
+        void addNodeLimits(std::size_t node, int first);
+        IntervalModel model(const std::vector<NodeVector> &nodes, std::size_t interval) const;
+        void addJoints(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double softness,
+                       IntervalTerms &terms);
+        void addLimitTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms) const;
+        void addRowTerms(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double barrier,
+                         IntervalTerms &terms);
+        void scatter(std::size_t interval, const IntervalTerms &terms);
+        void applyFixed();
+
+        MotionProblem problem_;
+        std::vector<Limit> limits_;
+        std::vector<std::size_t> firstLimit_;       // per interval and one more
+        std::vector<std::size_t> firstCheckpoint_;  // per interval and one more
+
+        // The linearisation.
+        std::vector<IntervalModel> models_;
+        std::vector<Eigen::Vector4d> joints_;
+        std::vector<double> values_;
+        std::vector<JointRows> jointRows_;
+        std::vector<Eigen::Vector3d> rowGradients_;
+        BlockTridiagonal system_;
+        std::vector<NodeVector> right_, gradient_, costGradient_;
+    };
+}  // namespace parking

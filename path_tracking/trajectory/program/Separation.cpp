@@ -1,0 +1,380 @@
+#include "path_tracking/trajectory/program/Separation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        /** Share of the largest gap with which the line of the checkpoint before is kept. */
+        constexpr double KEEP = 0.8;
+        constexpr double INF = std::numeric_limits<double>::infinity();
+        constexpr int MOST_REFINEMENTS = 5;
+        /** Share of the largest gap with which a side of the body that is watched anyway serves a piece. */
+        constexpr double SERVES = 0.8;
+        /** Tangent of the angle by which a body never turns between what is guessed and what is found. */
+        constexpr double STEEPEST = 1.0;
+        /** A corner of the body that is farther from a line than the nearest by more than this, metres, never gets
+            there first. */
+        constexpr double IRRELEVANT = 1.5;
+
+        const std::array<Eigen::Vector2d, 4> SIDE_NORMALS{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0),
+                                                          Eigen::Vector2d(-1.0, 0.0), Eigen::Vector2d(0.0, -1.0)};
+
+        bool isBehind(const ConvexPiece &piece, const Eigen::Vector2d &normal, double offset)
+        {
+            return std::all_of(piece.corners.begin(), piece.corners.end(),
+                               [&](const Eigen::Vector2d &corner) { return normal.dot(corner) <= offset + 1e-9; });
+        }
+    }  // namespace
+
+    SeparationPlan::SeparationPlan(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
+                                   SeparationOptions options, std::vector<GuessedCheckpoint> checkpoints,
+                                   const std::function<Pose(std::size_t, double)> &poseAt)
+      : pieces_(pieces),
+        vehicle_(vehicle),
+        options_(std::move(options)),
+        front_(vehicle.wheelbase + vehicle.frontOverhang),
+        rear_(vehicle.rearOverhang),
+        half_(0.5 * vehicle.width),
+        reach_(std::hypot(0.5 * vehicle.length(), half_))
+    {
+        Box region{{INF, INF}, {-INF, -INF}};
+        for (const GuessedCheckpoint &point : checkpoints)
+        {
+            region.min = region.min.cwiseMin(Eigen::Vector2d(point.pose.x, point.pose.y));
+            region.max = region.max.cwiseMax(Eigen::Vector2d(point.pose.x, point.pose.y));
+        }
+        const double reach = options_.range + reach_ + std::abs(vehicle.centreOffset());
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+        {
+            const Box &box = pieces_[i].box;
+            const bool near = (box.min.array() <= region.max.array() + reach).all() &&
+                              (box.max.array() >= region.min.array() - reach).all();
+            if (pieces_[i].normals.size() > 2 &&
+                (near || std::count(options_.always.begin(), options_.always.end(), i) != 0))
+                candidates_.push_back(i);
+        }
+        for (const GuessedCheckpoint &point : checkpoints)
+            places_.push_back(makePlace(point, places_.empty() ? nullptr : &places_.back()));
+        margins_.assign(pieces_.size(), options_.margin);
+        for (const Place &place : places_)
+            for (const Choice &choice : place.choices)
+                if (place.point.fixed)
+                    margins_[choice.piece] = std::min(margins_[choice.piece], std::max(0.0, 0.5 * choice.gap));
+        for (int i = 0; i < MOST_REFINEMENTS && refine(poseAt); ++i)
+        {
+        }
+        joinNeighbours();
+    }
+
+    double SeparationPlan::marginOf(std::size_t piece) const
+    {
+        return margins_[piece];
+    }
+
+    double SeparationPlan::gap(const Place &place, const Separator &line, std::size_t piece) const
+    {
+        const Pose &pose = place.point.pose;
+        const double c = place.cosine, s = place.sine;
+        if (!line.ofBody)
+        {
+            const Eigen::Vector2d &n = pieces_[line.piece].normals[line.side];
+            const double along = c * n.x() + s * n.y(), across = c * n.y() - s * n.x();
+            return n.x() * pose.x + n.y() * pose.y + (along < 0.0 ? along * front_ : -along * rear_) -
+                   std::abs(across) * half_ - pieces_[line.piece].offsets[line.side];
+        }
+        const Eigen::Vector2d &m = SIDE_NORMALS[line.side];
+        const double nx = c * m.x() - s * m.y(), ny = s * m.x() + c * m.y();
+        double least = INF;
+        for (const Eigen::Vector2d &corner : pieces_[piece].corners)
+            least = std::min(least, nx * (corner.x() - pose.x) + ny * (corner.y() - pose.y));
+        return least - (line.side == 0 ? front_ : line.side == 2 ? rear_ : half_);
+    }
+
+    SeparationPlan::Choice SeparationPlan::best(const Place &place, std::size_t piece) const
+    {
+        Choice choice{piece, {}, -INF};
+        const auto consider = [&](const Separator &line)
+        {
+            const double value = gap(place, line, piece);
+            if (value > choice.gap)
+                choice = {piece, line, value};
+        };
+        for (std::size_t side = 0; side < pieces_[piece].normals.size(); ++side)
+            consider({false, piece, side});
+        for (std::size_t side = 0; side < 4; ++side)
+            consider({true, 0, side});
+        return choice;
+    }
+
+    SeparationPlan::Place SeparationPlan::makePlace(const GuessedCheckpoint &point, const Place *before) const
+    {
+        Place place{point, std::cos(point.pose.yaw), std::sin(point.pose.yaw), {}, {}};
+        const double offset = vehicle_.centreOffset(), reach = options_.range + reach_;
+        const Eigen::Vector2d middle(point.pose.x + offset * place.cosine, point.pose.y + offset * place.sine);
+        auto old = before != nullptr ? before->choices.begin() : std::vector<Choice>::const_iterator();
+        for (const std::size_t i : candidates_)
+        {
+            const Box &box = pieces_[i].box;
+            const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);
+            const bool always = std::count(options_.always.begin(), options_.always.end(), i) != 0;
+            if (!always && off.squaredNorm() > reach * reach)
+                continue;
+            Choice choice = best(place, i);
+            if (before != nullptr)
+            {
+                while (old != before->choices.end() && old->piece < i)
+                    ++old;
+                if (old != before->choices.end() && old->piece == i && !(old->line == choice.line))
+                {
+                    const double kept = gap(place, old->line, i);
+                    if (kept >= KEEP * choice.gap && kept > 0.0)
+                        choice = {i, old->line, kept};
+                }
+            }
+            if (always || choice.gap < options_.range)
+                place.choices.push_back(choice);
+        }
+        share(place);
+        return place;
+    }
+
+    void SeparationPlan::share(Place &place) const
+    {
+        // Nearest first: the lines that matter most serve the pieces behind them too.
+        std::vector<std::size_t> order(place.choices.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return place.choices[a].gap < place.choices[b].gap; });
+        std::vector<Separator> lines;
+        std::array<bool, 4> bodySides{};
+        for (const std::size_t i : order)
+        {
+            Choice &choice = place.choices[i];
+            const ConvexPiece &piece = pieces_[choice.piece];
+            const auto serving = std::find_if(lines.begin(), lines.end(),
+                                              [&](const Separator &line) {
+                                                  return isBehind(piece, pieces_[line.piece].normals[line.side],
+                                                                  pieces_[line.piece].offsets[line.side]);
+                                              });
+            if (serving != lines.end())
+            {
+                choice.line = *serving;
+                continue;
+            }
+            // A side of the body that is watched anyway will do if it is nearly as good.
+            for (std::size_t side = 0; side < 4 && !choice.line.ofBody; ++side)
+                if (bodySides[side] && gap(place, {true, 0, side}, choice.piece) >= SERVES * std::abs(choice.gap))
+                    choice.line = {true, 0, side};
+            if (choice.line.ofBody)
+                bodySides[choice.line.side] = true;
+            else
+                lines.push_back(choice.line);
+        }
+    }
+
+    double SeparationPlan::switchGap(const Place &a, const Place &b, const Choice &atA, const Choice &atB) const
+    {
+        const double there = a.point.fixed ? -INF : gap(a, atB.line, atB.piece);
+        const double here = b.point.fixed ? -INF : gap(b, atA.line, atA.piece);
+        return std::max(there, here);
+    }
+
+    bool SeparationPlan::refine(const std::function<Pose(std::size_t, double)> &poseAt)
+    {
+        std::vector<Place> refined;
+        for (std::size_t i = 0; i < places_.size(); ++i)
+        {
+            const Place &b = places_[i];
+            bool between = false;
+            if (i > 0)
+            {
+                const Place &a = places_[i - 1];
+                auto left = a.choices.begin();
+                for (const Choice &choice : b.choices)
+                {
+                    while (left != a.choices.end() && left->piece < choice.piece)
+                        ++left;
+                    if (left == a.choices.end() || left->piece != choice.piece || left->line == choice.line)
+                        continue;
+                    between = between || switchGap(a, b, *left, choice) < -options_.worstSwitch;
+                }
+            }
+            const double from =
+                i > 0 && places_[i - 1].point.interval == b.point.interval ? places_[i - 1].point.fraction : 0.0;
+            if (between && b.point.fraction - from > 0.03)
+            {
+                const double middle = 0.5 * (from + b.point.fraction);
+                refined.push_back(
+                    makePlace({b.point.interval, middle, poseAt(b.point.interval, middle), false}, &places_[i - 1]));
+            }
+            refined.push_back(b);
+        }
+        const bool more = refined.size() > places_.size();
+        places_.swap(refined);
+        return more;
+    }
+
+    void SeparationPlan::joinNeighbours()
+    {
+        for (std::size_t i = 1; i < places_.size(); ++i)
+        {
+            Place &a = places_[i - 1], &b = places_[i];
+            auto left = a.choices.begin();
+            for (const Choice &choice : b.choices)
+            {
+                while (left != a.choices.end() && left->piece < choice.piece)
+                    ++left;
+                if (left == a.choices.end() || left->piece != choice.piece || left->line == choice.line)
+                    continue;
+                const double there = gap(a, choice.line, choice.piece), here = gap(b, left->line, choice.piece);
+                const double margin = marginOf(choice.piece);
+                if ((a.point.fixed && there >= margin) || (b.point.fixed && here >= margin))
+                    continue;
+                if (b.point.fixed || (!a.point.fixed && there >= here))
+                    a.extra.push_back({choice.piece, choice.line, there});
+                else
+                    b.extra.push_back({choice.piece, left->line, here});
+            }
+        }
+    }
+
+    void SeparationPlan::addBodySide(const Place &place, std::size_t side, const std::vector<std::size_t> &pieces,
+                                     std::vector<BodyRow> &rows) const
+    {
+        const Pose &pose = place.point.pose;
+        const Eigen::Vector2d &m = SIDE_NORMALS[side];
+        const Eigen::Vector2d out(place.cosine * m.x() - place.sine * m.y(), place.sine * m.x() + place.cosine * m.y());
+        const double distance = side == 0 ? front_ : side == 2 ? rear_ : half_;
+        /** A corner by how far it is along and beyond the side. */
+        struct Corner
+        {
+            double along, beyond;
+            Eigen::Vector2d point;
+            double margin;
+        };
+        std::vector<Corner> corners;
+        for (const std::size_t piece : pieces)
+            for (const Eigen::Vector2d &corner : pieces_[piece].corners)
+            {
+                const Eigen::Vector2d off = corner - Eigen::Vector2d(pose.x, pose.y);
+                corners.push_back(
+                    {out.x() * off.y() - out.y() * off.x(), out.dot(off) - marginOf(piece), corner, marginOf(piece)});
+            }
+        std::sort(corners.begin(), corners.end(),
+                  [](const Corner &a, const Corner &b)
+                  { return a.along != b.along ? a.along < b.along : a.beyond < b.beyond; });
+        // A line that has the nearest hull on one side has them all there.
+        std::vector<Corner> hull;
+        for (const Corner &corner : corners)
+        {
+            while (!hull.empty() && hull.back().along == corner.along && hull.back().beyond >= corner.beyond)
+                hull.pop_back();
+            if (!hull.empty() && hull.back().along == corner.along)
+                continue;
+            while (hull.size() > 1)
+            {
+                const Corner &a = hull[hull.size() - 2], &b = hull.back();
+                if ((b.along - a.along) * (corner.beyond - a.beyond) -
+                        (b.beyond - a.beyond) * (corner.along - a.along) >
+                    1e-9)
+                    break;
+                hull.pop_back();
+            }
+            hull.push_back(corner);
+        }
+        for (std::size_t i = 0; i < hull.size(); ++i)
+        {
+            // The sides of the hull tell by how much the body would have to turn to get to a corner first.
+            const auto slope = [&](std::size_t a, std::size_t b)
+            {
+                return (hull[b].beyond - hull[a].beyond) / (hull[b].along - hull[a].along);
+            };
+            if ((i > 0 && slope(i - 1, i) > STEEPEST) || (i + 1 < hull.size() && slope(i, i + 1) < -STEEPEST))
+                continue;
+            BodyRow row;
+            row.ofBody = true;
+            row.normal = m;
+            row.point = hull[i].point;
+            row.offset = distance + hull[i].margin;
+            rows.push_back(row);
+        }
+    }
+
+    void SeparationPlan::addRows(const Place &place, std::vector<BodyRow> &rows) const
+    {
+        std::vector<Separator> lines;
+        std::array<std::vector<std::size_t>, 4> bodySides;
+        const auto collect = [&](const Choice &choice)
+        {
+            if (choice.line.ofBody)
+            {
+                auto &side = bodySides[choice.line.side];
+                if (std::find(side.begin(), side.end(), choice.piece) == side.end())
+                    side.push_back(choice.piece);
+            }
+            else if (std::find(lines.begin(), lines.end(), choice.line) == lines.end())
+                lines.push_back(choice.line);
+        };
+        std::for_each(place.choices.begin(), place.choices.end(), collect);
+        std::for_each(place.extra.begin(), place.extra.end(), collect);
+        const Pose &pose = place.point.pose;
+        for (const Separator &line : lines)
+        {
+            std::array<BodyRow, 4> candidates;
+            std::array<double, 4> values{};
+            for (std::size_t k = 0; k < 4; ++k)
+            {
+                BodyRow &row = candidates[k];
+                row.normal = pieces_[line.piece].normals[line.side];
+                row.offset = pieces_[line.piece].offsets[line.side] + marginOf(line.piece);
+                row.point = {k < 2 ? front_ : -rear_, k == 0 || k == 3 ? half_ : -half_};
+                values[k] = row.value(pose.x, pose.y, place.cosine, place.sine);
+            }
+            const double least = *std::min_element(values.begin(), values.end());
+            for (std::size_t k = 0; k < 4; ++k)
+                if (values[k] <= least + IRRELEVANT)
+                    rows.push_back(candidates[k]);
+        }
+        for (std::size_t side = 0; side < 4; ++side)
+            if (!bodySides[side].empty())
+                addBodySide(place, side, bodySides[side], rows);
+    }
+
+    void SeparationPlan::write(MotionProblem &problem) const
+    {
+        problem.checkpoints.clear();
+        problem.rows.clear();
+        for (const Place &place : places_)
+        {
+            if (place.point.fixed)
+                continue;
+            const std::size_t first = problem.rows.size();
+            addRows(place, problem.rows);
+            if (problem.rows.size() > first)
+                problem.checkpoints.push_back({place.point.interval, place.point.fraction, first, problem.rows.size()});
+        }
+    }
+
+    std::vector<std::size_t> SeparationPlan::nearFirst() const
+    {
+        std::vector<std::size_t> near;
+        for (const Choice &choice : places_.front().choices)
+            near.push_back(choice.piece);
+        return near;
+    }
+
+    std::vector<std::size_t> piecesNear(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
+                                        const Pose &pose, double range)
+    {
+        SeparationOptions options;
+        options.range = range;
+        return SeparationPlan(pieces, vehicle, options, {{0, 0.0, pose, true}}, {}).nearFirst();
+    }
+}  // namespace parking

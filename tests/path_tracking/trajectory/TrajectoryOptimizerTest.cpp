@@ -1,0 +1,279 @@
+#include "parking_geometry/Error.h"
+#include "path_tracking/trajectory/MotionCheck.h"
+#include "path_tracking/trajectory/StopAndSteer.h"
+#include "path_tracking/trajectory/TrajectoryOptimizer.h"
+#include "tests/path_tracking/TestPaths.h"
+#include "tests/path_tracking/trajectory/TrajectoryReferee.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace parking
+{
+    namespace
+    {
+        using test::Random;
+
+        const Box WIDE{{-60.0, -60.0}, {60.0, 60.0}};
+
+        Polygon box(double x, double y, double length, double width, double angle)
+        {
+            Polygon corners;
+            const double c = std::cos(angle), s = std::sin(angle);
+            for (const Eigen::Vector2d &p : {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(0.5, -0.5),
+                                             Eigen::Vector2d(0.5, 0.5), Eigen::Vector2d(-0.5, 0.5)})
+                corners.emplace_back(x + c * p.x() * length - s * p.y() * width,
+                                     y + s * p.x() * length + c * p.y() * width);
+            return corners;
+        }
+
+        /** Boxes and triangles as near to the path as they fall without touching the car on it. */
+        std::vector<Polygon> obstaclesBeside(const Path &path, const Vehicle &car, std::uint64_t seed, int attempts)
+        {
+            Random random(seed);
+            const SampledPath states = path.sample(0.02);
+            Vehicle larger = car;  // what is between two states
+            larger.frontOverhang += 0.01;
+            larger.rearOverhang += 0.01;
+            larger.width += 0.02;
+            std::vector<Polygon> obstacles;
+            for (int i = 0; i < attempts; ++i)
+            {
+                const Pose &near = states[random.index(states.size())].pose;
+                Polygon obstacle = box(near.x + random.between(-6.0, 6.0), near.y + random.between(-6.0, 6.0),
+                                       random.between(0.2, 5.0), random.between(0.2, 2.0), random.between(-PI, PI));
+                if (random.chance(0.3))
+                    obstacle.pop_back();
+                if (std::none_of(states.begin(), states.end(),
+                                 [&](const PathState &state) { return test::touches(state.pose, larger, {obstacle}); }))
+                    obstacles.push_back(obstacle);
+            }
+            return obstacles;
+        }
+
+        FootprintChecker checkerOf(const std::vector<Polygon> &obstacles, const Vehicle &car = {})
+        {
+            return FootprintChecker(ObstacleSet::fromPolygons(obstacles, WIDE), car);
+        }
+
+        double bangBang(double length, const Vehicle &car)
+        {
+            const double top = std::min(car.maxSpeed, std::sqrt(length * car.maxAcceleration));
+            return length / top + top / car.maxAcceleration;
+        }
+
+        TEST(TrajectoryOptimizer, AStraightLineTakesWhatFullAccelerationAllows)
+        {
+            const Vehicle car;
+            const FootprintChecker checker = checkerOf({});
+            for (const double length : {1.0, 5.0, 20.0})
+            {
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize({{}, {{0.0, length}}});
+                const double bound = bangBang(length, car);
+                EXPECT_GE(found.motion.duration(), bound - 1e-6) << length;
+                EXPECT_LE(found.motion.duration(), bound * 1.01) << length;
+            }
+        }
+
+        TEST(TrajectoryOptimizer, HoldsEveryLimitTouchesNothingAndIsNeverSlower)
+        {
+            std::size_t optimised = 0, all = 0;
+            double before = 0.0, after = 0.0;
+            for (std::uint64_t seed = 1; seed <= 25; ++seed)
+            {
+                Vehicle car;
+                Random random(seed);
+                car.maxSpeed = random.between(0.8, 3.0);
+                car.maxAcceleration = random.between(0.4, 2.0);
+                car.maxSteeringRate = random.between(0.3, 1.0);
+                const Path path = seed % 2 == 0 ? test::randomReedsShepp(seed, 14.0) : test::randomLattice(seed, 14.0);
+                const std::vector<Polygon> obstacles = obstaclesBeside(path, car, seed, 60);
+                const FootprintChecker checker = checkerOf(obstacles, car);
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path);
+                const test::Verdict verdict = test::judge(sample(found.motion, car, 0.05), car, obstacles);
+                EXPECT_EQ(verdict.fault, "") << "seed " << seed << (found.fallback ? ", fallback" : "");
+                EXPECT_TRUE(isSamePose(verdict.end, path.end(), 5e-3)) << seed;
+                EXPECT_EQ(found.motion.knots.front().steering, 0.0) << seed;
+                EXPECT_EQ(found.motion.knots.back().steering, 0.0) << seed;
+                const double slow = stopAndSteer(path, car, 0.0, 0.0).duration();
+                EXPECT_LE(found.motion.duration(), slow + 1e-9) << seed;
+                EXPECT_GE(found.motion.duration(), bangBang(positionDistance(path.start, path.end()), car) - 1e-6);
+                EXPECT_EQ(found.fallback, !found.reason.empty()) << seed << ": " << found.reason;
+                before += slow;
+                after += found.motion.duration();
+                optimised += found.fallback ? 0 : 1;
+                ++all;
+            }
+            EXPECT_GE(optimised + 1, all);
+            EXPECT_LT(after, 0.6 * before);
+        }
+
+        TEST(TrajectoryOptimizer, KeepsAMapsCellsClear)
+        {
+            const Vehicle car;
+            int optimised = 0;
+            for (std::uint64_t seed = 1; seed <= 5; ++seed)
+            {
+                Path path = test::randomReedsShepp(seed, 10.0);
+                path.start = {30.0, 30.0, 0.3};
+                const double side = 0.2;
+                std::vector<Polygon> cells;
+                Random random(seed);
+                OccupancyGrid grid(300, 300, side, {});
+                const SampledPath states = path.sample(0.02);
+                for (int i = 0; i < 300; ++i)
+                {
+                    const Pose &near = states[random.index(states.size())].pose;
+                    const double column = std::floor((near.x + random.between(-6.0, 6.0)) / side);
+                    const double row = std::floor((near.y + random.between(-6.0, 6.0)) / side);
+                    const Polygon cell = box((column + 0.5) * side, (row + 0.5) * side, side, side, 0.0);
+                    Vehicle larger = car;
+                    larger.frontOverhang += 0.02;
+                    larger.rearOverhang += 0.02;
+                    larger.width += 0.04;
+                    if (std::any_of(states.begin(), states.end(),
+                                    [&](const PathState &state) { return test::touches(state.pose, larger, {cell}); }))
+                        continue;
+                    cells.push_back(cell);
+                    grid.set(static_cast<std::size_t>(column), static_cast<std::size_t>(row), Cell::Occupied);
+                }
+                const FootprintChecker checker(ObstacleSet::fromGrid(grid), car);
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path);
+                const test::Verdict verdict = test::judge(sample(found.motion, car, 0.05), car, cells);
+                EXPECT_EQ(verdict.fault, "") << seed;
+                optimised += found.fallback ? 0 : 1;
+            }
+            EXPECT_GE(optimised, 4);
+        }
+
+        TEST(TrajectoryOptimizer, IsTheSameEveryTime)
+        {
+            const Vehicle car;
+            const Path path = test::randomReedsShepp(4, 14.0);
+            const FootprintChecker checker = checkerOf(obstaclesBeside(path, car, 4, 40));
+            const TimedMotion first = TrajectoryOptimizer(checker).optimize(path).motion;
+            const TimedMotion second = TrajectoryOptimizer(checker).optimize(path).motion;
+            ASSERT_EQ(first.knots.size(), second.knots.size());
+            for (std::size_t i = 0; i < first.knots.size(); ++i)
+            {
+                EXPECT_EQ(first.knots[i].t, second.knots[i].t);
+                EXPECT_EQ(first.knots[i].v, second.knots[i].v);
+                EXPECT_EQ(first.knots[i].steering, second.knots[i].steering);
+            }
+        }
+
+        TEST(TrajectoryOptimizer, FreeWheelsAtTheEndsSaveTheTimeToTurnThem)
+        {
+            const Vehicle car;
+            const Path path{{}, {{car.curvature(0.6), 1.0}}};
+            const FootprintChecker checker = checkerOf({});
+            TrajectoryOptions free;
+            free.initialSteering.reset();
+            free.finalSteering.reset();
+            const double straight = TrajectoryOptimizer(checker).optimize(path).motion.duration();
+            const TimedMotion quick = TrajectoryOptimizer(checker, free).optimize(path).motion;
+            EXPECT_LT(quick.duration(), straight - 1.0);
+            EXPECT_NEAR(quick.duration(), bangBang(1.0, car), 0.05);
+        }
+
+        TEST(TrajectoryOptimizer, TheWeightsOfACompetitionLowerItsCost)
+        {
+            const Path path = test::randomReedsShepp(6, 14.0);
+            const FootprintChecker checker = checkerOf({});
+            TrajectoryOptions tpcap;
+            tpcap.weights = TrajectoryOptions::tpcapWeights();
+            const TimedMotion quick = TrajectoryOptimizer(checker).optimize(path).motion;
+            const TimedMotion cheap = TrajectoryOptimizer(checker, tpcap).optimize(path).motion;
+            EXPECT_LT(tpcapCost(cheap).total(), tpcapCost(quick).total());
+            EXPECT_LT(quick.duration(), cheap.duration());
+        }
+
+        TEST(TrajectoryOptimizer, StopsWhenItIsTold)
+        {
+            const Vehicle car;
+            const Path path = test::randomReedsShepp(3, 14.0);
+            const std::vector<Polygon> obstacles = obstaclesBeside(path, car, 3, 40);
+            const FootprintChecker checker = checkerOf(obstacles);
+            const TrajectoryOptimizer optimizer(checker);
+            for (const int patience : {0, 1, 2, 5, 20})
+            {
+                int asked = 0;
+                const OptimizedTrajectory found = optimizer.optimize(path, [&] { return ++asked > patience; });
+                EXPECT_LE(asked, patience + 1);
+                EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, obstacles).fault, "");
+                if (patience < 5)
+                {
+                    EXPECT_TRUE(found.fallback);
+                    EXPECT_EQ(found.reason, "interrupted");
+                }
+            }
+        }
+
+        TEST(TrajectoryOptimizer, DrivesThePathItselfWhereNothingElseIsFound)
+        {
+            // Walls with less room between them than the margin asked for, not met before the middle.
+            const Vehicle car;
+            const Path path{{}, {{0.0, 20.0}, {car.curvature(0.3), 3.0}}};
+            const double beside = 0.5 * car.width + 0.001 + 0.5;
+            const std::vector<Polygon> walls{box(10.0, beside, 4.0, 1.0, 0.0), box(10.0, -beside, 4.0, 1.0, 0.0)};
+            const FootprintChecker checker = checkerOf(walls);
+            TrajectoryOptions wide;
+            wide.margin = 0.3;
+            wide.mostRounds = 2;
+            const OptimizedTrajectory found = TrajectoryOptimizer(checker, wide).optimize(path);
+            EXPECT_TRUE(found.fallback);
+            EXPECT_FALSE(found.reason.empty());
+            EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, walls).fault, "");
+            EXPECT_FALSE(TrajectoryOptimizer(checker).optimize(path).fallback);
+        }
+
+        TEST(TrajectoryOptimizer, RefusesWhatMakesNoSense)
+        {
+            const Path path{{}, {{0.0, 5.0}}};
+            const FootprintChecker checker = checkerOf({box(2.0, 4.0, 1.0, 1.0, 0.0)});
+            const TrajectoryOptimizer optimizer(checker);
+            EXPECT_THROW(optimizer.optimize({{}, {}}), Error);
+            EXPECT_THROW(optimizer.optimize({{}, {PathPiece::turnOnTheSpot(1.0)}}), Error);
+            EXPECT_THROW(optimizer.optimize({{}, {{std::nan(""), 1.0}}}), Error);
+            EXPECT_THROW(optimizer.optimize({{0.0, 4.0, 0.0}, {{0.0, 5.0}}}), Error);  // through the box
+            for (const double wrong : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+            {
+                TrajectoryOptions options;
+                options.margin = wrong;
+                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
+                options = {};
+                options.step = wrong;
+                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
+                options = {};
+                options.weights.time = wrong;
+                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
+            }
+            TrajectoryOptions options;
+            options.initialSteering = 1.0;  // beyond the car's
+            EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
+        }
+
+        TEST(MotionCheck, FindsWhatARefereeFinds)
+        {
+            // Motions that were optimised in a world without obstacles, driven among some.
+            const Vehicle car;
+            std::size_t touching = 0;
+            for (std::uint64_t seed = 1; seed <= 40; ++seed)
+            {
+                const Path path = test::randomReedsShepp(seed, 8.0);
+                const FootprintChecker empty = checkerOf({});
+                const TimedMotion motion = TrajectoryOptimizer(empty).optimize(path).motion;
+                const std::vector<Polygon> obstacles = obstaclesBeside(path, car, seed, 30);
+                const bool referee = !test::judge(sample(motion, car, 0.05), car, obstacles).fault.empty();
+                const bool check = !collisionsOf(motion, checkerOf(obstacles), 1).empty();
+                EXPECT_TRUE(check || !referee) << seed;
+                touching += referee ? 1 : 0;
+            }
+            EXPECT_GT(touching, 5U);
+        }
+    }  // namespace
+}  // namespace parking
