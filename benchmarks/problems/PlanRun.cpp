@@ -133,19 +133,22 @@ namespace parking
             return run;
         const auto *path =
             dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
-        if (path == nullptr)
+        if (path == nullptr || path->getStateCount() == 0)
         {
             run.status = withoutSolution(prepared);
+            run.reason = "the planner speaks of a solution, but there is no path";
             return run;
         }
         PlannedPath planned = readPath(problem, *path, exact);
-        if (!exact && planned.length < NO_LENGTH)
+        if (!exact && planned.recheck.valid && planned.length < NO_LENGTH)
         {
             run.status = withoutSolution(prepared);
             return run;
         }
         run.goalDistance = distanceToGoals(problem.scenario(), planned.end);
         run.path = std::move(planned);
+        if (!run.hasValidPath())
+            run.reason = "the planner's path is not valid: " + run.path->recheck.reason;
         return run;
     }
 

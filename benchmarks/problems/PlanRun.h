@@ -40,7 +40,7 @@ namespace parking
     /** \brief One run of a planner. */
     struct PlanRun
     {
-        PlanStatus status{PlanStatus::Timeout};
+        PlanStatus status{PlanStatus::Timeout};  ///< what the planner says; isSolved() is what is true
         std::string reason;             ///< one line on why there is no exact solution, from planners that tell
         double planningTime{0.0};       ///< seconds of wall clock, map loading not included
         double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
@@ -52,6 +52,18 @@ namespace parking
         double suboptimalityBound{std::numeric_limits<double>::infinity()};
         std::optional<PlannedPath> path;  ///< with an exact or approximate solution
         double goalDistance{0.0};         ///< metres that the path ends from the nearest goal
+
+        /** \brief Is there a path that the referee accepts? Planners may be wrong about theirs. */
+        bool hasValidPath() const
+        {
+            return path && path->recheck.valid;
+        }
+
+        /** \brief An exact solution that the referee accepts. */
+        bool isSolved() const
+        {
+            return status == PlanStatus::Exact && hasValidPath();
+        }
     };
 
     /** \brief Status, figures and path of a planner that has just been run. \param timeLimit seconds */

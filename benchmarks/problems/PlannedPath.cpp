@@ -222,8 +222,20 @@ namespace parking
         if (path.getStateCount() == 0)
             return result;
         const Scenario &scenario = problem.scenario();
+        const Referee referee(scenario, problem.circleRadius());
+        std::vector<Pose> poses;
+        for (const ompl::base::State *state : statesOf(path))
+            poses.push_back(poseOf(state));
+        if (!std::all_of(poses.begin(), poses.end(), [&](const Pose &pose) { return referee.isPlace(pose); }))
+        {
+            result.recheck = referee.checkLines(poses, exact);
+            result.path.start = result.end = scenario.start;
+            return result;
+        }
         const bool straight = problem.curveSpace().kind() == SpaceKind::SE2;
         result.path = straight ? linePath(path, scenario.vehicle) : curvePath(problem, path);
+        // Before start and end are rounded to what was asked for.
+        result.recheck = straight ? referee.checkLines(poses, exact) : referee.check(result.path, exact);
         result.path.start = {scenario.start.x, scenario.start.y, wrapAngle(scenario.start.yaw)};
         result.end = result.path.end();
         if (exact)
@@ -237,8 +249,6 @@ namespace parking
         result.length = pathLength(meant);
         result.cusps = result.path.cusps();
         result.clearance = leastClearance(problem, meant, straight);
-        const DenseCheck check(scenario, problem.circleRadius());
-        result.recheck = check.check(meant, straight, straight ? 0.0 : 1.0 / scenario.vehicle.minTurningRadius());
         return result;
     }
 }  // namespace parking

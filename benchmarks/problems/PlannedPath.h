@@ -1,8 +1,8 @@
 #pragma once
 
-#include "benchmarks/problems/DenseCheck.h"
 #include "benchmarks/problems/Problem.h"
 #include "parking_geometry/curves/Path.h"
+#include "parking_geometry/referee/Referee.h"
 
 #include <ompl/geometric/PathGeometric.h>
 
@@ -19,7 +19,7 @@ namespace parking
         double length{0.0};     ///< metres
         std::size_t cusps{0};   ///< changes of direction
         double clearance{0.0};  ///< metres between body (or disc) and obstacles, the least; 0 in collision
-        DenseResult recheck;    ///< by code of its own
+        Verdict recheck;        ///< by code of its own, on what the planner returned
 
         /** \brief States of the path no more than SAMPLING apart, the last one at \e end. */
         SampledPath states() const;
@@ -39,6 +39,9 @@ namespace parking
         the spot to the direction of the line, the line, and a turn to the heading at its end. For the paper's grid
         paths, whose headings are those of their lines, this is exactly what was planned.
 
-        \param exact the last state is one of the goals up to rounding, and is set to that goal */
+        A path whose states are no places in the world (not finite, say) is not read any further than that.
+
+        \param exact the planner says that the path ends at a goal; where it does, but for rounding, the end is set to
+        that goal */
     PlannedPath readPath(const Problem &problem, const ompl::geometric::PathGeometric &path, bool exact);
 }  // namespace parking

@@ -113,15 +113,20 @@ namespace parking
                                                  {"gear_changes", cost.gearChanges}}}};
         }
 
+        /** What a planner says of a path that the referee does not accept is worth nothing. */
+        std::string statusOf(const PlanRun &run)
+        {
+            return run.path && !run.hasValidPath() ? "invalid_path" : toString(run.status);
+        }
+
         json runJson(const PlanRun &run)
         {
-            json each{{"status", toString(run.status)},
+            json each{{"status", statusOf(run)},
                       {"planning_time_ms", MS * run.planningTime},
-                      {"first_solution_ms",
-                       run.status == PlanStatus::Exact ? json(MS * run.firstSolutionTime) : json(nullptr)}};
+                      {"first_solution_ms", run.isSolved() ? json(MS * run.firstSolutionTime) : json(nullptr)}};
             each["length_m"] = run.path ? json(run.path->length) : json(nullptr);
             each["cusps"] = run.path ? json(run.path->cusps) : json(nullptr);
-            each["valid"] = run.path ? json(run.path->recheck.valid) : json(nullptr);
+            each["valid"] = run.path ? json(run.hasValidPath()) : json(nullptr);
             return each;
         }
 
@@ -180,6 +185,14 @@ namespace parking
         return states;
     }
 
+    int exitStatus(const PlanRun &run)
+    {
+        constexpr int EXACT = 0, APPROXIMATE = 3, NOTHING = 4;
+        if (run.isSolved())
+            return EXACT;
+        return run.status == PlanStatus::Approximate && run.hasValidPath() ? APPROXIMATE : NOTHING;
+    }
+
     json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result)
     {
         const Scenario &scenario = problem.scenario();
@@ -205,7 +218,7 @@ namespace parking
                   {"vehicle", vehicleJson(scenario.vehicle)},
                   {"start", poseJson(scenario, scenario.start)},
                   {"goals", std::move(goals)},
-                  {"status", toString(run.status)},
+                  {"status", statusOf(run)},
                   {"reason", run.reason},
                   {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
                   {"planning_time_ms", std::move(times)},
@@ -222,9 +235,10 @@ namespace parking
                     {"exact_checks", run.search.exactChecks},
                     {"suboptimality_bound", number(run.suboptimalityBound)}}}};
         if (run.path)
-            text["recheck"] = {{"valid", run.path->recheck.valid},
+            text["recheck"] = {{"valid", run.hasValidPath()},
                                {"states", run.path->recheck.states},
                                {"collisions", run.path->recheck.collisions},
+                               {"fault", toString(run.path->recheck.fault)},
                                {"reason", run.path->recheck.reason}};
         if (options.trajectory)
             addTrajectoryTo(text, scenario, result);
@@ -239,7 +253,7 @@ namespace parking
     std::string resultSummary(const Problem &problem, const PlanResult &result)
     {
         const PlanRun &run = result.first();
-        std::string text = problem.scenario().name + ": " + toString(run.status) + " (" + result.planner + ", " +
+        std::string text = problem.scenario().name + ": " + statusOf(run) + " (" + result.planner + ", " +
                            fixed(MS * run.planningTime, 1) + " ms; loading the map " +
                            fixed(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
         if (!run.reason.empty())
@@ -248,7 +262,7 @@ namespace parking
         {
             std::size_t solved = 0;
             for (const PlanRun &each : result.runs)
-                solved += each.status == PlanStatus::Exact ? 1 : 0;
+                solved += each.isSolved() ? 1 : 0;
             text += "  solved " + std::to_string(solved) + " of " + std::to_string(result.runs.size()) + " runs\n";
         }
         if (run.path)
@@ -257,7 +271,7 @@ namespace parking
                     " of direction, least clearance " + fixed(run.path->clearance, 3) + " m";
             if (run.status == PlanStatus::Approximate)
                 text += ", ends " + fixed(run.goalDistance, 2) + " m from the goal";
-            text += run.path->recheck.valid
+            text += run.hasValidPath()
                         ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
                         : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
         }
@@ -281,8 +295,7 @@ namespace parking
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
         const SampledPath path = run.path ? run.path->states() : SampledPath{};
-        std::string subtitle =
-            result.planner + ", " + toString(run.status) + ", " + fixed(MS * run.planningTime, 1) + " ms";
+        std::string subtitle = result.planner + ", " + statusOf(run) + ", " + fixed(MS * run.planningTime, 1) + " ms";
         if (run.path)
             subtitle += ", " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
                         " of direction, least clearance " + fixed(run.path->clearance, 2) + " m";

@@ -38,6 +38,10 @@ namespace parking
         file. */
     nlohmann::json pathJson(const Scenario &scenario, const SampledPath &path);
 
+    /** \brief What parking_plan exits with: 0 for an exact solution, 3 for only an approximate one, 4 for none that the
+        referee accepts. */
+    int exitStatus(const PlanRun &run);
+
     /** \brief The result in the format that docs/comparison.md describes. */
     nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);
 

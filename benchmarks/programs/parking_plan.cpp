@@ -18,7 +18,7 @@
 
 namespace
 {
-    constexpr int EXACT = 0, BAD_INPUT = 2, APPROXIMATE = 3, NOTHING = 4;
+    constexpr int HELPED = 0, BAD_INPUT = 2;
 
     int plan(const std::vector<std::string> &arguments)
     {
@@ -29,7 +29,7 @@ namespace
         if (options.help)
         {
             std::cout << planHelp(registry);
-            return EXACT;
+            return HELPED;
         }
         const PlannerEntry &entry = registry.find(options.planner);
         ProblemSettings settings = suitableSettings(entry, options.settings);
@@ -70,19 +70,15 @@ namespace
             std::cout << resultSummary(problem, result);
         if (!std::cout.flush())
             throw Error("standard output cannot be written");
-        switch (result.first().status)
-        {
-            case PlanStatus::Exact:
-                return EXACT;
-            case PlanStatus::Approximate:
-                return APPROXIMATE;
-            case PlanStatus::InvalidStart:
-            case PlanStatus::InvalidGoal:
-                std::cerr << "parking_plan: " << options.scenario << ": " << problem.whyUnsolvable() << std::endl;
-                return NOTHING;
-            default:
-                return NOTHING;
-        }
+        const PlanRun &run = result.first();
+        std::string trouble;
+        if (run.status == PlanStatus::InvalidStart || run.status == PlanStatus::InvalidGoal)
+            trouble = problem.whyUnsolvable();
+        else if (run.path && !run.hasValidPath())
+            trouble = run.reason;
+        if (!trouble.empty())
+            std::cerr << "parking_plan: " << options.scenario << ": " << trouble << std::endl;
+        return exitStatus(run);
     }
 }  // namespace
 

@@ -1,6 +1,4 @@
-#include "benchmarks/problems/DenseCheck.h"
-
-#include "parking_geometry/text/Text.h"
+#include "parking_geometry/referee/FreeSpace.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +9,8 @@ namespace parking
     namespace
     {
         constexpr double TOUCH = 1e-6;        // metres of overlap that count as none
-        constexpr double BUCKET = 2.0;        // metres
-        constexpr double JOINT = 1e-4;        // metres and radians that arcs may miss the next state by
-        constexpr double CURVATURE = 1.0001;  // share of the greatest curvature that may be used
+        constexpr double BUCKET = 2.0;        // metres, the side of buckets in worlds of usual size
+        constexpr double BUCKETS = 262144.0;  // no more than about these
 
         /** Does the segment pass through the box? Liang and Barsky's clipping. */
         bool meetsBox(const Eigen::Vector2d &from, const Eigen::Vector2d &to, const Eigen::Vector2d &min,
@@ -52,7 +49,7 @@ namespace parking
         }
     }  // namespace
 
-    DenseCheck::DenseCheck(const Scenario &scenario, double circleRadius)
+    FreeSpace::FreeSpace(const Scenario &scenario, double circleRadius)
       : vehicle_(scenario.vehicle),
         radius_(circleRadius),
         farthest_(circleRadius > 0.0
@@ -83,8 +80,9 @@ namespace parking
         }
         polygons_ = scenario.polygons;
         const Eigen::Vector2d size = bounds_.size();
-        bucketColumns_ = static_cast<std::size_t>(std::clamp(std::ceil(size.x() / BUCKET), 1.0, 4096.0));
-        bucketRows_ = static_cast<std::size_t>(std::clamp(std::ceil(size.y() / BUCKET), 1.0, 4096.0));
+        bucket_ = std::max({BUCKET, std::sqrt(size.x() * size.y() / BUCKETS), size.maxCoeff() / BUCKETS});
+        bucketColumns_ = static_cast<std::size_t>(std::max(std::ceil(size.x() / bucket_), 1.0));
+        bucketRows_ = static_cast<std::size_t>(std::max(std::ceil(size.y() / bucket_), 1.0));
         buckets_.resize(bucketColumns_ * bucketRows_);
         for (const Polygon &polygon : polygons_)
         {
@@ -94,18 +92,41 @@ namespace parking
                 const Edge edge{polygon[i], polygon[(i + 1) % polygon.size()]};
                 box.include(edge.from);
                 edges_.push_back(edge);
-                const Eigen::Vector2d low = edge.from.cwiseMin(edge.to), high = edge.from.cwiseMax(edge.to);
-                for (std::size_t row = clampIndex((low.y() - bounds_.min.y()) / BUCKET, bucketRows_);
-                     row <= clampIndex((high.y() - bounds_.min.y()) / BUCKET, bucketRows_); ++row)
-                    for (std::size_t column = clampIndex((low.x() - bounds_.min.x()) / BUCKET, bucketColumns_);
-                         column <= clampIndex((high.x() - bounds_.min.x()) / BUCKET, bucketColumns_); ++column)
-                        buckets_[row * bucketColumns_ + column].push_back(edges_.size() - 1);
+                enterEdge(edges_.size() - 1);
             }
             boxes_.push_back(box);
         }
     }
 
-    bool DenseCheck::isFree(const Pose &pose) const
+    void FreeSpace::enterEdge(std::size_t index)
+    {
+        const Edge &edge = edges_[index];
+        const Eigen::Vector2d low = edge.from.cwiseMin(edge.to), high = edge.from.cwiseMax(edge.to);
+        const std::size_t firstRow = clampIndex((low.y() - bounds_.min.y()) / bucket_, bucketRows_);
+        const std::size_t lastRow = clampIndex((high.y() - bounds_.min.y()) / bucket_, bucketRows_);
+        for (std::size_t row = firstRow; row <= lastRow; ++row)
+        {
+            // The part of the edge in this row, a little more for rounding; a long slanting edge is in few buckets of
+            // its box.
+            double left = low.x(), right = high.x();
+            if (firstRow < lastRow)
+            {
+                const double bottom = bounds_.min.y() + bucket_ * (static_cast<double>(row) - 0.01);
+                const double slope = (edge.to.x() - edge.from.x()) / (edge.to.y() - edge.from.y());
+                const double atBottom = edge.from.x() + slope * (std::clamp(bottom, low.y(), high.y()) - edge.from.y());
+                const double atTop =
+                    edge.from.x() + slope * (std::clamp(bottom + 1.02 * bucket_, low.y(), high.y()) - edge.from.y());
+                left = std::max(left, std::min(atBottom, atTop) - 0.01 * bucket_);
+                right = std::min(right, std::max(atBottom, atTop) + 0.01 * bucket_);
+            }
+            // Whatever lies outside of the bounds is entered at their rim.
+            for (std::size_t column = clampIndex((left - bounds_.min.x()) / bucket_, bucketColumns_);
+                 column <= clampIndex((right - bounds_.min.x()) / bucket_, bucketColumns_); ++column)
+                buckets_[row * bucketColumns_ + column].push_back(index);
+        }
+    }
+
+    bool FreeSpace::isFree(const Pose &pose) const
     {
         if (!isFinite(pose))
             return false;
@@ -114,19 +135,19 @@ namespace parking
     }
 
     template <class Visit>
-    bool DenseCheck::visitEdges(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Visit &visit) const
+    bool FreeSpace::visitEdges(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Visit &visit) const
     {
-        for (std::size_t row = clampIndex((min.y() - bounds_.min.y()) / BUCKET, bucketRows_);
-             row <= clampIndex((max.y() - bounds_.min.y()) / BUCKET, bucketRows_); ++row)
-            for (std::size_t column = clampIndex((min.x() - bounds_.min.x()) / BUCKET, bucketColumns_);
-                 column <= clampIndex((max.x() - bounds_.min.x()) / BUCKET, bucketColumns_); ++column)
+        for (std::size_t row = clampIndex((min.y() - bounds_.min.y()) / bucket_, bucketRows_);
+             row <= clampIndex((max.y() - bounds_.min.y()) / bucket_, bucketRows_); ++row)
+            for (std::size_t column = clampIndex((min.x() - bounds_.min.x()) / bucket_, bucketColumns_);
+                 column <= clampIndex((max.x() - bounds_.min.x()) / bucket_, bucketColumns_); ++column)
                 for (const std::size_t index : buckets_[row * bucketColumns_ + column])
                     if (!visit(edges_[index]))
                         return false;
         return true;
     }
 
-    bool DenseCheck::insideObstacle(const Eigen::Vector2d &point) const
+    bool FreeSpace::insideObstacle(const Eigen::Vector2d &point) const
     {
         for (std::size_t i = 0; i < polygons_.size(); ++i)
             if ((point.array() > boxes_[i].min.array()).all() && (point.array() < boxes_[i].max.array()).all() &&
@@ -135,13 +156,13 @@ namespace parking
         return false;
     }
 
-    std::size_t DenseCheck::occupiedIn(std::size_t row, std::size_t first, std::size_t last) const
+    std::size_t FreeSpace::occupiedIn(std::size_t row, std::size_t first, std::size_t last) const
     {
         const std::size_t begin = row * (columns_ + 1);
         return occupied_[begin + last + 1] - occupied_[begin + first];
     }
 
-    bool DenseCheck::isBodyFree(const Pose &local) const
+    bool FreeSpace::isBodyFree(const Pose &local) const
     {
         Eigen::Vector2d min(INFINITY, INFINITY), max(-INFINITY, -INFINITY);
         for (const Eigen::Vector2d &corner : vehicle_.footprint(local))
@@ -168,7 +189,7 @@ namespace parking
         return !insideObstacle({local.x + c * middle.x() - s * middle.y(), local.y + s * middle.x() + c * middle.y()});
     }
 
-    bool DenseCheck::cellsFree(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Pose &local) const
+    bool FreeSpace::cellsFree(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Pose &local) const
     {
         const Eigen::Vector2d size(static_cast<double>(columns_) * cellSize_, static_cast<double>(rows_) * cellSize_);
         if ((min.array() < -TOUCH).any() || (max.array() > size.array() + TOUCH).any())
@@ -205,7 +226,7 @@ namespace parking
         return true;
     }
 
-    bool DenseCheck::isDiscFree(const Eigen::Vector2d &centre) const
+    bool FreeSpace::isDiscFree(const Eigen::Vector2d &centre) const
     {
         const double radius = radius_ - TOUCH;
         const Eigen::Vector2d reach(radius, radius);
@@ -237,58 +258,5 @@ namespace parking
                     return false;
             }
         return true;
-    }
-
-    DenseResult DenseCheck::check(const SampledPath &path, bool straight, double maxCurvature) const
-    {
-        DenseResult result;
-        const auto fail = [&result](const std::string &reason, const Pose &pose)
-        {
-            result.valid = false;
-            if (result.reason.empty())
-                result.reason = reason + " at " + formatNumber(std::round(1e3 * pose.x) / 1e3) + ", " +
-                                formatNumber(std::round(1e3 * pose.y) / 1e3);
-        };
-        const auto test = [&](const Pose &pose)
-        {
-            ++result.states;
-            if (isFree(pose))
-                return;
-            ++result.collisions;
-            fail("collision", pose);
-        };
-        if (path.empty())
-        {
-            result.valid = false;
-            result.reason = "no path";
-            return result;
-        }
-        test(path.front().pose);
-        for (std::size_t i = 1; i < path.size(); ++i)
-        {
-            const Pose &from = path[i - 1].pose, &to = path[i].pose;
-            const double turn = wrapAngle(to.yaw - from.yaw);
-            const double length = straight ? positionDistance(to, from) : path[i].arcLength - path[i - 1].arcLength;
-            const double curvature = path[i].curvature;
-            const double moved = length + farthest_ * (straight ? std::abs(turn) : std::abs(curvature) * length);
-            const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(moved / STEP)));
-            Pose pose;
-            for (std::size_t k = 1; k <= steps; ++k)
-            {
-                const double share = static_cast<double>(k) / static_cast<double>(steps);
-                pose = straight ? Pose{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
-                                       from.yaw + share * turn}
-                                : advance(from, curvature, share * length * path[i].direction);
-                test(pose);
-            }
-            if (straight)
-                continue;
-            result.maxCurvature = std::max(result.maxCurvature, std::abs(curvature));
-            if (!isSamePose(pose, to, JOINT))
-                fail("the path is torn", to);
-            if (maxCurvature > 0.0 && std::abs(curvature) > CURVATURE * maxCurvature)
-                fail("curvature " + formatNumber(curvature) + " 1/m", to);
-        }
-        return result;
     }
 }  // namespace parking
