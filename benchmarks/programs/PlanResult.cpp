@@ -71,7 +71,7 @@ namespace parking
                     {"collisions", figures.collisions}};
         }
 
-        json trajectoryJson(const Scenario &scenario, const Trajectory &trajectory)
+        json trajectoryJson(const Scenario &scenario, const Trajectory &trajectory, bool withSteeringRate)
         {
             json samples = json::array();
             for (const TrajectoryPoint &point : trajectory)
@@ -81,7 +81,8 @@ namespace parking
                 each["v"] = point.v;
                 each["steering"] = point.steering;
                 each["acceleration"] = point.acceleration;
-                each["steering_rate"] = point.steeringRate;
+                if (withSteeringRate)
+                    each["steering_rate"] = point.steeringRate;
                 samples.push_back(std::move(each));
             }
             return samples;
@@ -95,16 +96,18 @@ namespace parking
                 text["trajectory_optimization"] = {{"message", result.trajectoryError}};
                 return;
             }
-            const OptimizedTrajectory &optimized = *result.trajectory;
+            const OptimizedTrajectory &optimized = result.trajectory->trajectory;
             const TpcapCost cost = tpcapCost(optimized.motion);
             text["planned_trajectory"] =
-                trajectoryJson(scenario, sample(optimized.motion, scenario.vehicle, TRAJECTORY_STEP));
+                trajectoryJson(scenario, sample(optimized.motion, scenario.vehicle, TRAJECTORY_STEP), true);
             text["trajectory_optimization"] = {{"duration_s", optimized.motion.duration()},
                                                {"time_ms", MS * result.trajectoryTime},
                                                {"fallback", optimized.fallback},
                                                {"message", optimized.reason},
                                                {"rounds", optimized.rounds},
                                                {"iterations", optimized.iterations},
+                                               {"paths", result.trajectory->paths},
+                                               {"path", optimized.path},
                                                {"tpcap_cost",
                                                 {{"J", cost.total()},
                                                  {"time_s", cost.time},
@@ -246,7 +249,7 @@ namespace parking
             return text;
         if (run.path)
             text["tracking"] = trackingJson(result);
-        text["trajectory"] = result.drive ? trajectoryJson(scenario, result.drive->trajectory) : json::array();
+        text["trajectory"] = result.drive ? trajectoryJson(scenario, result.drive->trajectory, false) : json::array();
         return text;
     }
 
@@ -276,9 +279,12 @@ namespace parking
                         : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
         }
         if (result.trajectory)
-            text += "  trajectory: " + fixed(result.trajectory->motion.duration(), 2) + " s, found in " +
+            text += "  trajectory: " + fixed(result.trajectory->trajectory.motion.duration(), 2) + " s, found in " +
                     fixed(MS * result.trajectoryTime, 1) + " ms" +
-                    (result.trajectory->fallback ? " (stops to steer: " + result.trajectory->reason + ")" : "") + "\n";
+                    (result.trajectory->trajectory.fallback
+                         ? " (stops to steer: " + result.trajectory->trajectory.reason + ")"
+                         : "") +
+                    "\n";
         else if (!result.trajectoryError.empty())
             text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
@@ -323,7 +329,11 @@ namespace parking
         const std::clock_t begin = std::clock();
         try
         {
-            result.trajectory = TrajectoryOptimizer(problem.footprint()).optimize(run.path->path);
+            QuickestTrajectoryOptions options;
+            options.alternatives = run.status == PlanStatus::Exact && problem.isDrivable();
+            options.forwardOnly = problem.settings().space == SpaceKind::Dubins;
+            result.trajectory =
+                quickestTrajectory(problem.footprint(), problem.scenario().bounds, run.path->path, options);
         }
         catch (const Error &error)
         {

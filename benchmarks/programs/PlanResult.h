@@ -1,9 +1,9 @@
 #pragma once
 
+#include "automatic_parking/QuickestTrajectory.h"
 #include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/programs/PlanOptions.h"
 #include "path_tracking/simulation/ClosedLoop.h"
-#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,7 +21,7 @@ namespace parking
         std::vector<PlanRun> runs;  ///< at least one; the first one's path is the result
         std::optional<DriveResult> drive;
         std::string driveError;  ///< why the path cannot be driven; empty otherwise
-        std::optional<OptimizedTrajectory> trajectory;
+        std::optional<QuickestTrajectory> trajectory;
         std::string trajectoryError;  ///< why there is no trajectory; empty otherwise
         double trajectoryTime{0.0};   ///< seconds of processor time
 

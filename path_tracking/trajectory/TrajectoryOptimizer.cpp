@@ -18,14 +18,20 @@ namespace parking
 {
     namespace
     {
-        constexpr double SPACING = 0.2;          // metres between checkpoints, in the first round
-        constexpr double RANGE = 1.5;            // metres within which obstacles matter, in the first round
-        constexpr double AGAIN_BARRIER = 1e-3;   // of rounds that begin with a solution
-        constexpr double ENOUGH_GAIN = 3e-3;     // share of the cost for which another round is worth its time
-        constexpr double NEAR_HIT = 0.05;        // metres within which obstacles are to blame for a hit
-        constexpr std::size_t MOST_HITS = 50;    // that are looked into
-        constexpr double GOAL_TOLERANCE = 2e-3;  // metres and radians that integration may miss the goal by
-        constexpr double PATH_STEP = 0.01;       // metres between poses of a path that is looked at
+        constexpr double SPACING = 0.2;             // metres between checkpoints, in the first round
+        constexpr double RANGE = 1.5;               // metres within which obstacles matter, in the first round
+        constexpr double FIRST_BARRIER = 5e-3;      // seconds, of rounds that begin with a guess
+        constexpr double AGAIN_BARRIER = 1e-3;      // of rounds that begin with a solution
+        constexpr double ENOUGH_GAIN = 3e-3;        // share of the cost for which another round is worth its time
+        constexpr double PROMISING = 1.15;          // share of the best cost that improving a solution may make up for
+        constexpr double LEAST_WORK = 5e4;          // that may be done for any path, see Search
+        constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
+        constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
+        constexpr double LIMITS_LEFT = 2e-5;        // share of the limits that is left for rounding
+        constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
+        constexpr std::size_t MOST_HITS = 50;       // that are looked into
+        constexpr double GOAL_TOLERANCE = 2e-3;     // metres and radians that integration may miss the goal by
+        constexpr double PATH_STEP = 0.01;          // metres between poses of a path that is looked at
 
         bool isFree(const FootprintChecker &checker, const Path &path)
         {
@@ -87,162 +93,242 @@ namespace parking
     class TrajectoryOptimizer::Search
     {
     public:
-        Search(const TrajectoryOptimizer &owner, const Path &path, const std::function<bool()> &interrupted)
+        Search(const TrajectoryOptimizer &owner, const std::function<bool()> &interrupted, OptimizedTrajectory &report)
           : owner_(owner),
-            path_(path),
-            goal_(path.end()),
             interrupted_(interrupted),
-            step_(owner.options_.step)
+            report_(report)
         {
-            separation_.margin = owner.options_.margin;
-            separation_.range = RANGE;
         }
 
-        /** Looks for a motion that costs less than \e limit. */
-        std::optional<TimedMotion> run(double limit, OptimizedTrajectory &report)
+        /** Looks for a motion near one of the paths that costs less than \e limit. */
+        std::optional<TimedMotion> run(const std::vector<Path> &paths, double limit)
         {
-            std::optional<TimedMotion> best;
-            double bestCost = limit;
-            bool again = false;  // goes on from what was found
-            for (std::size_t round = 0; round < owner_.options_.mostRounds; ++round)
+            std::optional<Solution> found;
+            for (std::size_t i = 0; i < paths.size() && (i == 0 || mayGoOn()); ++i)
             {
-                if (!again)
-                    begin();
-                const InteriorPointResult solved = solve(again);
-                report.rounds += 1;
-                report.iterations += solved.iterations;
-                if (solved.status == InteriorPointStatus::Interrupted)
-                {
-                    report.reason = "interrupted";
-                    return best;
-                }
-                const bool holds = solved.status != InteriorPointStatus::Infeasible;
-                const std::optional<TimedMotion> motion = holds ? checked(solved.nodes, report) : std::nullopt;
-                if (!holds)
-                    report.reason = "no motion found that holds all limits";
-                if (!motion && best)
-                    return best;
-                if (!motion)
-                {
-                    tighten(holds);
+                // While there are other paths, one attempt is enough for each.
+                auto solution =
+                    first(paths[i], paths.size() > 1 ? 1 : owner_.options_.mostRounds, found ? found->cost : limit);
+                if (!solution || (found && solution->cost > PROMISING * found->cost))
                     continue;
-                }
-                const double cost = owner_.costOf(*motion), gain = bestCost - cost;
-                if (cost < bestCost)
-                {
-                    best = motion;
-                    bestCost = cost;
-                }
-                report.reason = "stopping to steer is as quick";
-                if (gain < ENOUGH_GAIN * bestCost)
-                    return best;
-                problem_.nodes = solved.nodes;
-                again = true;
+                isFound_ = true;
+                improve(*solution);
+                if (found && solution->cost >= found->cost)
+                    continue;
+                found = std::move(solution);
+                report_.path = i;
             }
-            return best;
+            if (!found && paths.size() > 1 && (found = first(paths.front(), owner_.options_.mostRounds, limit)))
+                improve(*found);
+            if (!found)
+                return std::nullopt;
+            report_.reason = found->cost < limit ? "" : "stopping to steer is as quick";
+            if (found->cost >= limit)
+                return std::nullopt;
+            return std::move(found->motion);
         }
 
     private:
-        /** Begins with what the path suggests. */
-        void begin()
+        /** A motion that holds, and the program with the nodes that it has. */
+        struct Solution
         {
-            Path local = path_;
-            local.start = owner_.toLocal(path_.start);
-            outline_.emplace(local, owner_.body_, step_, owner_.options_.initialSteering,
-                             owner_.options_.finalSteering);
-            problem_ = {};
-            problem_.vehicle = owner_.body_;
-            problem_.weights = owner_.options_.weights;
-            outline_->write(problem_);
+            MotionProblem problem;
+            TimedMotion motion;
+            double cost;
+        };
+
+        /** Work that may still be done; more while there is nothing yet. */
+        double left() const
+        {
+            return (isFound_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
         }
 
-        InteriorPointResult solve(bool again)
+        bool mayGoOn() const
         {
-            const auto poseAt = [this, again](std::size_t interval, double fraction)
-            {
-                return again ? problem_.poseAt(interval, fraction) : outline_->poseAt(interval, fraction);
-            };
-            SeparationPlan(owner_.pieces_, owner_.body_, separation_,
-                           checkpointsAlong(problem_.directions, owner_.body_.wheelbase, spacing_, poseAt), poseAt)
-                .write(problem_);
-            MotionProgram program(problem_);
-            InteriorPointOptions options;
-            if (again)
-                options.firstBarrier = AGAIN_BARRIER;
-            return solveMotion(program, options, interrupted_);
+            return !stopped_ && (budget_ == 0.0 || left() > 0.0);
         }
 
-        /** The motion of \e nodes; nothing when it touches an obstacle or misses the goal, which is noted. */
-        std::optional<TimedMotion> checked(const std::vector<NodeVector> &nodes, OptimizedTrajectory &report)
+        /** A solution near \e path, with more care in each round; none if even driving along it without any steering
+            costs more than \e limit. */
+        std::optional<Solution> first(const Path &path, std::size_t rounds, double limit)
         {
-            TimedMotion motion{path_.start, {}};
-            for (std::size_t k = 0; k < nodes.size(); ++k)
+            separation_ = {};
+            separation_.margin = owner_.options_.margin;
+            separation_.range = RANGE;
+            spacing_ = SPACING;
+            double step = owner_.options_.step;
+            start_ = path.start;
+            goal_ = path.end();
+            Path local = path;
+            local.start = owner_.toLocal(path.start);
+            for (std::size_t round = 0; round < rounds && mayGoOn(); ++round)
             {
-                const int direction = k == 0                            ? problem_.directions[0]
-                                      : problem_.directions[k - 1] != 0 ? problem_.directions[k - 1]
-                                      : k < problem_.directions.size()  ? problem_.directions[k]
-                                                                        : 0;
-                motion.append(k > 0 ? nodes[k - 1][NODE_DURATION] : 0.0, direction * nodes[k][NODE_SPEED],
-                              nodes[k][NODE_STEERING]);
+                const MotionOutline outline(local, owner_.body_, step, owner_.options_.initialSteering,
+                                            owner_.options_.finalSteering);
+                if (owner_.options_.weights.time * outline.duration() > limit)
+                    return std::nullopt;
+                MotionProblem problem;
+                problem.vehicle = owner_.body_;
+                problem.vehicle.maxAcceleration *= 1.0 - LIMITS_LEFT;
+                problem.vehicle.maxSteeringRate *= 1.0 - LIMITS_LEFT;
+                problem.vehicle.maxSpeed *= 1.0 - LIMITS_LEFT;
+                problem.weights = owner_.options_.weights;
+                outline.write(problem);
+                if (auto found = solve(std::move(problem), FIRST_BARRIER,
+                                       [&outline](std::size_t interval, double fraction)
+                                       { return outline.poseAt(interval, fraction); }))
+                    return found;
+                // What had a solution, but a wrong one, needs to see more; what had none needs more room.
+                spacing_ *= 0.5;
+                if (wrong_)
+                    separation_.range *= 1.5;
+                else
+                {
+                    separation_.margin *= 0.25;
+                    step *= 0.7;
+                }
             }
-            if (!isSamePose(endOf(motion, owner_.checker_.vehicle()), goal_, GOAL_TOLERANCE))
-            {
-                report.reason = "the goal was missed";
-                return std::nullopt;
-            }
-            const std::vector<Pose> hits = collisionsOf(motion, owner_.checker_, MOST_HITS);
-            if (hits.empty())
-                return motion;
-            report.reason = "the motions found touch obstacles";
-            for (const Pose &pose : hits)
-                for (const std::size_t piece : piecesNear(owner_.pieces_, owner_.body_, owner_.toLocal(pose), NEAR_HIT))
-                    if (std::find(separation_.always.begin(), separation_.always.end(), piece) ==
-                        separation_.always.end())
-                        separation_.always.push_back(piece);
             return std::nullopt;
         }
 
-        /** Makes the next program one that should not fail like the last. \param hit it had a solution, a wrong one */
-        void tighten(bool hit)
+        /** Chooses the lines anew along what was found, as often as that is worth it. */
+        void improve(Solution &best)
         {
-            spacing_ *= 0.5;
-            if (hit)
-                separation_.range *= 1.5;
-            else
+            for (std::size_t round = 0; round < owner_.options_.mostRounds && mayGoOn(); ++round)
             {
-                separation_.margin *= 0.25;
-                step_ *= 0.7;
+                auto found = solveFrom(best.problem, AGAIN_BARRIER);
+                const double gain = found ? best.cost - found->cost : 0.0;
+                if (gain > 0.0)
+                    best = std::move(*found);
+                if (gain < ENOUGH_GAIN * best.cost)
+                    return;
             }
         }
 
+        std::optional<Solution> solveFrom(MotionProblem problem, double barrier)
+        {
+            const MotionProblem guess = problem;
+            return solve(std::move(problem), barrier,
+                         [&guess](std::size_t interval, double fraction) { return guess.poseAt(interval, fraction); });
+        }
+
+        /** Solves a program with lines along \e poseAt. \return nothing when the motion does not hold */
+        std::optional<Solution> solve(MotionProblem problem, double barrier,
+                                      const std::function<Pose(std::size_t, double)> &poseAt)
+        {
+            wrong_ = false;
+            SeparationPlan(owner_.pieces_, owner_.body_, separation_,
+                           checkpointsAlong(problem.directions, owner_.body_.wheelbase, spacing_, poseAt), poseAt)
+                .write(problem);
+            MotionProgram program(problem);
+            InteriorPointOptions options;
+            options.firstBarrier = barrier;
+            const double size =
+                static_cast<double>(problem.nodes.size()) + static_cast<double>(problem.rows.size()) / 12.0;
+            if (budget_ == 0.0)
+                budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
+            const double affordable = std::max(0.0, left() / size);
+            options.mostIterations = std::min(options.mostIterations, 1 + static_cast<std::size_t>(affordable));
+            InteriorPointResult solved = solveMotion(program, options, interrupted_);
+            work_ += size * static_cast<double>(solved.iterations);
+            ++report_.rounds;
+            report_.iterations += solved.iterations;
+            report_.reason = "no motion found that holds all limits";
+            if (solved.status == InteriorPointStatus::Interrupted)
+            {
+                stopped_ = true;
+                report_.reason = "interrupted";
+            }
+            if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)
+                return std::nullopt;
+            problem.nodes = std::move(solved.nodes);
+            TimedMotion motion = motionOf(problem);
+            if (!holds(motion))
+                return std::nullopt;
+            const double cost = owner_.costOf(motion);
+            return Solution{std::move(problem), std::move(motion), cost};
+        }
+
+        TimedMotion motionOf(const MotionProblem &problem) const
+        {
+            TimedMotion motion{start_, {}};
+            for (std::size_t k = 0; k < problem.nodes.size(); ++k)
+            {
+                // A node between a standstill and a drive is at rest, whatever the direction.
+                const int before = k > 0 ? problem.directions[k - 1] : 0;
+                const int behind = k < problem.directions.size() ? problem.directions[k] : 0;
+                motion.append(k > 0 ? problem.nodes[k - 1][NODE_DURATION] : 0.0,
+                              (before != 0 ? before : behind) * problem.nodes[k][NODE_SPEED],
+                              problem.nodes[k][NODE_STEERING]);
+            }
+            return motion;
+        }
+
+        /** Does the motion reach the goal and touch nothing? Notes what it touches, and that it is wrong. */
+        bool holds(const TimedMotion &motion)
+        {
+            wrong_ = true;
+            report_.reason = "the goal was missed";
+            if (!isSamePose(endOf(motion, owner_.checker_.vehicle()), goal_, GOAL_TOLERANCE))
+                return false;
+            report_.reason = "the motions found touch obstacles";
+            const std::vector<Pose> hits = collisionsOf(motion, owner_.checker_, MOST_HITS);
+            std::vector<std::size_t> &always = separation_.always;
+            for (const Pose &pose : hits)
+                for (const std::size_t piece : piecesNear(owner_.pieces_, owner_.body_, owner_.toLocal(pose), NEAR_HIT))
+                    if (std::find(always.begin(), always.end(), piece) == always.end())
+                        always.push_back(piece);
+            wrong_ = !hits.empty();
+            return hits.empty();
+        }
+
         const TrajectoryOptimizer &owner_;
-        const Path &path_;
-        Pose goal_;
         const std::function<bool()> &interrupted_;
-        double step_;
+        OptimizedTrajectory &report_;
+        Pose start_, goal_;
         double spacing_{SPACING};
         SeparationOptions separation_;
-        std::optional<MotionOutline> outline_;
-        MotionProblem problem_;
+        bool wrong_{false};    // the last program had a solution, which did not hold
+        bool stopped_{false};  // by the caller
+        bool isFound_{false};  // something that holds
+        /** Iterations, each by the nodes of its program and a twelfth of its rows, which is what takes the time:
+           about 1.5 microseconds. Counted instead of time, so that equal input gives equal output. @{ */
+        double work_{0.0}, budget_{0.0};
+        /** @} */
     };
 
     OptimizedTrajectory TrajectoryOptimizer::optimize(const Path &path, const std::function<bool()> &interrupted) const
     {
+        return optimizeBest({path}, interrupted);
+    }
+
+    OptimizedTrajectory TrajectoryOptimizer::optimizeBest(const std::vector<Path> &paths,
+                                                          const std::function<bool()> &interrupted) const
+    {
+        if (paths.empty())
+            throw Error("trajectory: there is no path");
         OptimizedTrajectory result;
-        result.motion = stopAndSteer(path, checker_.vehicle(), options_.initialSteering, options_.finalSteering);
-        if (!isFree(checker_, path))
-            throw Error("trajectory: the path collides");
         result.fallback = true;
+        for (std::size_t i = 0; i < paths.size(); ++i)
+        {
+            TimedMotion motion =
+                stopAndSteer(paths[i], checker_.vehicle(), options_.initialSteering, options_.finalSteering);
+            if (!isFree(checker_, paths[i]))
+                throw Error("trajectory: the path collides");
+            if (i > 0 && costOf(motion) >= costOf(result.motion))
+                continue;
+            result.motion = std::move(motion);
+            result.path = i;
+        }
         if (interrupted && interrupted())
         {
             result.reason = "interrupted";
             return result;
         }
-        if (auto motion = Search(*this, path, interrupted).run(costOf(result.motion), result))
+        if (auto motion = Search(*this, interrupted, result).run(paths, costOf(result.motion)))
         {
             result.motion = std::move(*motion);
             result.fallback = false;
-            result.reason.clear();
         }
         return result;
     }

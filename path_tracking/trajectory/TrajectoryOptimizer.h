@@ -22,7 +22,7 @@ namespace parking
         double step{0.3};       ///< seconds between two nodes, about
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
         std::optional<double> finalSteering{0.0};    ///< likewise at the end
-        std::size_t mostRounds{6};                   ///< programs that are solved at most
+        std::size_t mostRounds{6};                   ///< attempts near a path, and improvements of a motion, at most
 
         /** \brief Weights of the Trajectory Planning Competition of Automated Parking, per 100. */
         static MotionWeights tpcapWeights()
@@ -40,6 +40,7 @@ namespace parking
         TimedMotion motion;         ///< collision free, within the limits
         bool fallback{false};       ///< the motion is stopAndSteer()'s
         std::string reason;         ///< why there is none better; empty otherwise
+        std::size_t path{0};        ///< which of the given paths it was made from
         std::size_t rounds{0};      ///< programs that were solved
         std::size_t iterations{0};  ///< of the interior point method, all rounds
     };
@@ -76,6 +77,12 @@ namespace parking
             result is there already; may be empty
             Throws parking::Error for a path that no car can drive, or that collides. */
         OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
+
+        /** \brief The best motion found near any of several paths, from the same pose to the same pose.
+
+            One program is solved near each; the best, and those that nearly are, are then improved. */
+        OptimizedTrajectory optimizeBest(const std::vector<Path> &paths,
+                                         const std::function<bool()> &interrupted = {}) const;
 
     private:
         class Search;

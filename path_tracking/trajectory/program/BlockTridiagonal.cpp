@@ -55,7 +55,7 @@ namespace parking
         {
             factor_[k].diagonal().array() += shift;
             if (k > 0)
-                factor_[k].noalias() -= coupling_[k - 1] * coupling_[k - 1].transpose();
+                factor_[k] -= coupling_[k - 1].lazyProduct(coupling_[k - 1].transpose());
             if (!factorizeBlock(factor_[k]))
                 return false;
             if (k + 1 < factor_.size())

@@ -14,6 +14,8 @@ namespace parking
 
         /** Length of a step below which the next direction is damped, and the limits of that damping. */
         constexpr double SHORT_STEP = 0.1, LEAST_DAMPING = 0.1, MOST_DAMPING = 1.0;
+        /** Metres and radians that joints may gape in what is not optimal. */
+        constexpr double FEASIBLE_GAP = 1e-5;
         /** Attempts to make the system positive definite. */
         constexpr int MOST_SHIFTS = 40;
 
@@ -85,7 +87,8 @@ namespace parking
                 result.cost = cost_;
                 result.gap = gap();
                 result.violation = violation();
-                if (result.status == InteriorPointStatus::Infeasible && result.gap < 1e-5 && result.violation < 1e-5)
+                if (result.status == InteriorPointStatus::Infeasible && result.gap <= FEASIBLE_GAP &&
+                    result.violation <= options_.limitTolerance)
                     result.status = InteriorPointStatus::Feasible;
                 return result;
             }
@@ -134,7 +137,7 @@ namespace parking
                 {
                     if (barrier_ <= options_.lastBarrier)
                     {
-                        if (gap() <= options_.jointTolerance)
+                        if (gap() <= options_.jointTolerance && violation() <= options_.limitTolerance)
                             return true;
                         break;
                     }

@@ -15,6 +15,7 @@ namespace parking
         double lastBarrier{2e-5};   ///< seconds
         std::size_t mostIterations{150};
         double jointTolerance{1e-6};  ///< metres and radians that joints may gape at the end
+        double limitTolerance{1e-7};  ///< by which inequalities may be missed at the end
     };
 
     /** \brief How a search ended. */

@@ -171,10 +171,10 @@ namespace parking
             terms.wayAtBegin[e] += span.gradient[4 * e + 1];
             terms.wayAtEnd[e] += span.gradient[4 * e + 3];
         }
-        const Eigen::Matrix<double, 12, PAIR_SIZE> half = span.hessian * chain;
-        terms.hessian.noalias() += chain.transpose() * half;
-        terms.gradient.noalias() += chain.transpose() * span.gradient;
-        terms.shift.noalias() += chain.transpose() * span.shift;
+        const Eigen::Matrix<double, 12, PAIR_SIZE> half = span.hessian.lazyProduct(chain);
+        terms.hessian += chain.transpose().lazyProduct(half);
+        terms.gradient += chain.transpose().lazyProduct(span.gradient);
+        terms.shift += chain.transpose().lazyProduct(span.shift);
     }
 
     void IntervalModel::addWayCurvature(IntervalTerms &terms) const

@@ -91,6 +91,14 @@ namespace parking
         }
     }
 
+    double MotionOutline::duration() const
+    {
+        double sum = 0.0;
+        for (const StretchGuess &guess : guesses_)
+            sum += guess.duration();
+        return sum;
+    }
+
     void MotionOutline::write(MotionProblem &problem) const
     {
         problem.directions = directions_;

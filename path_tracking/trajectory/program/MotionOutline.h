@@ -26,6 +26,9 @@ namespace parking
         MotionOutline(const Path &path, const Vehicle &vehicle, double step, std::optional<double> initialSteering,
                       std::optional<double> finalSteering);
 
+        /** \brief Seconds that driving along the path takes when the wheels need no time to turn. */
+        double duration() const;
+
         /** \brief Writes directions, nodes and what is fixed of them. */
         void write(MotionProblem &problem) const;
 

@@ -146,7 +146,7 @@ namespace parking
         model.addGapCurvature(prices.head<3>(), terms);
         terms.gradient += rows.transpose() * prices;
         terms.shift -= rows.transpose() * (joints_[k] / softness);
-        terms.hessian.noalias() += rows.transpose() * (rows / softness);
+        terms.hessian += rows.transpose().lazyProduct(rows) / softness;
     }
 
     void MotionProgram::addLimitTerms(std::size_t k, const MotionDuals &duals, double barrier,

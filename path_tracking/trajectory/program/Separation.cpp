@@ -14,6 +14,8 @@ namespace parking
         /** Share of the largest gap with which the line of the checkpoint before is kept. */
         constexpr double KEEP = 0.8;
         constexpr double INF = std::numeric_limits<double>::infinity();
+        /** Metres beyond what a checkpoint needs that its neighbours may use, too. */
+        constexpr double PART = 3.0;
         constexpr int MOST_REFINEMENTS = 5;
         /** Share of the largest gap with which a side of the body that is watched anyway serves a piece. */
         constexpr double SERVES = 0.8;
@@ -113,13 +115,31 @@ namespace parking
         return choice;
     }
 
+    const std::vector<std::size_t> &SeparationPlan::candidatesWithin(const Box &region) const
+    {
+        if ((region.min.array() >= part_.min.array()).all() && (region.max.array() <= part_.max.array()).all())
+            return partCandidates_;
+        part_ = {region.min - Eigen::Vector2d(PART, PART), region.max + Eigen::Vector2d(PART, PART)};
+        partCandidates_.clear();
+        for (const std::size_t i : candidates_)
+        {
+            const Box &box = pieces_[i].box;
+            const bool near =
+                (box.min.array() <= part_.max.array()).all() && (box.max.array() >= part_.min.array()).all();
+            if (near || std::count(options_.always.begin(), options_.always.end(), i) != 0)
+                partCandidates_.push_back(i);
+        }
+        return partCandidates_;
+    }
+
     SeparationPlan::Place SeparationPlan::makePlace(const GuessedCheckpoint &point, const Place *before) const
     {
         Place place{point, std::cos(point.pose.yaw), std::sin(point.pose.yaw), {}, {}};
         const double offset = vehicle_.centreOffset(), reach = options_.range + reach_;
         const Eigen::Vector2d middle(point.pose.x + offset * place.cosine, point.pose.y + offset * place.sine);
         auto old = before != nullptr ? before->choices.begin() : std::vector<Choice>::const_iterator();
-        for (const std::size_t i : candidates_)
+        const Eigen::Vector2d far(reach, reach);
+        for (const std::size_t i : candidatesWithin({middle - far, middle + far}))
         {
             const Box &box = pieces_[i].box;
             const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);

@@ -79,6 +79,7 @@ namespace parking
             std::vector<Choice> extra;    // lines of a neighbour
         };
 
+        const std::vector<std::size_t> &candidatesWithin(const Box &region) const;
         Place makePlace(const GuessedCheckpoint &point, const Place *before) const;
         Choice best(const Place &place, std::size_t piece) const;
         double gap(const Place &place, const Separator &line, std::size_t piece) const;
@@ -97,6 +98,9 @@ namespace parking
         double front_, rear_, half_;  // metres of the body's sides from the rear axle
         double reach_;                // of the body round its middle
         std::vector<std::size_t> candidates_;
+        // Those of a part of the world that holds several checkpoints.
+        mutable Box part_{{1.0, 1.0}, {-1.0, -1.0}};
+        mutable std::vector<std::size_t> partCandidates_;
         std::vector<double> margins_;  // per piece
         std::vector<Place> places_;
     };

@@ -1,0 +1,66 @@
+"""parking_plan --trajectory: the optimised trajectory in the JSON, and what it costs."""
+
+import math
+
+from programs import ProgramTest, bundled, main
+
+FIELDS = {'t', 'x', 'y', 'yaw', 'v', 'steering', 'acceleration', 'steering_rate'}
+LIMITS = {'v': 'max_speed', 'acceleration': 'max_acceleration', 'steering': 'max_steering_angle',
+          'steering_rate': 'max_steering_rate'}
+BUNDLED = ('parallel', 'perpendicular', 'angled45', 'narrow_parallel')
+
+
+class TrajectoryTest(ProgramTest):
+
+    def test_a_trajectory_keeps_to_the_limits_from_start_to_goal(self):
+        for name in BUNDLED:
+            result = self.planned(bundled(name), '--trajectory')
+            samples, vehicle = result['planned_trajectory'], result['vehicle']
+            x, y, yaw = (samples[0][field] for field in ('x', 'y', 'yaw'))
+            for before, after in zip(samples, samples[1:]):
+                self.assertEqual(set(before), FIELDS)
+                step = after['t'] - before['t']
+                self.assertGreater(step, 0.0)
+                for field, limit in LIMITS.items():
+                    self.assertLessEqual(abs(before[field]), vehicle[limit] * 1.0001, (name, field))
+                self.assertAlmostEqual(after['v'], before['v'] + step * before['acceleration'], delta=1e-6)
+                self.assertAlmostEqual(after['steering'], before['steering'] + step * before['steering_rate'],
+                                       delta=1e-6)
+                for part in range(20):  # by the midpoint rule
+                    share = (part + 0.5) / 20.0
+                    v = before['v'] + share * (after['v'] - before['v'])
+                    steering = before['steering'] + share * (after['steering'] - before['steering'])
+                    turn = step / 20.0 * v * math.tan(steering) / vehicle['wheelbase']
+                    x += step / 20.0 * v * math.cos(yaw + 0.5 * turn)
+                    y += step / 20.0 * v * math.sin(yaw + 0.5 * turn)
+                    yaw += turn
+                self.assertLess(math.hypot(x - after['x'], y - after['y']), 0.002, name)
+            goal = result['path'][-1]
+            self.assertLess(math.hypot(x - goal['x'], y - goal['y']), 0.005, name)
+            self.assertEqual((samples[0]['v'], samples[-1]['v']), (0.0, 0.0))
+
+    def test_it_is_quicker_than_stopping_to_steer_and_says_what_it_costs(self):
+        for name in BUNDLED:
+            result = self.planned(bundled(name), '--trajectory', '--track')
+            figures = result['trajectory_optimization']
+            self.assertFalse(figures['fallback'], figures['message'])
+            self.assertLess(figures['duration_s'], result['tracking']['travel_time_s'])
+            self.assertAlmostEqual(figures['duration_s'], result['planned_trajectory'][-1]['t'], delta=1e-6)
+            cost = figures['tpcap_cost']
+            self.assertAlmostEqual(cost['time_s'], figures['duration_s'], delta=1e-6)
+            self.assertAlmostEqual(cost['J'], 100.0 * cost['time_s'] + 10.0 * cost['control_effort'] +
+                                   10.0 * cost['steering_integral'] + 5.0 * cost['gear_changes'], delta=1e-6)
+            self.assertGreater(figures['time_ms'], 0.0)
+
+    def test_equal_runs_give_equal_trajectories(self):
+        first, second = (self.planned(bundled('parallel'), '--trajectory') for _ in range(2))
+        self.assertEqual(first['planned_trajectory'], second['planned_trajectory'])
+
+    def test_paths_that_no_car_can_drive_are_refused_in_one_line(self):
+        result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
+        self.assertEqual(result['planned_trajectory'], [])
+        self.assertIn('turns on the spot', result['trajectory_optimization']['message'])
+
+
+if __name__ == '__main__':
+    main()
