@@ -247,20 +247,19 @@ namespace parking
         return experiments;
     }
 
-    std::string fingerprint(const BenchmarkConfig &config, const std::vector<Experiment> &experiments)
+    std::string fingerprint(const BenchmarkConfig &config)
     {
-        std::string text = formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
-                           std::to_string(config.seed) + (config.simplify ? "/s" : "/") + (config.track ? "/t" : "/");
-        for (const Experiment &experiment : experiments)
-        {
-            text += "\n" + experiment.name + "/" + experiment.digest + "/" + describe(experiment.options);
-            for (const std::size_t index : experiment.planners)
-            {
-                text += "\n" + config.planners[index].name + "/" + config.planners[index].planner;
-                for (const auto &[name, value] : config.planners[index].settings)
-                    text += "/" + name + "=" + value;
-            }
-        }
+        return hexadecimal(hash(formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
+                                std::to_string(config.seed) + (config.simplify ? "/s" : "/") +
+                                (config.track ? "/t" : "/")));
+    }
+
+    std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner)
+    {
+        std::string text = fingerprint(config) + "\n" + experiment.name + "/" + experiment.digest + "/" +
+                           describe(experiment.options) + "\n" + planner.name + "/" + planner.planner;
+        for (const auto &[name, value] : planner.settings)
+            text += "/" + name + "=" + value;
         return hexadecimal(hash(text));
     }
 

@@ -49,9 +49,14 @@ namespace parking
     std::vector<Unit> planUnits(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                                 std::size_t shard = 0, std::size_t shards = 1);
 
-    /** \brief Tells comparisons apart: depends on scenarios, planners, their parameters, limits and seed, but not on
-        the number of runs, so that more can be added to what there is. */
-    std::string fingerprint(const BenchmarkConfig &config, const std::vector<Experiment> &experiments);
+    /** \brief Tells comparisons apart whose runs have nothing in common: depends on limits, seed and what is done with
+        each path. */
+    std::string fingerprint(const BenchmarkConfig &config);
+
+    /** \brief Tells runs of the same name apart: depends on the above, the scenario and how it is put, the planner and
+        its parameters, but not on the other planners or the number of runs, so that more can be added to what there
+        is. */
+    std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner);
 
     /** \brief A digest of a file's bytes; empty when it cannot be read. */
     std::string fileDigest(const std::string &file);

@@ -132,23 +132,30 @@ namespace parking
             throw Error(std::string(STATISTICS) + " is not installed; it comes with the Debian package ompl-demos");
     }
 
-    void makeDatabase(const std::vector<std::string> &logs, const std::string &database)
+    DatabaseWriter::DatabaseWriter(std::string database) : database_(std::move(database))
+    {
+        unfinished_.emplace(database_ + ".new");
+    }
+
+    DatabaseWriter::~DatabaseWriter()
+    {
+        std::error_code ignored;
+        if (unfinished_ && unfinished_->name() != database_)
+            std::filesystem::remove(unfinished_->name(), ignored);
+    }
+
+    void DatabaseWriter::write(const std::vector<std::string> &logs)
     {
         requireStatisticsProgram();
-        const std::string temporary = database + ".new." + std::to_string(getpid());
-        std::vector<std::string> command{STATISTICS, "-d", temporary};
-        command.insert(command.end(), logs.begin(), logs.end());
+        const std::string name = unfinished_->name();
+        unfinished_->cutTo(0);
         std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
+        std::filesystem::remove(name + "-journal", ignored);  // SQLite would put it into the new one
+        std::vector<std::string> command{STATISTICS, "-d", name};
+        command.insert(command.end(), logs.begin(), logs.end());
         const ProcessResult result = runProcess(command);
         if (result.status != 0)
-        {
-            std::filesystem::remove(temporary, ignored);
-            throw Error(database + ": " + STATISTICS + " failed: " + lastLine(result.errors));
-        }
-        std::error_code error;
-        std::filesystem::rename(temporary, database, error);
-        if (error)
-            throw Error(database + ": cannot be written: " + error.message());
+            throw Error(database_ + ": " + STATISTICS + " failed: " + lastLine(result.errors));
+        unfinished_->rename(database_);
     }
 }  // namespace parking

@@ -39,6 +39,8 @@ namespace parking
     json RunRecord::toJson() const
     {
         json text{{"experiment", experiment}, {"planner", planner}, {"parameters", parameters}};
+        if (!fingerprint.empty())
+            text["fingerprint"] = fingerprint;
         json &figures = text["figures"] = json::object();
         for (const RunColumn &column : runColumns())
             if (const std::optional<FigureValue> value = column.valueOf(*this))
@@ -63,6 +65,7 @@ namespace parking
         text.at("experiment").get_to(record.experiment);
         text.at("planner").get_to(record.planner);
         text.at("parameters").get_to(record.parameters);
+        record.fingerprint = text.value("fingerprint", "");
         const json &figures = text.at("figures");
         for (const char *key : {"run", "seed"})
             figures.at(key);  // which run it is must be there, all else may be missing

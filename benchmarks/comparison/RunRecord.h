@@ -27,6 +27,7 @@ namespace parking
         std::string planner;
         std::size_t run{0};
         std::uint32_t seed{0};
+        std::string fingerprint;  ///< of everything that it depends on; see ResultStore
 
         // How it ended.
         std::optional<PlanStatus> outcome;

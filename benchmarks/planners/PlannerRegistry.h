@@ -22,6 +22,7 @@ namespace parking
         bool optimizing{false};
         ompl::base::PlannerAllocator allocate;
         PlannerSettings settings;  ///< set on every instance before the user's
+        std::string library{};     ///< the file of the plug-in that it is from; empty for planners of the project
     };
 
     /** \brief The planners of the comparison by name.

@@ -29,13 +29,13 @@ namespace parking
         class Adder final : public PluginPlanners
         {
         public:
-            explicit Adder(PlannerRegistry &registry) : registry_(registry)
+            Adder(PlannerRegistry &registry, std::string library) : registry_(registry), library_(std::move(library))
             {
             }
 
             void add(const PluginPlanner &planner) override
             {
-                PlannerEntry entry{planner.name, planner.summary, planner.optimizing, {}, {}};
+                PlannerEntry entry{planner.name, planner.summary, planner.optimizing, {}, {}, library_};
                 if (planner.allocate)
                     entry.allocate = [allocate = planner.allocate, name = planner.name](
                                          const ompl::base::SpaceInformationPtr &si) -> ompl::base::PlannerPtr
@@ -56,6 +56,7 @@ namespace parking
 
         private:
             PlannerRegistry &registry_;
+            std::string library_;
             std::size_t count_{0};
         };
 
@@ -88,7 +89,7 @@ namespace parking
             if (plugin.omplVersion != OMPL_VERSION_VALUE)
                 throw Error("plug-in " + name + ": was built against OMPL " + dotted(plugin.omplVersion) +
                             ", this program against OMPL " + dotted(OMPL_VERSION_VALUE) + "; build it again");
-            Adder adder(registry);
+            Adder adder(registry, file.string());
             loaded.push_back(library);
             try
             {

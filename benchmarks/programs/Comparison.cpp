@@ -1,7 +1,6 @@
 #include "benchmarks/programs/Comparison.h"
 
 #include "benchmarks/comparison/ExperimentLog.h"
-#include "benchmarks/comparison/ResultStore.h"
 #include "benchmarks/comparison/UnitRunner.h"
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
@@ -22,9 +21,11 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <set>
 #include <system_error>
 
+#include <fnmatch.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -42,6 +43,23 @@ namespace parking
                 throw Error(folder + ": is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
             if (access(folder.c_str(), W_OK) != 0)
                 throw Error(folder + ": cannot be written: " + std::strerror(errno));
+        }
+
+        /** Files that somebody was killed over while writing them. */
+        void removeRemains(const fs::path &folder)
+        {
+            std::vector<fs::path> remains;
+            std::error_code ignored;
+            for (const fs::path &each : {folder, folder / "pictures", folder / "paths"})
+                for (const auto &entry : fs::directory_iterator(each, ignored))
+                {
+                    const std::string name = entry.path().filename().string();
+                    if (fnmatch("*.new.??????", name.c_str(), 0) == 0 || fnmatch(".report-*", name.c_str(), 0) == 0 ||
+                        fnmatch("benchmark.db.new[.-]*", name.c_str(), 0) == 0)
+                        remains.push_back(entry.path());
+                }
+            for (const fs::path &each : remains)
+                fs::remove(each, ignored);
         }
 
         std::string numberText(double value)
@@ -98,17 +116,14 @@ namespace parking
 
     json Comparison::header(const std::vector<std::string> &setups) const
     {
-        std::string program = fileDigest("/proc/self/exe");
-        for (const std::string &plugin : options_.plugins)
-            program += "+" + fileDigest(plugin);
         const std::string cpu = []
         {
             const QuietChildren quiet;
             return ompl::machine::getCPUInfo();
         }();
         json result{
-            {"fingerprint", fingerprint(config_, experiments_)},
-            {"program", program},
+            {"fingerprint", fingerprint(config_)},
+            {"fingerprints", fingerprints()},
             {"config", config_.file},
             {"host", ompl::machine::getHostname()},
             {"cpu", cpu},
@@ -124,44 +139,31 @@ namespace parking
         return result;
     }
 
-    void Comparison::setAside(const std::string &file) const
+    json Comparison::fingerprints() const
     {
-        const std::string old = (fs::path(folder_) / ("previous-" + fs::path(file).filename().string())).string();
-        std::error_code error;
-        fs::rename(file, old, error);
-        if (error)
-            throw Error(file + ": cannot be moved to " + old + ": " + error.message());
-        if (!options_.quiet)
-            std::cerr << "Runs of an earlier comparison were moved to " << old << std::endl;
+        const std::string program = fileDigest("/proc/self/exe");
+        std::map<std::string, std::string> libraries;
+        json result = json::object();
+        for (const Experiment &experiment : experiments_)
+            for (const std::size_t index : experiment.planners)
+            {
+                const PlannerSpec &planner = config_.planners[index];
+                const std::string &library = registry_.find(planner.planner).library;
+                if (!library.empty() && libraries.count(library) == 0)
+                    libraries[library] = "+" + fileDigest(library);
+                result[experiment.name][planner.name] =
+                    fingerprint(config_, experiment, planner) + "+" + program + libraries[library];
+            }
+        return result;
     }
 
-    void Comparison::makeRoom(const std::string &file, const json &newHeader, const std::vector<Unit> &units) const
+    void Comparison::openStore(const std::vector<std::string> &setups)
     {
-        std::error_code ignored;
-        if (!fs::exists(file, ignored) || fs::file_size(file, ignored) == 0)
-            return;
-        bool goesOn = false;
-        try
-        {
-            const auto [oldHeader, oldRecords] = ResultStore::read(file);
-            std::set<std::tuple<std::string, std::string, std::size_t>> done;
-            for (const RunRecord &record : oldRecords)
-                done.insert({record.experiment, record.planner, record.run});
-            const bool complete =
-                std::all_of(units.begin(), units.end(),
-                            [&](const Unit &unit) {
-                                return done.count({experiments_[unit.experiment].name,
-                                                   config_.planners[unit.planner].name, unit.run}) > 0;
-                            });
-            goesOn = !options_.fresh && !complete && oldHeader.at("fingerprint") == newHeader.at("fingerprint") &&
-                     oldHeader.value("program", "") == newHeader.at("program");
-        }
-        catch (const Error &)
-        {
-            // Something that is no file of results makes room, too.
-        }
-        if (!goesOn)
-            setAside(file);
+        store_ = std::make_unique<ResultStore>(runsFile(), header(setups), options_.fresh);
+        if (!store_->setAside().empty() && !options_.quiet)
+            std::cerr << "Runs of an earlier comparison were moved to " << store_->setAside() << std::endl;
+        if (!store_->damage().empty())
+            std::cerr << "parking_benchmark: " << store_->damage() << std::endl;
     }
 
     bool Comparison::run(const std::atomic<bool> &stop)
@@ -172,20 +174,19 @@ namespace parking
         std::vector<std::string> setups;
         for (std::size_t i = 0; i < experiments_.size(); ++i)
             setups.push_back(runner.setupText(i));
-        const json newHeader = header(setups);
+        openStore(setups);
         const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
-        const std::string file = runsFile();
-        makeRoom(file, newHeader, units);
-        ResultStore store(file, newHeader, false);
         std::vector<Unit> left;
         std::vector<std::string> names;
         for (const Unit &unit : units)
-            if (!store.has(experiments_[unit.experiment].name, config_.planners[unit.planner].name, unit.run))
+            if (!store_->has(experiments_[unit.experiment].name, config_.planners[unit.planner].name, unit.run))
             {
                 left.push_back(unit);
                 names.push_back(config_.planners[unit.planner].name);
             }
-        if (!options_.quiet && left.size() < units.size())
+        if (!options_.quiet && left.empty())
+            std::cerr << "All " << units.size() << " runs are already finished; --fresh does them again" << std::endl;
+        else if (!options_.quiet && left.size() < units.size())
             std::cerr << "Going on: " << units.size() - left.size() << " of " << units.size()
                       << " runs are already finished" << std::endl;
         Progress progress(names, config_.timeLimit, options_.quiet);
@@ -199,7 +200,7 @@ namespace parking
             RunRecord record = runner.run(unit);
             if (stop)
                 return false;
-            store.add(std::move(record));
+            store_->add(std::move(record));
             progress.end(planner, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
         return true;
@@ -235,34 +236,57 @@ namespace parking
         return files;
     }
 
+    bool Comparison::isWanted(const RunRecord &record) const
+    {
+        if (record.run >= config_.runCount)
+            return false;
+        for (const Experiment &experiment : experiments_)
+            if (experiment.name == record.experiment)
+                for (const std::size_t index : experiment.planners)
+                    if (config_.planners[index].name == record.planner)
+                    {
+                        // Machines may have programs of their own; the rest of a fingerprint tells those apart.
+                        const std::string wanted = fingerprint(config_, experiment, config_.planners[index]) + "+";
+                        return record.fingerprint.compare(0, wanted.size(), wanted) == 0;
+                    }
+        return false;
+    }
+
     void Comparison::gather()
     {
-        records_.clear();
-        const std::string wanted = fingerprint(config_, experiments_);
-        std::set<std::tuple<std::string, std::string, std::size_t>> known;
+        std::map<std::tuple<std::string, std::string, std::size_t>, RunRecord> known;
         std::set<std::string> hosts;
         header_ = nullptr;
-        for (const std::string &file : inputs())
+        const auto take = [&](const json &header, const std::vector<RunRecord> &records)
         {
-            auto [fileHeader, fileRecords] = ResultStore::read(file);
-            if (fileHeader.value("fingerprint", "") != wanted)
-                throw Error(file + ": holds the runs of another comparison than " + config_.file +
-                            " with these options (configuration, scenarios, limits or seed differ)");
-            hosts.insert(fileHeader.value("host", "unknown"));
-            if (header_.is_null() || fileHeader.value("started", 0.0) < header_.value("started", 0.0))
-                header_ = fileHeader;
-            for (RunRecord &record : fileRecords)
-                if (known.insert({record.experiment, record.planner, record.run}).second &&
-                    record.run < config_.runCount)
-                    records_.push_back(std::move(record));
-        }
+            hosts.insert(header.value("host", "unknown"));
+            if (header_.is_null() || header.value("started", 0.0) < header_.value("started", 0.0))
+                header_ = header;
+            for (const RunRecord &record : records)
+                if (isWanted(record))
+                    known.emplace(std::make_tuple(record.experiment, record.planner, record.run), record);
+        };
+        if (store_)
+            take(store_->header(), store_->records());
+        else
+            for (const std::string &file : inputs())
+            {
+                StoredResults stored = ResultStore::read(file);
+                if (!stored.damage.empty())
+                    std::cerr << "parking_benchmark: " << stored.damage << std::endl;
+                if (!stored.records.empty() && std::none_of(stored.records.begin(), stored.records.end(),
+                                                            [this](const RunRecord &each) { return isWanted(each); }))
+                    throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                                " with these options (configuration, scenarios, limits or seed differ)");
+                take(stored.header, stored.records);
+            }
         std::string names;
         for (const std::string &host : hosts)
             names += (names.empty() ? "" : "+") + host;
         header_["host"] = names;
-        std::sort(records_.begin(), records_.end(),
-                  [](const RunRecord &a, const RunRecord &b)
-                  { return std::tie(a.experiment, a.planner, a.run) < std::tie(b.experiment, b.planner, b.run); });
+        records_.clear();
+        for (auto &[key, record] : known)
+            records_.push_back(std::move(record));
     }
 
     void Comparison::writeExperiment(const Experiment &experiment, ComparisonFiles &files) const
@@ -312,6 +336,9 @@ namespace parking
         const auto summaryRows = summarize(config_, experiments_, records_);
         summary_ = summaryText(summaryRows);
         std::size_t expected = 0;
+        files.database = (folder / "benchmark.db").string();
+        DatabaseWriter database(files.database);  // first, as it keeps others from writing here
+        removeRemains(folder);
         makeFolder((folder / "pictures").string());
         if (config_.savePaths != SavePaths::None)
             makeFolder((folder / "paths").string());
@@ -321,8 +348,7 @@ namespace parking
             writeExperiment(experiment, files);
         }
         files.missing = expected - std::min(expected, records_.size());
-        files.database = (folder / "benchmark.db").string();
-        makeDatabase(files.logs, files.database);
+        database.write(files.logs);
         files.table = (folder / "summary.md").string();
         writeFileAtomically(files.table, summaryMarkdown(summaryRows));
         files.csv = (folder / "summary.csv").string();

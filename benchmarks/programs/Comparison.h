@@ -1,6 +1,7 @@
 #pragma once
 
 #include "benchmarks/comparison/Experiment.h"
+#include "benchmarks/comparison/ResultStore.h"
 #include "benchmarks/comparison/RunRecord.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/programs/BenchmarkOptions.h"
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,14 +37,17 @@ namespace parking
         Comparison(const BenchmarkOptions &options, const PlannerRegistry &registry);
 
         /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
-            configuration count. Makes the output folder, once all settings are found to be right. A finished or
-            different comparison in the same folder is set aside first.
+            configuration count, also when other planners have changed since. Makes the output folder, once all settings
+            are found to be right. From then on until the end no other process can write the file of runs; one of a
+            different comparison is set aside.
 
             \param stop once true, ends before the next run
             \return whether all are done. Throws parking::Error. */
         bool run(const std::atomic<bool> &stop);
 
-        /** \brief Puts the finished runs together: logs, database, tables, pictures, report. Throws parking::Error. */
+        /** \brief Puts the finished runs together: logs, database, tables, pictures, report. Each replaces what was
+            there once it is whole, so that it can be done again at any time; what killed processes have left unfinished
+            goes away. Throws parking::Error, also while another process does the same in the folder. */
         ComparisonFiles write();
 
         const BenchmarkConfig &config() const
@@ -65,11 +70,12 @@ namespace parking
     private:
         nlohmann::json header(const std::vector<std::string> &setups) const;
         std::vector<std::string> inputs() const;
+        /** By experiment and planner: of everything that its runs depend on, the program included. */
+        nlohmann::json fingerprints() const;
+        void openStore(const std::vector<std::string> &setups);
+        /** Is it one of this comparison's, whatever program did it? */
+        bool isWanted(const RunRecord &record) const;
         void gather();
-        void setAside(const std::string &file) const;
-        /** Sets the file of an earlier start aside when that was finished, or was something else; what was interrupted
-            stays and goes on. */
-        void makeRoom(const std::string &file, const nlohmann::json &newHeader, const std::vector<Unit> &units) const;
         /** Log, paths and picture. */
         void writeExperiment(const Experiment &experiment, ComparisonFiles &files) const;
 
@@ -78,6 +84,7 @@ namespace parking
         BenchmarkConfig config_;
         std::vector<Experiment> experiments_;
         std::string folder_;
+        std::unique_ptr<ResultStore> store_;
         nlohmann::json header_;
         std::vector<RunRecord> records_;
         std::string summary_;

@@ -55,6 +55,7 @@ class Results:
     time_limit: float = math.nan
     rechecked: bool = True
     sources: list = dataclasses.field(default_factory=list)
+    damage: list = dataclasses.field(default_factory=list)    # one line for each file with lines that are none
 
     def of(self, problem, planner):
         return self._index().get((problem, planner), [])
@@ -130,53 +131,67 @@ def _plain(name):
     return name.replace('_', ' ')
 
 
+def _take_header(results, file, record, fingerprints):
+    if record['parking_benchmark'] != FORMAT:
+        raise ReportError(f'{file}: was written by another version of parking_benchmark')
+    started = float(record.get('started', 0.0))
+    fingerprints[file] = str(record.get('fingerprint', ''))
+    if results.started is None or started < results.started:
+        results.started = started
+    hosts = results.host.split('+') if results.host else []
+    host = str(record.get('host', 'unknown'))
+    results.host = '+'.join(hosts if host in hosts else hosts + [host])
+    results.machine = str(record.get('machine', ''))
+    results.cpu = str(record.get('cpu', ''))
+    results.config = str(record.get('config', ''))
+    results.seed = str(record.get('seed', ''))
+    results.time_limit = number(record.get('time_limit'))
+    results.setups.update(record.get('setups', {}))
+
+
+def _run_of(record):
+    figures = {name: number(value) for name, value in {**record['reported'], **record['figures']}.items()}
+    run = Run(str(record['experiment']), str(record['planner']), int(figures['run']), int(figures['seed']), figures,
+              [(float(time), float(cost)) for time, cost in record['progress']], record.get('path'))
+    judge(run)
+    return run, dict(record['parameters'])
+
+
 def _read_runs_file(results, file, known, fingerprints):
     try:
-        with open(file, encoding='utf-8') as stream:
-            text = stream.read()
-    except (OSError, UnicodeDecodeError) as error:
-        raise ReportError(f'{file}: cannot be read: {getattr(error, "strerror", None) or "is not text"}') from error
-    lines = text.split('\n')
+        with open(file, encoding='utf-8', errors='replace', newline='\n') as stream:
+            lines = stream.read().split('\n')
+    except OSError as error:
+        raise ReportError(f'{file}: cannot be read: {error.strerror}') from error
     lines.pop()  # empty, or cut short when the program was interrupted
-    if not lines:
-        raise ReportError(f'{file}: is not a file of benchmark results')
+    header, runs, damage = {}, [], []
     for count, line in enumerate(lines, 1):
         try:
             record = json.loads(line)
-            if count == 1:
-                if record['parking_benchmark'] != FORMAT:
-                    raise ValueError('written by another version')
-                fingerprints[str(record.get('fingerprint', ''))] = file
-                if len(fingerprints) > 1:
-                    others = ' and '.join(fingerprints.values())
-                    raise ReportError(f'{others}: hold the runs of different comparisons; name those that belong '
-                                      'together with --runs')
-                started = float(record.get('started', 0.0))
-                if results.started is None or started < results.started:
-                    results.started = started
-                hosts = results.host.split('+') if results.host else []
-                host = str(record.get('host', 'unknown'))
-                results.host = '+'.join(hosts if host in hosts else hosts + [host])
-                results.machine = str(record.get('machine', ''))
-                results.cpu = str(record.get('cpu', ''))
-                results.config = str(record.get('config', ''))
-                results.seed = str(record.get('seed', ''))
-                results.time_limit = number(record.get('time_limit'))
-                results.setups.update(record.get('setups', {}))
-                continue
-            names = (str(record['experiment']), str(record['planner']))
-            figures = {name: number(value) for name, value in {**record['reported'], **record['figures']}.items()}
-            key = (*names, int(figures['run']))
-            run = Run(*key, int(figures['seed']), figures,
-                      [(float(time), float(cost)) for time, cost in record['progress']], record.get('path'))
-            judge(run)
-            results.settings.setdefault(run.planner, dict(record['parameters']))
-        except ReportError:
-            raise
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise ReportError(f'{file}:{count}: is not a line of benchmark results ({_one_line(error)})') from error
+            if 'parking_benchmark' in record:
+                _take_header(results, file, record, fingerprints)
+                header = record
+            else:
+                runs.append((*_run_of(record), str(record.get('fingerprint', ''))))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+            damage.append(f'{file}:{count}: is not a line of benchmark results ({_one_line(error)})')
+    if not header and not runs:
+        raise ReportError(damage[0] if damage else f'{file}: is not a file of benchmark results')
+    if len(set(fingerprints.values())) > 1:
+        raise ReportError(f'{" and ".join(fingerprints)}: hold the runs of different comparisons; name those that '
+                          'belong together with --runs')
+    if damage:
+        more = f'it and {len(damage) - 1} more are' if len(damage) > 1 else 'it is'
+        results.damage.append(f'{damage[0]}; {more} left out')
+    # The last header says which runs are of use; those of planners that are gone or changed stay in the file.
+    wanted = header.get('fingerprints')
+    for run, parameters, fingerprint in runs:
+        if wanted is not None and wanted.get(run.problem, {}).get(run.planner) != fingerprint:
+            continue
+        key = (run.problem, run.planner, run.number)
         if key not in known:
             known.add(key)
+            results.settings.setdefault(run.planner, parameters)
             results.runs.append(run)
     results.sources.append(file)
 

@@ -5,16 +5,15 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
 
 namespace parking
 {
@@ -36,38 +35,57 @@ namespace parking
         for (const std::string &each : command)
             arguments.push_back(const_cast<char *>(each.c_str()));
         arguments.push_back(nullptr);
-        std::array<int, 2> errors{};
+        std::array<int, 2> errors{}, failure{};
+        const auto refuse = [&command](int error)
+        {
+            throw Error(command.front() + ": cannot be started: " + std::strerror(error));
+        };
         if (pipe2(errors.data(), O_CLOEXEC) != 0)
-            throw Error(command.front() + ": cannot be started: " + std::strerror(errno));
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
-        pid_t child = 0;
-        const int failure = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-        posix_spawn_file_actions_destroy(&actions);
+            refuse(errno);
+        if (pipe2(failure.data(), O_CLOEXEC) != 0)
+        {
+            const int error = errno;
+            close(errors[0]);
+            close(errors[1]);
+            refuse(error);
+        }
+        const pid_t self = getpid(), child = fork();
+        if (child == 0)
+        {
+            // It must not go on writing when this process was killed and its successor writes the same.
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            if (getppid() != self)
+                _exit(EXIT_FAILURE);
+            const int nothing = open("/dev/null", O_RDWR);
+            if (dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
+                dup2(errors[1], STDERR_FILENO) >= 0)
+                execvp(arguments.front(), arguments.data());
+            const int error = errno;
+            _exit(write(failure[1], &error, sizeof error) > 0 ? EXIT_FAILURE : EXIT_FAILURE + 1);
+        }
+        int error = child < 0 ? errno : 0;
         close(errors[1]);
+        close(failure[1]);
         ProcessResult result;
-        if (failure == 0)
+        std::array<char, 4096> buffer{};
+        while (child > 0)
         {
-            std::array<char, 4096> buffer{};
-            for (;;)
-            {
-                const ssize_t count = read(errors[0], buffer.data(), buffer.size());
-                if (count > 0)
-                    result.errors.append(buffer.data(), static_cast<std::size_t>(count));
-                else if (count == 0 || errno != EINTR)
-                    break;
-            }
+            const ssize_t count = read(errors[0], buffer.data(), buffer.size());
+            if (count > 0)
+                result.errors.append(buffer.data(), static_cast<std::size_t>(count));
+            else if (count == 0 || errno != EINTR)
+                break;
         }
+        if (child > 0 && read(failure[0], &error, sizeof error) < static_cast<ssize_t>(sizeof error))
+            error = 0;
         close(errors[0]);
-        if (failure != 0)
-            throw Error(command.front() + ": cannot be started: " + std::strerror(failure));
+        close(failure[0]);
         int status = 0;
-        while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
         {
         }
+        if (error != 0)
+            refuse(error);
         result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         return result;
     }

@@ -94,7 +94,7 @@ namespace parking
         if (!folder.empty() && !fs::is_directory(folder, ignored))
             throw Error(file + ": cannot be written: there is no folder " + folder.string());
 
-        std::string temporary = target + ".XXXXXX";
+        std::string temporary = target + ".new.XXXXXX";
         const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
         if (descriptor < 0)
             fail(file, errno);

@@ -139,26 +139,29 @@ namespace
         EXPECT_NE(seedOf(set, experiments, {0, 0, 0}), seedOf(other, experiments, {0, 0, 0}));
     }
 
-    TEST_F(ExperimentTest, TheFingerprintTellsDifferentComparisonsApart)
+    TEST_F(ExperimentTest, TheFingerprintTellsDifferentRunsApart)
     {
+        // Of the first planner on the first problem.
         const auto print = [this](const std::string &planners, const std::string &scenarios = "scenario = *.yaml\n",
                                   const std::string &benchmark = "run_count = 10\n")
         {
             const BenchmarkConfig set = config(planners, scenarios, benchmark);
-            return fingerprint(set, planExperiments(set));
+            return fingerprint(set, planExperiments(set).front(), set.planners.front());
         };
         const std::string same = print("prm=\n");
         EXPECT_EQ(print("prm=\n"), same);
         EXPECT_EQ(print("prm=\n", "scenario = *.yaml\n", "run_count = 20\noutput = elsewhere\n"), same);
         EXPECT_NE(print("prm=\nprm.max_nearest_neighbors=3\n"), same);
-        EXPECT_NE(print("prm=\nrrt=\n"), same);
+        EXPECT_EQ(print("prm=\nrrt=\n"), same);
+        EXPECT_NE(print("rrt=\n"), same);
         EXPECT_NE(print("prm=\nprm.name=x\n"), same);
-        EXPECT_NE(print("prm=\n", "scenario = a.yaml\n"), same);
+        EXPECT_EQ(print("prm=\n", "scenario = a.yaml\n"), same);
+        EXPECT_NE(print("prm=\n", "scenario = b.yaml\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\nspace = dubins\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "time_limit = 1\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "seed = 2\n"), same);
         EXPECT_NE(print("prm=\n", "scenario = *.yaml\n", "track = 1\n"), same);
-        folder_.write("b.yaml", "start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: [[[4, 4], [5, 4], [5, 5]]]\n");
+        folder_.write("a.yaml", "start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: [[[4, 4], [5, 4], [5, 5]]]\n");
         EXPECT_NE(print("prm=\n"), same);  // another obstacle
     }
 

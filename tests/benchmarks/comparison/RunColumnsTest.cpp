@@ -175,7 +175,7 @@ namespace
         {
             GTEST_SKIP() << error.what();
         }
-        makeDatabase({folder.write("garage.log", log)}, database);
+        DatabaseWriter(database).write({folder.write("garage.log", log)});
         const ProcessResult rows =
             runProcess({"python3", "-c",
                         "import sqlite3, sys\n"

@@ -238,16 +238,25 @@ class GoingOn(BenchmarkTest):
         self.assertIn('Going on: %d of %d' % (RUNS // 2, RUNS), done.stderr)
         self.assertTrue(self.read('out/runs.jsonl').startswith(before))
 
-    def test_what_is_finished_or_different_is_set_aside(self):
+    def test_what_is_finished_is_not_done_again(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        first = self.read('out/runs.jsonl')
-        for extra in (['--runs', 1], ['--runs', 1, '--seed', 9], ['--runs', 2, '--fresh']):
+        before = self.read('out/runs.jsonl')
+        os.remove(self.path('out/benchmark.db'))
+        done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1)
+        self.assertIn('All %d runs are already finished; --fresh' % (RUNS // 2), done.stderr)
+        self.assertEqual(self.read('out/runs.jsonl'), before)
+        self.assertTrue(os.path.exists(self.path('out/benchmark.db')))
+
+    def test_what_is_different_is_set_aside(self):
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
+        for extra, aside in ((['--runs', 1, '--seed', 9], 'previous-runs.jsonl'),
+                             (['--runs', 2, '--fresh', '--seed', 9], 'previous-runs-2.jsonl'),
+                             (['--runs', 1], 'previous-runs-3.jsonl')):
             with self.subTest(extra):
                 old = self.read('out/runs.jsonl')
                 done = self.benchmark('set.cfg', '--output', 'out', *extra)
-                self.assertIn('previous-runs.jsonl', done.stderr)
-                self.assertEqual(self.read('out/previous-runs.jsonl'), old)
-        self.assertNotEqual(self.read('out/runs.jsonl'), first)
+                self.assertIn('out/' + aside, done.stderr)
+                self.assertEqual(self.read('out/' + aside), old)
 
     def test_two_at_a_time_are_refused(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')

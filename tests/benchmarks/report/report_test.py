@@ -273,17 +273,26 @@ class BadInputTest(Folder):
     def test_empty_folder(self):
         self.assertIn('holds no results', self.refused(self.folder))
 
-    def test_broken_line_is_named(self):
-        made_results.write(self.folder, [record('a', 'p', 0, 'none')])
-        with open(self.path('runs.jsonl'), 'a', encoding='utf-8') as stream:
-            stream.write('{"experiment": "a"}\n')
-        self.assertIn("runs.jsonl:3: is not a line of benchmark results (no 'planner')", self.refused(self.folder))
+    def test_damaged_lines_are_named_and_left_out(self):
+        for wrong in (b'{"experiment": "a"}', b'[1]', b'3', b'null', b'{', b'\xff\0', b'[' * 100000,
+                      b'{"experiment": 1, "planner": 2, "run": "x"}'):
+            made_results.write(self.folder, [record('a', 'p', 0, 'none')])
+            with open(self.path('runs.jsonl'), 'ab') as stream:
+                stream.write(wrong + b'\n' + json.dumps(record('a', 'p', 1, 'none')).encode() + b'\n')
+            results = read_results(self.folder)
+            self.assertEqual([run.number for run in results.runs], [0, 1])
+            self.assertEqual(len(results.damage), 1)
+            self.assertIn('runs.jsonl:3: is not a line of benchmark results (', results.damage[0])
+        done = make_report(self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, f'make_report: {results.damage[0]}\n'))
 
-    def test_lines_of_wrong_types(self):
-        for wrong in ('[1]', '3', 'null', '{"experiment": 1, "planner": 2, "run": "x"}', '{'):
-            with open(self.path('runs.jsonl'), 'w', encoding='utf-8') as stream:
-                stream.write(json.dumps(made_results.HEADER) + '\n' + wrong + '\n')
-            self.assertIn('runs.jsonl:2: ', self.refused(self.folder))
+    def test_runs_that_the_last_start_did_not_want_are_left_out(self):
+        def marked(planner, run, fingerprint):
+            return dict(record('a', planner, run, 'none'), fingerprint=fingerprint)
+        made_results.write(self.folder, [marked('p', 0, '1'), marked('q', 0, '2'),
+                                         dict(made_results.HEADER, fingerprints={'a': {'p': '1', 'q': '3'}}),
+                                         marked('q', 0, '3'), marked('gone', 0, '4')])
+        self.assertEqual([(run.planner, run.number) for run in read_results(self.folder).runs], [('p', 0), ('q', 0)])
 
     def test_other_files(self):
         for content in (b'', b'no newline', b'{}\n', b'\xff\xfe\n', b'{"parking_benchmark": 1}\n'):
