@@ -34,6 +34,8 @@ namespace parking
             add("track", "drive the path with the model predictive controller");
             add("json", oneValue("FILE|-"), "write the result, - to standard output");
             add("svg", oneValue("FILE"), "draw the result");
+            add("csv", oneValue("FILE"),
+                "with --trajectory: write it as a table, t,x,y,yaw,v,a,steering,steering_rate");
             add("html", oneValue("FILE"), "with --track: a page that shows the drive");
             add("plugin", manyValues("LIB.so"), "load planners from a library");
             add("help", "this text");
@@ -71,6 +73,9 @@ namespace parking
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");
         result.html = line.outputFile("html").value_or("");
+        result.csv = line.outputFile("csv").value_or("");
+        if (line.given("csv") && !result.trajectory)
+            throw Error("--csv writes the trajectory and needs --trajectory");
         if (line.given("html") && !result.track)
             throw Error("--html shows the drive and needs --track");
         return result;

@@ -28,6 +28,7 @@ namespace parking
         bool track{false};
         std::string json;  ///< file, "-" for standard output, empty for none
         std::string svg;
+        std::string csv;   ///< with trajectory only
         std::string html;  ///< with track only
         std::vector<std::string> plugins;
     };

@@ -342,6 +342,21 @@ namespace parking
         result.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     }
 
+    Trajectory resultTrajectory(const Problem &problem, const PlanResult &result)
+    {
+        if (!result.trajectory)
+            return {};
+        const Scenario &scenario = problem.scenario();
+        Trajectory trajectory = sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP);
+        for (TrajectoryPoint &point : trajectory)
+        {
+            const Pose pose = scenario.toWorld({point.x, point.y, point.yaw});
+            point.x = pose.x;
+            point.y = pose.y;
+        }
+        return trajectory;
+    }
+
     void addDrive(const Problem &problem, PlanResult &result)
     {
         const PlanRun &run = result.first();

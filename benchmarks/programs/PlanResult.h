@@ -54,6 +54,10 @@ namespace parking
     /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result. */
     void addTrajectory(const Problem &problem, PlanResult &result);
 
+    /** \brief The optimised trajectory in samples, in the coordinates of the scenario's file; empty if there is none.
+     */
+    Trajectory resultTrajectory(const Problem &problem, const PlanResult &result);
+
     /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
     void addDrive(const Problem &problem, PlanResult &result);
 

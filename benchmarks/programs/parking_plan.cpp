@@ -40,6 +40,8 @@ namespace
             requireWritable(options.json);
         if (!options.svg.empty())
             requireWritable(options.svg);
+        if (!options.csv.empty())
+            requireWritable(options.csv);
         if (!options.html.empty())
             requireWritable(options.html);
 
@@ -56,6 +58,8 @@ namespace
 
         if (!options.svg.empty())
             writeFileAtomically(options.svg, resultSvg(problem, result));
+        if (!options.csv.empty() && result.trajectory)
+            writeFileAtomically(options.csv, toCsv(resultTrajectory(problem, result)));
         if (!options.html.empty() && result.drive)
             writeFileAtomically(options.html, resultHtml(problem, result));
         if (!options.json.empty())

@@ -56,6 +56,16 @@ class TrajectoryTest(ProgramTest):
         first, second = (self.planned(bundled('parallel'), '--trajectory') for _ in range(2))
         self.assertEqual(first['planned_trajectory'], second['planned_trajectory'])
 
+    def test_the_table_holds_what_the_json_holds(self):
+        result = self.planned(bundled('parallel'), '--trajectory', '--csv', self.path('a.csv'))
+        lines = self.read('a.csv').splitlines()
+        self.assertEqual(lines[0], 't,x,y,yaw,v,a,steering,steering_rate')
+        self.assertEqual(len(lines) - 1, len(result['planned_trajectory']))
+        for line, sample in zip(lines[1:], result['planned_trajectory']):
+            fields = ('t', 'x', 'y', 'yaw', 'v', 'acceleration', 'steering', 'steering_rate')
+            self.assertEqual([float(text) for text in line.split(',')], [sample[field] for field in fields])
+        self.refused_plan(bundled('parallel'), '--csv', 'a.csv', parts=['--trajectory'])
+
     def test_paths_that_no_car_can_drive_are_refused_in_one_line(self):
         result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
         self.assertEqual(result['planned_trajectory'], [])
