@@ -23,16 +23,27 @@ namespace parking
     bool crossesItself(const Polygon &polygon)
     {
         const std::size_t count = polygon.size();
+        // Sides by where they begin in x: only those that begin before a side ends can cross it.
+        struct Side
+        {
+            double left, right;
+            std::size_t at;
+        };
+        std::vector<Side> sides(count);
         for (std::size_t i = 0; i < count; ++i)
         {
-            const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % count];
-            const double left = std::min(a.x(), b.x()), right = std::max(a.x(), b.x());
+            const double x = polygon[i].x(), next = polygon[(i + 1) % count].x();
+            sides[i] = {std::min(x, next), std::max(x, next), i};
+        }
+        std::sort(sides.begin(), sides.end(), [](const Side &a, const Side &b) { return a.left < b.left; });
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Eigen::Vector2d &a = polygon[sides[i].at], &b = polygon[(sides[i].at + 1) % count];
             const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
-            for (std::size_t k = i + 2; k < count; ++k)
+            for (std::size_t k = i + 1; k < count && sides[k].left <= sides[i].right; ++k)
             {
-                const Eigen::Vector2d &c = polygon[k], &d = polygon[(k + 1) % count];
-                if (std::max(c.x(), d.x()) < left || std::min(c.x(), d.x()) > right || std::max(c.y(), d.y()) < low ||
-                    std::min(c.y(), d.y()) > high)
+                const Eigen::Vector2d &c = polygon[sides[k].at], &d = polygon[(sides[k].at + 1) % count];
+                if (std::max(c.y(), d.y()) < low || std::min(c.y(), d.y()) > high)
                     continue;
                 const double acd = turn(a, c, d), bcd = turn(b, c, d), abc = turn(a, b, c), abd = turn(a, b, d);
                 if (((acd > 0.0 && bcd < 0.0) || (acd < 0.0 && bcd > 0.0)) &&

@@ -12,12 +12,15 @@ namespace parking
         /** Nothing with wheels that parks is longer; a larger number means millimetres, and an error beats a planner
             that reports "infeasible". */
         constexpr double LONGEST = 50.0;
+        /** Below it rounding is as large as the car: OMPL's curves fail their own checks. */
+        constexpr double SHORTEST = 0.01;
+        constexpr double TIGHTEST_TURN = 0.01, WIDEST_TURN = 1000.0;  // metres
 
         void checkLength(const Require &require, const char *field, double value, bool zeroAllowed)
         {
-            const bool ok = std::isfinite(value) && (zeroAllowed ? value >= 0.0 : value > 0.0) && value <= LONGEST;
+            const bool ok = std::isfinite(value) && value >= (zeroAllowed ? 0.0 : SHORTEST) && value <= LONGEST;
             require.that(ok, field, value,
-                         zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres above 0 and up to 50");
+                         zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres from 0.01 to 50");
         }
     }  // namespace
 
@@ -56,6 +59,10 @@ namespace parking
         require.that(std::isfinite(maxSteeringAngle) && maxSteeringAngle > 0.0 && maxSteeringAngle < 0.5 * PI,
                      "max_steering_angle", maxSteeringAngle,
                      "a number of radians above 0 and below 1.5708 (90 degrees)");
+        const double radius = minTurningRadius();
+        require.that(radius >= TIGHTEST_TURN && radius <= WIDEST_TURN, "max_steering_angle", maxSteeringAngle,
+                     "an angle that turns the car round a circle with a radius of 0.01 to 1000 m, not " +
+                         formatNumber(radius) + " m");
         require.positive("max_speed", maxSpeed, "m/s");
         require.positive("max_acceleration", maxAcceleration, "m/s^2");
         require.positive("max_steering_rate", maxSteeringRate, "rad/s");

@@ -59,7 +59,8 @@ namespace parking
             (counter-clockwise). */
         std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
 
-        /** \brief Throws parking::Error naming the first field that is not finite or out of its range. */
+        /** \brief Throws parking::Error naming the first field that is not finite or out of its range: lengths up to
+            50 m, wheelbase and width from 1 cm, a turning radius of 1 cm to 1 km. */
         void validate() const;
     };
 

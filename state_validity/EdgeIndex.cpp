@@ -35,6 +35,28 @@ namespace parking
             return dx * dx + dy * dy;
         }
 
+        /** The distance between the oriented box and an edge with this unit normal; 0 when they cross. */
+        double distanceTo(const OrientedBox &box, const Edge &edge, const Eigen::Vector2d &normal)
+        {
+            const double c = box.cosine, s = box.sine, hx = box.halfLength, hy = box.halfWidth;
+            const double dax = edge.from.x() - box.x, day = edge.from.y() - box.y;
+            const double dbx = edge.to.x() - box.x, dby = edge.to.y() - box.y;
+            const double ax = c * dax + s * day, ay = c * day - s * dax;
+            const double bx = c * dbx + s * dby, by = c * dby - s * dbx;
+            const double nx = c * normal.x() + s * normal.y(), ny = c * normal.y() - s * normal.x();
+            const double gapX = std::max(std::min(ax, bx), -std::max(ax, bx)) - hx;
+            const double gapY = std::max(std::min(ay, by), -std::max(ay, by)) - hy;
+            const double gapN = std::abs(nx * ax + ny * ay) - hx * std::abs(nx) - hy * std::abs(ny);
+            if (std::max(std::max(gapX, gapY), gapN) <= 0.0)
+                return 0.0;
+            // Apart: the distance is between a corner of the one and the other as a whole.
+            double square = std::min(squaredDistanceToBox(ax, ay, hx, hy), squaredDistanceToBox(bx, by, hx, hy));
+            for (const double cx : {-hx, hx})
+                for (const double cy : {-hy, hy})
+                    square = std::min(square, squaredDistanceToSegment(cx, cy, ax, ay, bx, by));
+            return std::sqrt(square);
+        }
+
         std::size_t clampTo(double value, std::size_t count)
         {
             return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count - 1)));
@@ -363,7 +385,6 @@ namespace parking
 
     double EdgeIndex::distance(const OrientedBox &box) const
     {
-        const double c = box.cosine, s = box.sine, hx = box.halfLength, hy = box.halfWidth;
         double smallest = INFINITE;
         for (const Block &block : near(box.x, box.y).blocks)
         {
@@ -372,23 +393,26 @@ namespace parking
             for (std::size_t i = 0; i < block.edges; ++i)
             {
                 const auto k = static_cast<Eigen::Index>(i);
-                const double dax = block.ax[k] - box.x, day = block.ay[k] - box.y;
-                const double dbx = block.bx[k] - box.x, dby = block.by[k] - box.y;
-                const double ax = c * dax + s * day, ay = c * day - s * dax;
-                const double bx = c * dbx + s * dby, by = c * dby - s * dbx;
-                const double nx = c * block.nx[k] + s * block.ny[k], ny = c * block.ny[k] - s * block.nx[k];
-                const double gapX = std::max(std::min(ax, bx), -std::max(ax, bx)) - hx;
-                const double gapY = std::max(std::min(ay, by), -std::max(ay, by)) - hy;
-                const double gapN = std::abs(nx * ax + ny * ay) - hx * std::abs(nx) - hy * std::abs(ny);
-                if (std::max(std::max(gapX, gapY), gapN) <= 0.0)
-                    return 0.0;
-                // Apart: the distance is between a corner of the one and the other as a whole.
-                double square = std::min(squaredDistanceToBox(ax, ay, hx, hy), squaredDistanceToBox(bx, by, hx, hy));
-                for (const double cx : {-hx, hx})
-                    for (const double cy : {-hy, hy})
-                        square = std::min(square, squaredDistanceToSegment(cx, cy, ax, ay, bx, by));
-                smallest = std::min(smallest, std::sqrt(square));
+                smallest = std::min(smallest, distanceTo(box, {{block.ax[k], block.ay[k]}, {block.bx[k], block.by[k]}},
+                                                         {block.nx[k], block.ny[k]}));
             }
+        }
+        return smallest;
+    }
+
+    double EdgeIndex::distanceToAll(const OrientedBox &box) const
+    {
+        const double circumradius = std::hypot(box.halfLength, box.halfWidth);
+        double smallest = INFINITE;
+        for (const Edge &edge : edges_)
+        {
+            const double square =
+                squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
+            const double ignored = smallest + circumradius;
+            if (square >= ignored * ignored)
+                continue;
+            const Eigen::Vector2d along = (edge.to - edge.from).normalized();
+            smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
         }
         return smallest;
     }

@@ -52,7 +52,10 @@ namespace parking
             Infinite when no edge is within reach. */
         double distance(const OrientedBox &box) const;
 
-        /** \brief The same for the point (x, y). */
+        /** \brief The distance to the nearest of all edges, however far: each is looked at, no list is gathered. */
+        double distanceToAll(const OrientedBox &box) const;
+
+        /** \brief distance() for the point (x, y). */
         double distance(double x, double y) const;
 
         /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.

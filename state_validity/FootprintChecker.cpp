@@ -196,10 +196,7 @@ namespace parking
         const double near = edges_.distance(box);
         if (near <= CLEARANCE_REACH)
             return near;
-        const Eigen::Vector2d size = obstacles_.bounds().size();
-        // One list of all edges: reach beyond the farthest corner of the world.
-        const EdgeIndex everything(obstacles_.edges(), obstacles_.bounds(), 2.0 * size.norm() + circumradius_);
-        return everything.distance(box);
+        return edges_.distanceToAll(box);
     }
 
     double FootprintChecker::speedFactor(double curvature) const

@@ -10,6 +10,8 @@ namespace parking
 {
     namespace
     {
+        constexpr double STROKE = 1e-6;  // metres
+
         void checkBounds(const Box &bounds)
         {
             if (!bounds.min.allFinite() || !bounds.max.allFinite())
@@ -135,6 +137,9 @@ namespace parking
             }
             while (local.size() > 1 && (local.front() - local.back()).squaredNorm() == 0.0)
                 local.pop_back();
+            // A point is an obstacle too. Edges need a direction: it becomes a stroke.
+            if (local.size() == 1)
+                local.emplace_back(local.front().x() + STROKE, local.front().y());
             if (crossesItself(local))
                 throw Error("the outline of obstacle polygon " + std::to_string(i + 1) +
                             " crosses itself: it must not");

@@ -11,6 +11,9 @@ namespace parking
 {
     namespace
     {
+        /** Of all polygons of a world together. */
+        constexpr std::size_t MOST_CORNERS = 1000000;
+
         std::string besides(const std::string &file, const std::string &other)
         {
             return (std::filesystem::path(file).parent_path() / other).lexically_normal().string();
@@ -22,6 +25,7 @@ namespace parking
             if (!list.IsSequence() && !list.IsNull())
                 map.failAt("polygons", "polygons must be a list of polygons, each a list of [x, y]");
             std::vector<Polygon> polygons;
+            std::size_t corners = 0;
             for (const YAML::Node &outline : list)
             {
                 const std::string which = "polygon " + std::to_string(polygons.size() + 1);
@@ -30,6 +34,11 @@ namespace parking
                 if (outline.size() < 3)
                     map.fail(outline,
                              which + " has " + std::to_string(outline.size()) + " corners; a polygon needs at least 3");
+                // A file of a few lines names one polygon a million times, by aliases.
+                corners += outline.size();
+                if (corners > MOST_CORNERS)
+                    map.fail(outline, "the polygons have more than " + std::to_string(MOST_CORNERS) +
+                                          " corners; draw such a world as a map");
                 Polygon polygon;
                 polygon.reserve(outline.size());
                 for (const YAML::Node &corner : outline)

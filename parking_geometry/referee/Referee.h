@@ -50,7 +50,7 @@ namespace parking
             this is for the rounding of long paths. */
         static constexpr double TOLERANCE = 1e-4;
         /** Metres: no place farther than this from the world, and no longer drive, is looked at. */
-        static constexpr double FARTHEST = 1e5;
+        static constexpr double FARTHEST = 1e6;
 
         /** \brief For the car's rectangle, or when \e circleRadius is positive for a disc round its rear axle. */
         explicit Referee(const Scenario &scenario, double circleRadius = 0.0);

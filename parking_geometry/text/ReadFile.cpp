@@ -15,6 +15,9 @@ namespace parking
         std::error_code ignored;
         if (std::filesystem::is_directory(file, ignored))
             throw Error(file + ": is a folder; a file is needed");
+        // Some never end.
+        if (std::filesystem::is_character_file(file, ignored) || std::filesystem::is_block_file(file, ignored))
+            throw Error(file + ": is a device; a file is needed");
         const std::unique_ptr<std::FILE, int (*)(std::FILE *)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
         if (!stream)
             throw Error(file + ": cannot be opened: " + std::strerror(errno));

@@ -63,6 +63,28 @@ TEST(Polygon, ContainsPointsOfANonConvexPolygonInEitherOrientation)
     EXPECT_FALSE(contains({}, {0.0, 0.0}));
 }
 
+TEST(Polygon, CrossingsAreFoundAmongManySides)
+{
+    // A circle of many corners, two of which are swapped: found wherever they are. A hundred thousand sides take no
+    // longer than they must.
+    for (const std::size_t corners : {std::size_t{50}, std::size_t{100000}})
+    {
+        Polygon circle;
+        for (std::size_t k = 0; k < corners; ++k)
+        {
+            const double angle = 2.0 * 3.14159265358979 * static_cast<double>(k) / static_cast<double>(corners);
+            circle.emplace_back(20.0 * std::cos(angle), 20.0 * std::sin(angle));
+        }
+        EXPECT_FALSE(crossesItself(circle));
+        for (std::size_t k = 0; k < corners; k += corners / 25)
+        {
+            Polygon twisted = circle;
+            std::swap(twisted[k], twisted[(k + 1) % corners]);
+            EXPECT_TRUE(crossesItself(twisted)) << k;
+        }
+    }
+}
+
 TEST(Polygon, ContainsAgreesWithTheWindingAngle)
 {
     parking_test::Random random(11);

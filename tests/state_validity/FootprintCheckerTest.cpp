@@ -192,6 +192,54 @@ TEST(FootprintChecker, SeesEveryThinObstacle)
     }
 }
 
+TEST(FootprintChecker, KnowsExactClearancesInTheMiddleOfALongWorld)
+{
+    // 32 km, and nothing but the bounds, out of reach of what is gathered round a pose.
+    const Vehicle vehicle;
+    const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-10.0, -10.0}, {32010.0, 13.0}}), vehicle);
+    Random random(3);
+    for (int i = 0; i < 2000; ++i)
+    {
+        const Pose pose{random.between(50.0, 31950.0), random.between(-5.0, 8.0), random.between(-PI, PI)};
+        double room = INFINITE;
+        for (const Eigen::Vector2d &corner : vehicle.footprint(pose))
+            room = std::min({room, corner.y() + 10.0, 13.0 - corner.y()});
+        EXPECT_NEAR(checker.exactClearance(pose), std::max(room, 0.0), 1e-9);
+    }
+}
+
+TEST(FootprintChecker, SeesObstaclesWithoutArea)
+{
+    // All corners at one place, there and back, and on a line: whatever looks at them sees them.
+    const std::vector<Polygon> outlines{{{5.0, 1.0}, {5.0, 1.0}, {5.0, 1.0}},
+                                        {{5.0, 1.0}, {6.0, 1.5}, {5.0, 1.0}},
+                                        {{5.0, 1.0}, {5.5, 1.0}, {6.0, 1.0}}};
+    const Vehicle vehicle;
+    for (const Polygon &outline : outlines)
+    {
+        const FootprintChecker checker(box({outline}), vehicle, 0.0, fclContactTest());
+        const PolygonOracle oracle({outline}, BOX);
+        Random random(7);
+        int hits = 0;
+        for (int i = 0; i < 5000; ++i)
+        {
+            const Pose from{random.between(-5.0, 12.0), random.between(-6.0, 8.0), random.between(-PI, PI)};
+            const double curvature = random.between(-0.3, 0.3), length = random.between(-5.0, 5.0);
+            const double clearance = checker.clearance(from);
+            EXPECT_TRUE(clearance > 0.0 || !oracle.isFree(from, vehicle, 1e-4));
+            EXPECT_TRUE(!checker.isFree(from) || oracle.isFree(from, vehicle, -1e-4));
+            if (!checker.isFree(from) || checker.freeLength(from, curvature, length) < std::abs(length))
+            {
+                ++hits;
+                continue;
+            }
+            EXPECT_TRUE(oracle.isArcFree(from, curvature, length, vehicle, 0.005, -1e-4))
+                << from.x << " " << from.y << " " << from.yaw;
+        }
+        EXPECT_GT(hits, 300);
+    }
+}
+
 TEST(FootprintChecker, KnowsTheInsideOfLargeObstacles)
 {
     // No outline is anywhere near a car in the middle of a block of 30 m.

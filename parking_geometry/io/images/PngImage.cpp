@@ -29,6 +29,8 @@ namespace parking
             png_structp png{nullptr};
             png_infop info{nullptr};
             std::string message;
+            bool interlaced{false};
+            std::size_t encodedRow{0};  ///< bytes of a row as the file has it, before anything is expanded
             std::vector<unsigned char> raster;
             std::vector<png_bytep> rows;
         };
@@ -59,17 +61,35 @@ namespace parking
             if (setjmp(png_jmpbuf(reader.png)))
                 return false;
             png_read_info(reader.png, reader.info);
+            reader.encodedRow = png_get_rowbytes(reader.png, reader.info);
             png_set_expand(reader.png);
-            png_set_interlace_handling(reader.png);
+            reader.interlaced = png_set_interlace_handling(reader.png) > 1;
             png_read_update_info(reader.png, reader.info);
             return true;
         }
 
+        /** All rows at once: what an interlaced image takes. */
         bool readRaster(PngReader &reader)
         {
             if (setjmp(png_jmpbuf(reader.png)))
                 return false;
             png_read_image(reader.png, reader.rows.data());
+            return true;
+        }
+
+        /** The next row. */
+        bool readRow(PngReader &reader)
+        {
+            if (setjmp(png_jmpbuf(reader.png)))
+                return false;
+            png_read_row(reader.png, reader.raster.data(), nullptr);
+            return true;
+        }
+
+        bool readEnd(PngReader &reader)
+        {
+            if (setjmp(png_jmpbuf(reader.png)))
+                return false;
             png_read_end(reader.png, nullptr);
             return true;
         }
@@ -98,16 +118,23 @@ namespace parking
         const bool wide = png_get_bit_depth(reader.png, reader.info) == 16;
         const bool alpha = channels == 2 || channels == 4;
         checkImageSize(file, width, height);
-        // Deflate packs at most 1032 times, and a pixel has at least a bit: a larger announcement is no image, and
-        // must not make us take the memory for it.
-        if (width * height / 8 / 1032 > bytes.size())
+        // Deflate packs at most 1032 times: a larger announcement is no image, and must not make us take the memory for
+        // it.
+        if (reader.encodedRow > 1032 * bytes.size() / height)
             throw Error(file + ": truncated: it announces " + std::to_string(width) + " x " + std::to_string(height) +
                         " pixels and is " + std::to_string(bytes.size()) + " bytes long");
-        reader.raster.resize(rowBytes * height);
-        for (std::size_t row = 0; row < height; ++row)
-            reader.rows.push_back(reader.raster.data() + row * rowBytes);
-        if (!readRaster(reader))
-            throw Error(file + ": not a valid PNG: " + reader.message);
+        const auto require = [&](bool done)
+        {
+            if (!done)
+                throw Error(file + ": not a valid PNG: " + reader.message);
+        };
+        reader.raster.resize(reader.interlaced ? rowBytes * height : rowBytes);
+        if (reader.interlaced)
+        {
+            for (std::size_t row = 0; row < height; ++row)
+                reader.rows.push_back(reader.raster.data() + row * rowBytes);
+            require(readRaster(reader));
+        }
 
         const std::size_t colours = alpha ? channels - 1 : channels;
         const std::uint32_t full = wide ? 65535 : 255;
@@ -116,7 +143,9 @@ namespace parking
         std::vector<std::uint32_t> brightness(width);
         for (std::size_t row = 0; row < height; ++row)
         {
-            const unsigned char *pixel = reader.rows[row];
+            if (!reader.interlaced)
+                require(readRow(reader));
+            const unsigned char *pixel = reader.interlaced ? reader.rows[row] : reader.raster.data();
             for (std::size_t column = 0; column < width; ++column, pixel += channels * size)
             {
                 std::uint32_t sum = 0;
@@ -127,5 +156,6 @@ namespace parking
             }
             sink.row(row, brightness);
         }
+        require(readEnd(reader));
     }
 }  // namespace parking

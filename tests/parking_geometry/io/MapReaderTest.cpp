@@ -231,21 +231,35 @@ TEST_F(MapReader, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken)
     expectImageError("P5 40000 40000 255\n1", {"truncated", "40000 x 40000"});
     expectImageError("P2 40000 40000 255\n1", {"truncated"});
     // A PNG whose header was changed to a huge size, with its checksum put right (as an attacker would).
-    std::string png = encodePng(grey(1, 1, {1}));
-    const std::string huge("\x00\x00\x9C\x40\x00\x00\x9C\x40\x08\x00\x00\x00\x00", 13);
-    png.replace(16, 13, huge);
-    const std::string chunk = png.substr(12, 17);
-    std::uint32_t crc = 0xFFFFFFFF;
-    for (const char c : chunk)
+    const auto announcing = [](const std::string &header)
     {
-        crc ^= static_cast<unsigned char>(c);
-        for (int k = 0; k < 8; ++k)
-            crc = crc & 1 ? crc >> 1 ^ 0xEDB88320 : crc >> 1;
-    }
-    crc ^= 0xFFFFFFFF;
-    for (int k = 0; k < 4; ++k)
-        png[static_cast<std::size_t>(29 + k)] = static_cast<char>(crc >> (24 - 8 * k) & 0xFF);
-    expectImageError(png, {"truncated", "40000 x 40000"});
+        std::string png = encodePng(grey(1, 1, {1}));
+        png.replace(16, 13, header);
+        const std::string chunk = png.substr(12, 17);
+        std::uint32_t crc = 0xFFFFFFFF;
+        for (const char c : chunk)
+        {
+            crc ^= static_cast<unsigned char>(c);
+            for (int k = 0; k < 8; ++k)
+                crc = crc & 1 ? crc >> 1 ^ 0xEDB88320 : crc >> 1;
+        }
+        crc ^= 0xFFFFFFFF;
+        for (int k = 0; k < 4; ++k)
+            png[static_cast<std::size_t>(29 + k)] = static_cast<char>(crc >> (24 - 8 * k) & 0xFF);
+        return png;
+    };
+    expectImageError(announcing(std::string("\x00\x00\x9C\x40\x00\x00\x9C\x40\x08\x00\x00\x00\x00", 13)),
+                     {"truncated", "40000 x 40000"});
+    // 25000 x 20000 pixels of 64 bits in a file of 61 kB, which would do for a bit each; and the same interlaced.
+    for (const char interlaced : {'\0', '\1'})
+        expectImageError(announcing(std::string("\x00\x00\x61\xA8\x00\x00\x4E\x20\x10\x06\x00\x00", 12) + interlaced) +
+                             std::string(61000, '\0'),
+                         {"truncated", "25000 x 20000"});
+}
+
+TEST_F(MapReader, DevicesAreNoImages)
+{
+    expectYamlError("image: /dev/zero\nresolution: 1\norigin: [0, 0, 0]\n", {"/dev/zero", "device"});
 }
 
 TEST_F(MapReader, OtherImageTroubleIsNamed)

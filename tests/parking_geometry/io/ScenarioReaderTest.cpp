@@ -167,7 +167,8 @@ TEST_F(TpcapReader, FileErrorsAreNamed)
     expectError([&] { read("", "empty.csv"); }, {"empty.csv", "is empty"});
     expectError([&] { read(" \r\n", "blank.csv"); }, {"blank.csv", "blanks"});
     expectError([&] { read("0,0,0", "folder.csv/case.csv"); }, {"case.csv", "too few"});
-    expectError([&] { readScenario("/dev/zero"); }, {"/dev/zero", "16 MiB"});
+    expectError([&] { readScenario("/dev/zero"); }, {"/dev/zero", "device"});
+    expectError([&] { read(std::string(17 << 20, ' '), "long.csv"); }, {"long.csv", "16 MiB"});
 }
 
 TEST_F(TpcapReader, TheCarMayBeChosen)
@@ -306,6 +307,18 @@ TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
     expectYamlError("&a [*a]\n", {"example.yaml"});
     expectYamlError("# only: a comment\n", {"example.yaml", "must be a mapping"});
     expectYamlError("a: " + std::string(100000, '['), {"example.yaml"});
+}
+
+TEST_F(YamlReader, AliasesDoNotMultiplyCornersWithoutBound)
+{
+    // A thousand corners by name, a hundred thousand times: 1 MB that asks for 1.6 GB.
+    std::string text = "start: [0, 0, 0]\ngoal: [1, 0, 0]\npolygons:\n- &a [";
+    for (int i = 0; i < 1000; ++i)
+        text += (i > 0 ? ",[1," : "[1,") + std::to_string(i) + "]";
+    text += "]\n";
+    for (int i = 0; i < 100000; ++i)
+        text += "- *a\n";
+    expectYamlError(text, {"example.yaml:4", "1000000 corners"});
 }
 
 TEST_F(YamlReader, NamesTheMapThatIsMissing)
