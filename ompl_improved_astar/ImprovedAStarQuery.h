@@ -47,8 +47,9 @@ namespace ompl::geometric
         parking::Path path;                 ///< the best one by the problem's objective
         std::vector<parking::Pose> states;  ///< of it, for OMPL
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
-        base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: the length
-        std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
+        double bestRanked{std::numeric_limits<double>::infinity()};  ///< metres: length and closeness, by which it won
+        base::OptimizationObjectivePtr objective;                    ///< that bestCost is of; none: the length
+        std::vector<parking::Pose> solution;                         ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
 

@@ -59,10 +59,13 @@ namespace ompl::geometric
             geometric->append(state.get());
         }
         const ob::Cost cost = costOf(geometric);
-        if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
-                                               : cost.value() < query_->bestCost.value()))
+        // Without an objective of the problem's, room to the obstacles counts as the parameters say.
+        const double ranked = objective ? cost.value() : cost.value() + query_->planner.closeness(found);
+        if (query_->hasSolution &&
+            !(objective ? objective->isCostBetterThan(cost, query_->bestCost) : ranked < query_->bestRanked))
             return false;
         query_->hasSolution = true;
+        query_->bestRanked = ranked;
         query_->path = path;
         query_->states = states;
         query_->bestCost = cost;

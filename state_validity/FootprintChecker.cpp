@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -222,6 +223,9 @@ namespace parking
     FootprintChecker::SweepStart FootprintChecker::sweepStart(const Pose &from, double tolerance,
                                                               CheckCounts &counts) const
     {
+        if (!(tolerance > 0.0 && tolerance <= MAX_TOLERANCE))
+            throw Error("the tolerance of a sweep must be above 0 and at most " + formatNumber(MAX_TOLERANCE) +
+                        " m, not " + formatNumber(tolerance) + " m");
         ++counts.states;
         if (!isFinite(from))
             return {{}, tolerance, -1.0};

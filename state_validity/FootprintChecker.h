@@ -46,6 +46,9 @@ namespace parking
         /** \brief Half width in metres of the band round contact inside of which the contact test decides. */
         static constexpr double CONTACT_BAND = 1e-9;
 
+        /** \brief The largest tolerance in metres that motions are swept with. */
+        static constexpr double MAX_TOLERANCE = 0.3;
+
         /** \brief \param margin metres by which the body is enlarged on each of its four sides, not negative
             \param contact what makes the contact test, called with the first pose that needs it; may be empty
             \param fieldResolution side of the distance field's cells in metres; 0 chooses one
@@ -101,7 +104,7 @@ namespace parking
             what it all but touches.
 
             \param length signed metres
-            \param tolerance metres, positive
+            \param tolerance metres, positive and at most MAX_TOLERANCE, otherwise parking::Error
             \return between 0 and |length|: the length that is proven free, less the tolerance where it ends at an
             obstacle; |length| itself when all of it is free; 0 when the pose is not free or an argument is not
             finite */
@@ -120,7 +123,7 @@ namespace parking
             double enlargement;
         };
 
-        /** \brief Prepares a pose. \param tolerance metres, positive */
+        /** \brief Prepares a pose. \param tolerance as for freeLength() */
         SweepStart sweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
 
         /** \brief freeLength() from a prepared pose: the same result, without looking at the pose again. */

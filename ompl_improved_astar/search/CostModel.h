@@ -5,7 +5,6 @@
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace parking::search
@@ -21,26 +20,32 @@ namespace parking::search
         double clearanceWeight{0.0};        ///< extra cost per metre driven in touch with an obstacle
         double clearanceRange{1.0};         ///< metres of clearance from which on there is no extra cost
         double fullLockCurvature{1.0};      ///< 1/m, of full lock
+        double preferredClearance{0.0};     ///< metres that the car keeps from obstacles where that is cheap; 0: none
+        double clearanceCost{0.0};          ///< extra cost per metre driven nearer than that
 
-        /** \brief Cost of driving \e segment from \e from, in the direction in which the car will drive.
-
-            The extra cost of closeness falls linearly with the clearance and is sampled every clearanceRange metres. */
-        double drive(const Pose &from, const PathPiece &segment, MotionEnvironment &environment) const
+        /** \brief Cost of driving \e segment in the direction in which the car will drive, wherever it is. */
+        double drive(const PathPiece &segment) const
         {
             const double length = std::abs(segment.length);
-            double cost = segment.length < 0.0 ? length * (1.0 + reversePenalty) : length;
-            if (clearanceWeight > 0.0)
-            {
-                const double samples = std::max(1.0, std::ceil(length / clearanceRange));
-                for (double i = 0.5; i < samples; i += 1.0)
-                {
-                    const Pose pose = advance(from, segment.curvature, segment.length * i / samples);
-                    const double closeness = 1.0 - environment.clearance(pose) / clearanceRange;
-                    cost += clearanceWeight * std::max(0.0, closeness) * length / samples;
-                }
-            }
-            return cost;
+            return segment.length < 0.0 ? length * (1.0 + reversePenalty) : length;
         }
+
+        /** \brief Do obstacles nearby cost anything? */
+        bool pricesCloseness() const
+        {
+            return clearanceWeight > 0.0 || (preferredClearance > 0.0 && clearanceCost > 0.0);
+        }
+
+        /** \brief Extra cost of driving \e segment from \e from because of the obstacles nearby; the same in either
+            direction.
+
+            The cost of clearanceWeight falls linearly with the clearance and is sampled every clearanceRange metres.
+            What is driven nearer than preferredClearance is sampled, too, but for what the environment knows to be
+            clear of obstacles by as much: a motion that does not cost anything keeps it everywhere.
+
+            \param clear metres at the beginning that are known to keep preferredClearance; negative: ask for them */
+        double closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
+                         double clear = -1.0) const;
 
         /** \brief Cost of what happens at standstill or in passing between two segments. */
         double join(const PathPiece &before, const PathPiece &after) const
@@ -54,33 +59,16 @@ namespace parking::search
         }
     };
 
-    /** \brief Cost of an analytic curve that begins at \e from. */
-    inline double curveCost(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
-                            MotionEnvironment &environment)
-    {
-        double cost = 0.0;
-        Pose pose = from;
-        for (std::size_t i = 0; i < curve.count; ++i)
-        {
-            cost += model.drive(pose, curve.pieces[i], environment) +
-                    (i > 0 ? model.join(curve.pieces[i - 1], curve.pieces[i]) : 0.0);
-            if (model.clearanceWeight > 0.0)
-                pose = advance(pose, curve.pieces[i].curvature, curve.pieces[i].length);
-        }
-        return cost;
-    }
+    /** \brief Cost of an analytic curve, wherever it is. */
+    double curveCost(const CostModel &model, const ReedsSheppCurve &curve);
 
-    /** \brief Cost of a whole path. */
-    inline double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
-    {
-        double cost = 0.0;
-        Pose pose = path.start;
-        for (std::size_t i = 0; i < path.pieces.size(); ++i)
-        {
-            const PathPiece &segment = path.pieces[i];
-            cost += model.drive(pose, segment, environment) + (i > 0 ? model.join(path.pieces[i - 1], segment) : 0.0);
-            pose = advance(pose, segment.curvature, segment.length);
-        }
-        return cost;
-    }
+    /** \brief Extra cost of an analytic curve that begins at \e from, because of the obstacles nearby. */
+    double curveCloseness(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
+                          MotionEnvironment &environment);
+
+    /** \brief Extra cost of a whole path because of the obstacles nearby. */
+    double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment);
+
+    /** \brief Cost of a whole path, closeness included. */
+    double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment);
 }  // namespace parking::search

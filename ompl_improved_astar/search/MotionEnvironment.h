@@ -3,6 +3,7 @@
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace parking::search
@@ -34,6 +35,22 @@ namespace parking::search
         {
             for (std::size_t i = 0; i < count; ++i)
                 free[i] = freeLength(from, arcs[i].curvature, arcs[i].length);
+        }
+
+        /** \brief Does the car keep so many metres from all obstacles at \e pose? Also yes when nothing is known of
+            clearances. */
+        virtual bool keeps(const Pose &pose, double clearance)
+        {
+            return this->clearance(pose) >= clearance;
+        }
+
+        /** \brief How far the car can drive along arcs from one pose and surely keep so many metres from all obstacles.
+
+            \param clear takes a length between 0 and that of the arc for each; 0 where it is not known */
+        virtual void clearLengths(const Pose & /*from*/, const Arc * /*arcs*/, std::size_t count, double /*clearance*/,
+                                  double *clear)
+        {
+            std::fill(clear, clear + count, 0.0);
         }
 
         /** \brief An upper bound of the distance between the point (x, y) and the nearest obstacle, in metres; infinite

@@ -20,6 +20,7 @@ namespace parking::search
         Motion motion;
         Pose pose;
         bool farthest{false};  ///< see Node::farthest
+        double clear{-1.0};    ///< metres at its beginning known to keep the preferred clearance; negative: unknown
     };
 
     /** \brief What a model says about a node that is expanded. */
@@ -45,6 +46,8 @@ namespace parking::search
         bool aims{false};
         /** isFree() is asked motion by motion and may be slow: the clock is looked at in between. */
         bool asksMotionByMotion{false};
+        /** Its motions are priced by CostModel::preferredClearance. */
+        bool prefersClearance{false};
         /** Its heading jumps: a space of curves cannot follow its paths. */
         bool turnsOnTheSpot{false};
         /** One expansion in so many goes to the side whose roots are less confined. */

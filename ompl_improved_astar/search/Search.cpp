@@ -31,6 +31,8 @@ namespace parking::search
         modelName_ = parameters.motionModel;
         model_->begin(environment, parameters_);
         traits_ = model_->traits();
+        if (!traits_.prefersClearance)
+            parameters_.cost.preferredClearance = 0.0;
         const std::string heuristic = parameters.heuristic == "default" ? model_->heuristic() : parameters.heuristic;
         for (Guides &guides : guides_)
         {
@@ -249,9 +251,9 @@ namespace parking::search
     {
         const PathPiece drive = successor.motion.drive();
         // On the goal's side the car will drive the motion the other way.
-        const double cost = own.side() == Side::Start
-                                ? parameters_.cost.drive(parent.pose, drive, *environment_)
-                                : parameters_.cost.drive(successor.pose, drive.reversed(), *environment_);
+        double cost = parameters_.cost.drive(own.side() == Side::Start ? drive : drive.reversed());
+        if (parameters_.cost.pricesCloseness())
+            cost += parameters_.cost.closeness(parent.pose, drive, *environment_, successor.clear);
         const double joined = parent.parent != NO_NODE ? parameters_.cost.join(parent.motion.drive(), drive) : 0.0;
         return parent.g + cost + joined;
     }

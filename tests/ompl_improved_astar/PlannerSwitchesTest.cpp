@@ -114,6 +114,69 @@ namespace
         EXPECT_GT(closest("10"), closest("0") + 0.2);
     }
 
+    namespace
+    {
+        /** A box beside the straight way from (-9, 0) to (9, 0), which passes it at so many metres. */
+        Site besideABox(double clearance)
+        {
+            const parking::Vehicle car;
+            Site site = openSite(15.0);
+            site.obstacles.push_back(box(-2.0, 0.5 * car.width + clearance, 2.0, 4.0));
+            return site;
+        }
+
+        double closestOf(const PlanningProblem &problem, const Site &site)
+        {
+            const parking::FootprintChecker checker(site.set(), problem.vehicle);
+            double least = 1e9;
+            for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.02))
+                least = std::min(least, checker.exactClearance(state.pose));
+            return least;
+        }
+    }  // namespace
+
+    TEST_F(PlannerSwitches, ThePreferredClearanceIsKeptWhereThatIsCheap)
+    {
+        const Site site = besideABox(0.02);
+        const auto plan = [&](const std::map<std::string, std::string> &parameters)
+        {
+            return planned(Space::ReedsShepp, site, {-9.0, 0.0, 0.0}, {9.0, 0.0, 0.0}, parameters);
+        };
+        const PlanningProblem usual = plan({}), none = plan({{"preferred_clearance", "0"}}),
+                              more = plan({{"preferred_clearance", "0.5"}}),
+                              worthless = plan({{"clearance_cost", "0"}});
+        EXPECT_GE(closestOf(usual, site), 0.1 - 1e-9);
+        EXPECT_GE(closestOf(more, site), 0.5 - 1e-9);
+        EXPECT_LT(closestOf(none, site), 0.03);
+        EXPECT_LT(closestOf(worthless, site), 0.03);
+        EXPECT_LT(usual.planner->solutionPath()->length(), 1.02 * none.planner->solutionPath()->length());
+    }
+
+    TEST_F(PlannerSwitches, ThePreferredClearanceGivesWayWhereItIsNarrower)
+    {
+        // 5 cm on each side, the whole width of the world; and a preference that is larger than the world.
+        const parking::Vehicle car;
+        const double side = 0.5 * car.width + 0.05;
+        const Site site{{box(-2.0, side, 2.0, 15.0), box(-2.0, -15.0, 2.0, -side)}, {{-15.0, -15.0}, {15.0, 15.0}}};
+        for (const char *preferred : {"0.1", "1", "10"})
+        {
+            const PlanningProblem problem = planned(Space::ReedsShepp, site, {-9.0, 1.0, 0.0}, {9.0, -1.0, 0.0},
+                                                    {{"preferred_clearance", preferred}});
+            EXPECT_GT(closestOf(problem, site), 0.0);
+            EXPECT_LE(closestOf(problem, site), 0.05);
+        }
+    }
+
+    TEST_F(PlannerSwitches, ThePreferredClearanceHoldsForAnytime)
+    {
+        const Site site = besideABox(0.02);
+        PlanningProblem problem(Space::ReedsShepp, site);
+        problem.set("anytime", true);
+        problem.from({-9.0, 0.0, 0.0}).to({{9.0, 0.0, 0.0}});
+        ASSERT_EQ(problem.solveForQuestions(4000), Status::EXACT_SOLUTION);
+        EXPECT_GE(closestOf(problem, site), 0.1 - 1e-9);
+    }
+
     TEST_F(PlannerSwitches, BidirectionalGrowsBothTreesOtherwiseOnlyOne)
     {
         const auto trees = [](const PlanningProblem &problem)

@@ -1,4 +1,5 @@
 #include "benchmarks/worlds/RandomWorlds.h"
+#include "parking_geometry/Error.h"
 #include "state_validity/FootprintChecker.h"
 
 #include <cmath>
@@ -223,6 +224,44 @@ TEST(FreeLength, FromAPreparedPoseIsTheSame)
             }
         }
     }
+}
+
+// What is swept with a large tolerance keeps it on all sides: looked at every centimetre.
+TEST(FreeLength, KeepsAsMuchAsItIsSweptWith)
+{
+    int whole = 0, cut = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed)
+    {
+        const World world = seed % 2 ? randomGridWorld(seed) : randomPolygonWorld(seed);
+        const FootprintChecker checker(world.obstacles, {});
+        Random random(seed);
+        CheckCounts counts;
+        for (int i = 0; i < 400; ++i)
+        {
+            const double tolerance = i % 4 == 0 ? FootprintChecker::MAX_TOLERANCE : random.between(0.02, 0.3);
+            const Pose from = world.anywhere(random);
+            const FootprintChecker::SweepStart start = checker.sweepStart(from, tolerance, counts);
+            if (start.enlargement < tolerance)
+                continue;
+            const double curvature = anyCurvature(random), length = random.magnitude(0.1, 5.0);
+            const double clear = checker.freeLength(start, curvature, length, counts);
+            ++(clear < std::abs(length) ? cut : whole);
+            ASSERT_TRUE(world.oracle.isArcFree(from, curvature, std::copysign(clear, length), Vehicle(), 0.01,
+                                               tolerance - 1e-9))
+                << world.name << " " << i;
+        }
+    }
+    EXPECT_GT(whole, 200);
+    EXPECT_GT(cut, 200);
+}
+
+TEST(FreeLength, RefusesTolerancesThatItCannotSweepWith)
+{
+    const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-50.0, -50.0}, {50.0, 50.0}}), {});
+    CheckCounts counts;
+    for (const double tolerance : {0.0, -1e-3, 0.31, 1e9, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(checker.freeLength({}, 0.1, 3.0, tolerance, counts), Error) << tolerance;
+    EXPECT_EQ(checker.freeLength({}, 0.1, 3.0, FootprintChecker::MAX_TOLERANCE, counts), 3.0);
 }
 
 TEST(FreeLength, HalfATurnInFreeSpaceAndNoLengthAtAll)

@@ -36,6 +36,7 @@ namespace parking::search
         traits.levels = LEVELS;
         traits.reach = reach_;
         traits.joinsAfar = true;
+        traits.prefersClearance = true;
         traits.otherSidePeriod = parameters_ != nullptr ? parameters_->tuning.otherSidePeriod : 1;
         return traits;
     }
@@ -89,6 +90,31 @@ namespace parking::search
         }
     }
 
+    void CarModel::measureMotions(const Pose &from)
+    {
+        const std::size_t count = motions_.size();
+        free_.resize(count);
+        clear_.assign(count, 0.0);
+        if (!pricesPreferredClearance())
+        {
+            environment_->freeLengths(from, motions_.data(), count, free_.data());
+            return;
+        }
+        environment_->clearLengths(from, motions_.data(), count, parameters_->cost.preferredClearance, clear_.data());
+        // What keeps the preferred clearance to its end is free, too.
+        nearing_.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            if (clear_[i] < std::abs(motions_[i].length))
+                nearing_.push_back(motions_[i]);
+        freeOfNearing_.resize(nearing_.size());
+        environment_->freeLengths(from, nearing_.data(), nearing_.size(), freeOfNearing_.data());
+        for (std::size_t i = 0, k = 0; i < count; ++i)
+        {
+            const double whole = std::abs(motions_[i].length);
+            free_[i] = clear_[i] < whole ? std::max(clear_[i], freeOfNearing_[k++]) : whole;
+        }
+    }
+
     void CarModel::expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
                           Expansion &expansion)
     {
@@ -100,22 +126,25 @@ namespace parking::search
         // How far each motion is free is found out once and serves the finer levels, too.
         float *const known = &lengths[index * slots];
         const double step = steps_[level];
-        const auto add = [&](const Arc &motion, double length, bool farthest)
+        const bool priced = pricesPreferredClearance();
+        const auto add = [&](std::size_t i, double length, bool farthest)
         {
+            const Arc &motion = motions_[i];
             const double driven = std::copysign(length, motion.length);
             const Pose pose = advance(node.pose, motion.curvature, driven);
-            expansion.successors.push_back(
-                {{0.0, motion.curvature, driven, 0.0}, {pose.x, pose.y, wrapAngle(pose.yaw)}, farthest});
+            expansion.successors.push_back({{0.0, motion.curvature, driven, 0.0},
+                                            {pose.x, pose.y, wrapAngle(pose.yaw)},
+                                            farthest,
+                                            priced && first ? clear_[i] : -1.0});
         };
         if (!first)
         {
             for (std::size_t i = 0; i < count; ++i)
                 if (static_cast<double>(known[i]) >= step)
-                    add(motions_[i], step, false);
+                    add(i, step, false);
             return;
         }
-        free_.resize(count);
-        environment_->freeLengths(node.pose, motions_.data(), count, free_.data());
+        measureMotions(node.pose);
         for (std::size_t i = 0; i < count; ++i)
         {
             const double free = free_[i];
@@ -123,9 +152,12 @@ namespace parking::search
             expansion.mobility = std::max(expansion.mobility, free);
             if (free < shortest_)
                 continue;
-            add(motions_[i], free, free >= reach_);
+            add(i, free, free >= reach_);
             if (free > 1.1 * step)
-                add(motions_[i], step, false);
+                add(i, step, false);
+            // As far as it is preferred to go.
+            if (priced && clear_[i] >= shortest_ && clear_[i] < free && std::abs(clear_[i] - step) > 0.1 * step)
+                add(i, clear_[i], false);
         }
     }
 
@@ -162,28 +194,23 @@ namespace parking::search
         curves_.candidates(fromStart.pose, fromGoal.pose, candidates_, bound - before);
         const CostModel &cost = parameters_->cost;
         order_.clear();
-        for (std::size_t i = 0; i < candidates_.size(); ++i)
+        for (const ReedsSheppCurve &curve : candidates_)
         {
-            const ReedsSheppCurve &curve = candidates_[i];
-            double sum = before + curveCost(cost, fromStart.pose, curve, *environment_);
+            double sum = before + curveCost(cost, curve);
             if (curve.count > 0 && fromStart.parent != NO_NODE)
                 sum += cost.join(fromStart.motion.drive(), curve.pieces[0]);
             if (curve.count > 0 && fromGoal.parent != NO_NODE)
                 sum += cost.join(curve.pieces[curve.count - 1], fromGoal.motion.drive().reversed());
             if (sum < bound)
-                order_.emplace_back(sum, i);
+                order_.emplace_back(sum, &curve);
         }
-        std::sort(order_.begin(), order_.end());
-        for (const auto &[sum, i] : order_)
-        {
-            const ReedsSheppCurve &curve = candidates_[i];
-            if (!isCurveFree(*environment_, fromStart.pose, curve, fromGoal.pose,
-                             sweptFrom == Side::Start ? CurveEnd::Start : CurveEnd::Goal))
-                continue;
-            pieces_.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
-            if (offer(pieces_.data(), pieces_.size(), sum))
-                return true;
-        }
-        return false;
+        return offerFreeCurves(*environment_, cost, fromStart.pose, fromGoal.pose, order_,
+                               sweptFrom == Side::Start ? CurveEnd::Start : CurveEnd::Goal, bound,
+                               [&](const ReedsSheppCurve &curve, double whole)
+                               {
+                                   pieces_.assign(curve.pieces.begin(),
+                                                  curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
+                                   return offer(pieces_.data(), pieces_.size(), whole);
+                               });
     }
 }  // namespace parking::search

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
 
 #include <array>
 #include <utility>
@@ -46,6 +47,11 @@ namespace parking::search
 
     private:
         void collectMotions(Side side, const Node &node);
+        void measureMotions(const Pose &from);
+        bool pricesPreferredClearance() const
+        {
+            return parameters_->cost.preferredClearance > 0.0 && parameters_->cost.clearanceCost > 0.0;
+        }
 
         MotionEnvironment *environment_{nullptr};
         const SearchParameters *parameters_{nullptr};
@@ -57,9 +63,11 @@ namespace parking::search
         std::array<double, LEVELS> headingScale_{};
         std::array<std::vector<float>, 2> freeLengths_;  // of the motions of each expanded node, signs left out
         std::vector<Arc> motions_;                       // of the node that is expanded
-        std::vector<double> free_;
+        std::vector<double> free_, clear_;
+        std::vector<Arc> nearing_;  // those of the motions that come nearer to obstacles than preferred
+        std::vector<double> freeOfNearing_;
         std::vector<ReedsSheppCurve> candidates_;
-        std::vector<std::pair<double, std::size_t>> order_;
+        std::vector<PricedCurve> order_;
         std::vector<PathPiece> pieces_;
     };
 }  // namespace parking::search

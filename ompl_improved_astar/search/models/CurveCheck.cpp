@@ -2,6 +2,7 @@
 
 #include "parking_geometry/curves/Path.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace parking::search
@@ -27,5 +28,39 @@ namespace parking::search
             pose = advance(pose, segment.curvature, length);
         }
         return true;
+    }
+
+    bool offerFreeCurves(MotionEnvironment &environment, const CostModel &cost, const Pose &from, const Pose &to,
+                         std::vector<PricedCurve> &curves, CurveEnd first, double bound, const CurveOffer &offer)
+    {
+        std::sort(curves.begin(), curves.end());
+        // Free curves whose turn has not come, since another may turn out to be cheaper.
+        std::vector<PricedCurve> waiting;
+        const auto offerUpTo = [&](double most)
+        {
+            while (!waiting.empty())
+            {
+                const auto next = std::min_element(waiting.begin(), waiting.end());
+                if (next->first > most)
+                    return false;
+                const auto [whole, curve] = *next;
+                waiting.erase(next);
+                if (offer(*curve, whole))
+                    return true;
+            }
+            return false;
+        };
+        for (const auto &[sum, curve] : curves)
+        {
+            if (offerUpTo(sum))
+                return true;
+            if (sum >= bound)
+                break;
+            if (!isCurveFree(environment, from, *curve, to, first))
+                continue;
+            if (const double whole = sum + curveCloseness(cost, from, *curve, environment); whole < bound)
+                waiting.emplace_back(whole, curve);
+        }
+        return offerUpTo(bound);
     }
 }  // namespace parking::search

@@ -1,7 +1,12 @@
 #pragma once
 
+#include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "parking_geometry/curves/ReedsShepp.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace parking::search
 {
@@ -20,4 +25,20 @@ namespace parking::search
         \param first the end from which the pieces are swept: the one near which a collision is more likely */
     bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
                      CurveEnd first);
+
+    /** \brief A curve among others, and what it costs but for the obstacles nearby. */
+    using PricedCurve = std::pair<double, const ReedsSheppCurve *>;
+
+    /** \brief Told of a free curve and of what it costs, closeness included. Says whether it is taken. */
+    using CurveOffer = std::function<bool(const ReedsSheppCurve &, double)>;
+
+    /** \brief Offers the free ones of some curves from \e from to \e to, the cheapest first, until one is taken.
+
+        Whether a curve is free, and how close it comes, is found out only when its turn comes.
+
+        \param curves are sorted
+        \param bound curves that cost as much are not offered
+        \return whether one was taken */
+    bool offerFreeCurves(MotionEnvironment &environment, const CostModel &cost, const Pose &from, const Pose &to,
+                         std::vector<PricedCurve> &curves, CurveEnd first, double bound, const CurveOffer &offer);
 }  // namespace parking::search

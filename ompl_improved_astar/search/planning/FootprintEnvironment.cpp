@@ -58,6 +58,29 @@ namespace parking
         }
     }
 
+    bool FootprintEnvironment::keeps(const Pose &pose, double clearance)
+    {
+        return checker_.clearance(pose, clearance, counts_) >= clearance;
+    }
+
+    void FootprintEnvironment::clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                                            double *clear)
+    {
+        std::fill(clear, clear + count, 0.0);
+        if (clearance > FootprintChecker::MAX_TOLERANCE)
+            return;  // too large to sweep: the caller samples
+        const FootprintChecker::SweepStart start = checker_.sweepStart(from, clearance, counts_);
+        if (start.enlargement < clearance)
+            return;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const auto &[curvature, length] = arcs[i];
+            const double whole = std::abs(length);
+            const double inside = boundsMatter_ ? lengthInside(from, curvature, length) : whole;
+            clear[i] = checker_.freeLength(start, curvature, std::copysign(std::min(inside, whole), length), counts_);
+        }
+    }
+
     double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const
     {
         // The rear axle as a box of no size, the bounds as four walls in its frame.

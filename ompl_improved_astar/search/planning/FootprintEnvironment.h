@@ -24,6 +24,9 @@ namespace parking
         double clearance(const Pose &pose) override;
         double freeLength(const Pose &from, double curvature, double length) override;
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override;
+        bool keeps(const Pose &pose, double clearance) override;
+        void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                          double *clear) override;
         double roomAt(double x, double y) override;
         /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
         bool isMotionFree(const Pose &from, const Pose &to) override;

@@ -234,6 +234,12 @@ namespace parking
             {"clearance_weight", &P::clearanceWeight, between(0.0, 100.0, 0.1), "",
              "extra cost per metre driven in touch with an obstacle, falling to none at 1 m of clearance; needs a "
              "checker that knows clearances"},
+            {"preferred_clearance", &P::preferredClearance, between(0.0, 10.0, 0.01), "m",
+             "the path keeps so far from obstacles where that is cheap; 0: it may graze them (car model, with a "
+             "checker "
+             "that knows clearances)"},
+            {"clearance_cost", &P::clearanceCost, between(0.0, 100.0, 0.5), "m",
+             "what a metre driven nearer than `preferred_clearance` is worth, in metres of detour"},
             {"smoothing", &P::smoothing, oneOf(smoothings), "", "B-spline through the path (grid models)"},
             {"shortening", &P::shortening, yesOrNo(), "",
              "replace parts of the solution by shorter curves (car model)"},

@@ -37,6 +37,8 @@ namespace parking
         double gearChangePenalty{0.5};
         double steeringChangePenalty{0.1};
         double clearanceWeight{0.0};
+        double preferredClearance{0.1};
+        double clearanceCost{5.0};
         std::string smoothing{"bspline"};
         bool shortening{true};
         bool approximate{true};

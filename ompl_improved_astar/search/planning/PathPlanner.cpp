@@ -17,6 +17,8 @@ namespace parking::search
         parameters_ = parameters;
         parameters_.search.cost.fullLockCurvature = 1.0 / parameters.search.turningRadius;
         search_.begin(environment, parameters_.search);
+        if (!search_.model().traits().prefersClearance)
+            parameters_.search.cost.preferredClearance = 0.0;
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
         starts_.clear();
@@ -72,7 +74,13 @@ namespace parking::search
         // The bare curve is as short as any drivable path, whatever the obstacles. What it costs beyond its length may
         // be worth a longer way when it is more than a few changes of gear and steering come to.
         const double shortest = search_.shortestMotion();
-        return path.length() <= shortest * (1.0 + 1e-9) && cost <= shortest + parameters_.search.turningRadius;
+        return path.length() <= shortest * (1.0 + 1e-9) && cost <= shortest + parameters_.search.turningRadius &&
+               closeness(path) <= 0.0;
+    }
+
+    double PathPlanner::closeness(const Path &path) const
+    {
+        return pathCloseness(parameters_.search.cost, path, *environment_);
     }
 
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
@@ -109,18 +117,19 @@ namespace parking::search
             return;
         }
         const double little = tuning.hardlyLonger * search_.shortestMotion();
-        const bool isShort =
-            search_.bestPath().length() < little && search_.bestCost() < little + parameters_.search.turningRadius;
+        const double close = closeness(search_.bestPath());
+        const bool isShort = search_.bestPath().length() < little && close <= 0.0 &&
+                             search_.bestCost() < little + parameters_.search.turningRadius;
         const double expected = std::max(search_.shortestMotion(), search_.estimate());
         if (!isShort)
-            thinkAgain(search_.bestPath().length() / expected - 1.0);
+            thinkAgain((search_.bestPath().length() + close) / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
         if (parameters_.shorten)
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
-            if (best.length() > (1.0 + tuning.stillLong) * expected)
+            if (best.length() > (1.0 + tuning.stillLong) * expected || closeness(best) > 0.0)
                 shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                         tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
         }

@@ -72,6 +72,9 @@ namespace parking::search
             return bestCost_;
         }
 
+        /** \brief What a path costs for being near to obstacles; see CostModel. */
+        double closeness(const Path &path) const;
+
         /** \brief Best cost over Search::lowerBound(), at least 1; infinite without a solution. */
         double suboptimalityBound();
 

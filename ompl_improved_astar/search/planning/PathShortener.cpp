@@ -42,9 +42,15 @@ namespace parking::search
             ++arc;
         }
         costBefore_.assign(pieces_.size() + 1, 0.0);
+        closenessBefore_.assign(pieces_.size() + 1, 0.0);
         for (std::size_t k = 0; k < pieces_.size(); ++k)
-            costBefore_[k + 1] = costBefore_[k] + cost_.drive(pieces_[k].from, pieces_[k].segment, environment_) +
+        {
+            const double closeness =
+                cost_.pricesCloseness() ? cost_.closeness(pieces_[k].from, pieces_[k].segment, environment_) : 0.0;
+            closenessBefore_[k + 1] = closenessBefore_[k] + closeness;
+            costBefore_[k + 1] = costBefore_[k] + cost_.drive(pieces_[k].segment) + closeness +
                                  (k > 0 ? cost_.join(pieces_[k - 1].segment, pieces_[k].segment) : 0.0);
+        }
         pieces_.push_back({{0.0, 0.0}, pose, arc, false});
     }
 
@@ -52,8 +58,8 @@ namespace parking::search
     {
         // Two such arcs one after the other, driven the same way, are the shortest curve between their ends.
         const Piece &first = pieces_[i], &last = pieces_[j - 1];
-        return last.arc - first.arc < 2 && first.isPlain && last.isPlain &&
-               first.segment.length * last.segment.length > 0.0;
+        return closenessBefore_[j] <= closenessBefore_[i] && last.arc - first.arc < 2 && first.isPlain &&
+               last.isPlain && first.segment.length * last.segment.length > 0.0;
     }
 
     bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path)
@@ -68,40 +74,37 @@ namespace parking::search
         ++connectionCount_;
         curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
         order_.clear();
-        for (std::size_t k = 0; k < candidates_.size(); ++k)
+        for (const ReedsSheppCurve &curve : candidates_)
         {
-            const ReedsSheppCurve &curve = candidates_[k];
             if (curve.count == 0)
                 continue;
-            double sum = curveCost(cost_, pieces_[i].from, curve, environment_);
+            double sum = curveCost(cost_, curve);
             if (before)
                 sum += cost_.join(*before, curve.pieces[0]);
             if (after)
                 sum += cost_.join(curve.pieces[curve.count - 1], *after);
             if (sum < now - LEAST_GAIN)
-                order_.emplace_back(sum, k);
+                order_.emplace_back(sum, &curve);
         }
-        if (choice == CurveChoice::Cheapest && order_.size() > 1)
+        // Away from obstacles the cheapest is not the shortest.
+        if (choice == CurveChoice::Cheapest && order_.size() > 1 && closenessBefore_[j] <= closenessBefore_[i])
             order_.assign(1, *std::min_element(order_.begin(), order_.end()));
-        std::sort(order_.begin(), order_.end());
-        for (const auto &candidate : order_)
-        {
-            const ReedsSheppCurve &curve = candidates_[candidate.second];
-            if (!isCurveFree(environment_, pieces_[i].from, curve, pieces_[j].from, CurveEnd::Start))
-                continue;
-            Path shorter{path.start, {}};
-            for (std::size_t k = 0; k < i; ++k)
-                shorter.append(pieces_[k].segment);
-            for (std::size_t m = 0; m < curve.count; ++m)
-                shorter.append(curve.pieces[m]);
-            for (std::size_t k = j; k < count; ++k)
-                shorter.append(pieces_[k].segment);
-            if (!environment_.acceptPath(shorter))
-                continue;
-            path = std::move(shorter);
-            return true;
-        }
-        return false;
+        return offerFreeCurves(environment_, cost_, pieces_[i].from, pieces_[j].from, order_, CurveEnd::Start,
+                               now - LEAST_GAIN,
+                               [&](const ReedsSheppCurve &curve, double)
+                               {
+                                   Path shorter{path.start, {}};
+                                   for (std::size_t k = 0; k < i; ++k)
+                                       shorter.append(pieces_[k].segment);
+                                   for (std::size_t m = 0; m < curve.count; ++m)
+                                       shorter.append(curve.pieces[m]);
+                                   for (std::size_t k = j; k < count; ++k)
+                                       shorter.append(pieces_[k].segment);
+                                   if (!environment_.acceptPath(shorter))
+                                       return false;
+                                   path = std::move(shorter);
+                                   return true;
+                               });
     }
 
     bool PathShortener::pass(Path &path, double spacing, double offset, double widest, CurveChoice choice,

@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
@@ -64,9 +65,9 @@ namespace parking::search
         const ReedsShepp &curves_;
         CostModel cost_;
         std::vector<Piece> pieces_;
-        std::vector<double> costBefore_;
+        std::vector<double> costBefore_, closenessBefore_;
         std::vector<ReedsSheppCurve> candidates_;
-        std::vector<std::pair<double, std::size_t>> order_;
+        std::vector<PricedCurve> order_;
         std::uint64_t connectionCount_{0};
     };
 }  // namespace parking::search

@@ -59,6 +59,8 @@ namespace parking::search
         search.cost.gearChangePenalty = parameters.gearChangePenalty;
         search.cost.steeringChangePenalty = parameters.steeringChangePenalty;
         search.cost.clearanceWeight = parameters.clearanceWeight;
+        search.cost.preferredClearance = parameters.preferredClearance;
+        search.cost.clearanceCost = parameters.clearanceCost;
         search.cost.fullLockCurvature = 1.0 / car.turningRadius;
         return result;
     }

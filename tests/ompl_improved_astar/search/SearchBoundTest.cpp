@@ -80,7 +80,7 @@ namespace
             {
                 const PathPiece drive = successor.motion.drive();
                 Node next;
-                next.g = node.g + parameters.cost.drive(node.pose, fromStart ? drive : drive.reversed(), problem.world);
+                next.g = node.g + parameters.cost.drive(fromStart ? drive : drive.reversed());
                 if (node.parent != NO_NODE)
                     next.g += parameters.cost.join(node.motion.drive(), drive);
                 if (next.g >= best)

@@ -269,12 +269,12 @@ TEST(CostModel, pricesLengthGearSteeringAndCloseness)
     DiscCarWorld world({{-10.0, -10.0}, {10.0, 10.0}});
     CostModel model;
     model.fullLockCurvature = 0.25;
-    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, 3.0}, world), 3.0);
-    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, -3.0}, world), 3.0);
+    EXPECT_DOUBLE_EQ(model.drive({0.1, 3.0}), 3.0);
+    EXPECT_DOUBLE_EQ(model.drive({0.1, -3.0}), 3.0);
     EXPECT_DOUBLE_EQ(model.join({0.25, 1.0}, {-0.25, -1.0}), 0.0);
     model.reversePenalty = 0.5;
-    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, 3.0}, world), 3.0);
-    EXPECT_DOUBLE_EQ(model.drive({}, {0.1, -3.0}, world), 4.5);
+    EXPECT_DOUBLE_EQ(model.drive({0.1, 3.0}), 3.0);
+    EXPECT_DOUBLE_EQ(model.drive({0.1, -3.0}), 4.5);
     model.gearChangePenalty = 2.0;
     EXPECT_DOUBLE_EQ(model.join({0.25, 1.0}, {-0.25, -1.0}), 2.0);
     EXPECT_DOUBLE_EQ(model.join({0.25, -1.0}, {-0.25, -1.0}), 0.0);
@@ -287,10 +287,38 @@ TEST(CostModel, pricesLengthGearSteeringAndCloseness)
     model = {};
     model.clearanceWeight = 3.0;
     model.clearanceRange = 1.0;
-    const double far = model.drive({0.0, 0.0, 0.0}, {0.0, 2.0}, world);
-    EXPECT_DOUBLE_EQ(far, 2.0) << "more than the range away";
+    EXPECT_EQ(model.closeness({0.0, 0.0, 0.0}, {0.0, 2.0}, world), 0.0) << "more than the range away";
     // Along the wall, 0.25 m from it: three quarters of the weight on every metre.
-    EXPECT_NEAR(model.drive({0.0, 10.0 - 0.95 - 0.25, 0.0}, {0.0, 2.0}, world), 2.0 + 0.75 * 3.0 * 2.0, 1e-9);
+    EXPECT_NEAR(model.closeness({0.0, 10.0 - 0.95 - 0.25, 0.0}, {0.0, 2.0}, world), 0.75 * 3.0 * 2.0, 1e-9);
+}
+
+TEST(CostModel, pricesWhatIsNearerThanPreferred)
+{
+    DiscCarWorld world({{-10.0, -10.0}, {10.0, 10.0}});
+    CostModel model;
+    model.preferredClearance = 0.3;
+    EXPECT_FALSE(model.pricesCloseness());
+    model.clearanceCost = 4.0;
+    ASSERT_TRUE(model.pricesCloseness());
+    const auto besideTheWall = [&](double clearance)
+    {
+        return model.closeness({0.0, 10.0 - 0.95 - clearance, 0.0}, {0.0, -2.0}, world);
+    };
+    EXPECT_EQ(besideTheWall(0.301), 0.0);
+    EXPECT_NEAR(besideTheWall(0.299), 2.0 * 4.0, 1e-9);
+    EXPECT_NEAR(besideTheWall(0.01), 2.0 * 4.0, 1e-9) << "near is near";
+    // Towards the wall: the last 0.3 m of 1 m, up to a sample; the same backwards, and for what is known beforehand.
+    const Pose from{10.0 - 0.95 - 2.6 - 1.0, 0.0, 0.0}, to = advance(from, 0.0, 1.0);
+    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world), 0.3 * 4.0, 0.25 * 4.0);
+    EXPECT_NEAR(model.closeness(to, {0.0, -1.0}, world), model.closeness(from, {0.0, 1.0}, world), 1e-9);
+    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world, 0.69), 0.31 * 4.0, 0.25 * 4.0);
+    EXPECT_EQ(model.closeness(from, {0.0, 0.69}, world, 0.69), 0.0);
+    // What is known to come too near beyond a point does, whether a sample meets it or not.
+    EXPECT_NEAR(model.closeness({0.0, 0.0, 0.0}, {0.0, 1.0}, world, 0.6), 0.2 * 4.0, 1e-9);
+    // A metre of it is worth so many of detour, in whole paths as in their pieces.
+    const Path path{from, {{0.0, 1.0}, {0.0, -1.0}}};
+    EXPECT_NEAR(pathCost(model, path, world), 2.0 + pathCloseness(model, path, world), 1e-9);
+    EXPECT_NEAR(pathCloseness(model, path, world), 2.0 * model.closeness(from, {0.0, 1.0}, world), 1e-9);
 }
 
 TEST(CostModel, curvesAndPathsCostTheSameAndNeverLessThanTheirLength)
@@ -306,15 +334,19 @@ TEST(CostModel, curvesAndPathsCostTheSameAndNeverLessThanTheirLength)
                         random.between(0.0, 1.0),
                         i % 2 ? random.between(0.0, 2.0) : 0.0,
                         1.0,
-                        0.25};
+                        0.25,
+                        i % 3 ? random.between(0.0, 0.5) : 0.0,
+                        random.between(0.0, 5.0)};
         const Pose from = random.poseIn(-8.0, 8.0), to = random.poseIn(-8.0, 8.0);
         curves.candidates(from, to, candidates);
         for (const ReedsSheppCurve &curve : candidates)
         {
             Path path{from, {}};
             path.pieces.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<long>(curve.count));
-            ASSERT_NEAR(curveCost(model, from, curve, world), pathCost(model, path, world), 1e-9);
-            ASSERT_GE(curveCost(model, from, curve, world), curve.length - 1e-9);
+            const double closeness = curveCloseness(model, from, curve, world);
+            ASSERT_GE(closeness, 0.0);
+            ASSERT_NEAR(curveCost(model, curve) + closeness, pathCost(model, path, world), 1e-9);
+            ASSERT_GE(curveCost(model, curve), curve.length - 1e-9);
         }
     }
 }

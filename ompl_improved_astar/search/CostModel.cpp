@@ -1,0 +1,89 @@
+#include "ompl_improved_astar/search/CostModel.h"
+
+#include <algorithm>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
+    }
+
+    double CostModel::closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
+                                double clear) const
+    {
+        const double length = std::abs(segment.length);
+        double cost = 0.0;
+        if (clearanceWeight > 0.0)
+        {
+            const double samples = std::max(1.0, std::ceil(length / clearanceRange));
+            for (double i = 0.5; i < samples; i += 1.0)
+            {
+                const Pose pose = advance(from, segment.curvature, segment.length * i / samples);
+                const double nearness = 1.0 - environment.clearance(pose) / clearanceRange;
+                cost += clearanceWeight * std::max(0.0, nearness) * length / samples;
+            }
+        }
+        if (!(preferredClearance > 0.0 && clearanceCost > 0.0))
+            return cost;
+        if (clear < 0.0)
+        {
+            const Arc arc{segment.curvature, segment.length};
+            environment.clearLengths(from, &arc, 1, preferredClearance, &clear);
+        }
+        if (clear >= length)
+            return cost;
+        const double rest = length - clear, samples = std::ceil(rest / SAMPLES_APART);
+        double nearer = 0.0;
+        for (double i = 0.5; i < samples; i += 1.0)
+        {
+            const double at = clear + rest * i / samples;
+            const Pose pose = advance(from, segment.curvature, std::copysign(at, segment.length));
+            if (!environment.keeps(pose, preferredClearance))
+                nearer += 1.0;
+        }
+        // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
+        return cost + clearanceCost * std::max(clear > 0.0 ? 1.0 : 0.0, nearer) * rest / samples;
+    }
+
+    double curveCost(const CostModel &model, const ReedsSheppCurve &curve)
+    {
+        double cost = 0.0;
+        for (std::size_t i = 0; i < curve.count; ++i)
+            cost += model.drive(curve.pieces[i]) + (i > 0 ? model.join(curve.pieces[i - 1], curve.pieces[i]) : 0.0);
+        return cost;
+    }
+
+    double curveCloseness(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
+                          MotionEnvironment &environment)
+    {
+        double cost = 0.0;
+        Pose pose = from;
+        for (std::size_t i = 0; i < curve.count && model.pricesCloseness(); ++i)
+        {
+            cost += model.closeness(pose, curve.pieces[i], environment);
+            pose = advance(pose, curve.pieces[i].curvature, curve.pieces[i].length);
+        }
+        return cost;
+    }
+
+    double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment)
+    {
+        double cost = 0.0;
+        Pose pose = path.start;
+        for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness(); ++i)
+        {
+            cost += model.closeness(pose, path.pieces[i], environment);
+            pose = advance(pose, path.pieces[i].curvature, path.pieces[i].length);
+        }
+        return cost;
+    }
+
+    double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
+    {
+        double cost = pathCloseness(model, path, environment);
+        for (std::size_t i = 0; i < path.pieces.size(); ++i)
+            cost += model.drive(path.pieces[i]) + (i > 0 ? model.join(path.pieces[i - 1], path.pieces[i]) : 0.0);
+        return cost;
+    }
+}  // namespace parking::search
