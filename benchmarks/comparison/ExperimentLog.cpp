@@ -56,6 +56,15 @@ namespace parking
             return data;
         }
 
+        /** As a log lists the values of an enumeration. */
+        std::string outcomeNames()
+        {
+            std::string text = runColumn("outcome").name;
+            for (std::size_t i = 0; i < PLAN_STATUSES; ++i)
+                text += "|" + toString(static_cast<PlanStatus>(i));
+            return text;
+        }
+
         /** OMPL's own writer, for data that were gathered run by run. */
         class LogWriter final : public ompl::tools::Benchmark
         {
@@ -106,7 +115,10 @@ namespace parking
             if (own.empty())
                 continue;
             std::sort(own.begin(), own.end(), [](const RunRecord *a, const RunRecord *b) { return a->run < b->run; });
-            planner.common = own.front()->parameters;
+            // Of a planner that fails early nobody knows them.
+            for (auto record = own.begin(); record != own.end() && planner.common.empty(); ++record)
+                for (const auto &[name, value] : (*record)->parameters)
+                    planner.common[oneLine(name)] = oneLine(value);
             planner.progressPropertyNames = {"best cost REAL", "time REAL"};
             for (const RunRecord *record : own)
             {
@@ -123,6 +135,10 @@ namespace parking
         const std::string blank = "OMPL version \n";
         if (log.compare(0, blank.size(), blank) == 0)
             log.replace(0, blank.size(), "OMPL version " + packagedVersion() + "\n");
+        // It names the values of its own status only.
+        const std::string one = "\n1 enum type\n";
+        if (const std::size_t at = log.find(one); at != std::string::npos)
+            log.replace(at, one.size(), "\n2 enum types\n" + outcomeNames() + "\n");
         return log;
     }
 

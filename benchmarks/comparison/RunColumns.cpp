@@ -42,7 +42,9 @@ namespace parking
 
             add("outcome", &R::outcome, "",
                 "0 exact, 1 approximate, 2 time is up, 3 invalid start, 4 invalid goal, 5 gave up: nothing left to "
-                "try");
+                "try; of the planner itself: 6 exception, 7 crash, 8 hang, 9 too much memory, 10 an answer that is "
+                "none; "
+                "the table `enums` has the names");
             add("success", &R::success, "", "exact, valid in the second check, and in time");
             add("late", &R::late, "",
                 "the first solution came more than 0.05 s after the limit (some planners of OMPL look at the clock too "
@@ -150,11 +152,11 @@ namespace parking
             [](auto pointer) -> const char *
             {
                 using Type = typename Held<std::decay_t<decltype(std::declval<RunRecord>().*pointer)>>::Type;
-                // OMPL names the values of its own status only.
-                return std::is_same_v<Type, ompl::base::PlannerStatus::StatusType> ? "ENUM"
-                       : std::is_same_v<Type, bool>                                ? "BOOLEAN"
-                       : std::is_same_v<Type, double>                              ? "REAL"
-                                                                                   : "INTEGER";
+                return std::is_same_v<Type, ompl::base::PlannerStatus::StatusType> || std::is_same_v<Type, PlanStatus>
+                           ? "ENUM"
+                       : std::is_same_v<Type, bool>   ? "BOOLEAN"
+                       : std::is_same_v<Type, double> ? "REAL"
+                                                      : "INTEGER";
             },
             member);
     }
@@ -218,7 +220,7 @@ namespace parking
                     if (static_cast<std::int64_t>(converted) != *whole)
                         refuse();
                     if constexpr (std::is_same_v<Type, PlanStatus>)
-                        if (converted > PlanStatus::Infeasible)
+                        if (converted > PlanStatus::Nonsense)
                             refuse();
                     record.*pointer = converted;
                 }

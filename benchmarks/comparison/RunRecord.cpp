@@ -41,6 +41,8 @@ namespace parking
         json text{{"experiment", experiment}, {"planner", planner}, {"parameters", parameters}};
         if (!fingerprint.empty())
             text["fingerprint"] = fingerprint;
+        if (!reason.empty())
+            text["reason"] = reason;
         json &figures = text["figures"] = json::object();
         for (const RunColumn &column : runColumns())
             if (const std::optional<FigureValue> value = column.valueOf(*this))
@@ -66,6 +68,7 @@ namespace parking
         text.at("planner").get_to(record.planner);
         text.at("parameters").get_to(record.parameters);
         record.fingerprint = text.value("fingerprint", "");
+        record.reason = text.value("reason", "");
         const json &figures = text.at("figures");
         for (const char *key : {"run", "seed"})
             figures.at(key);  // which run it is must be there, all else may be missing

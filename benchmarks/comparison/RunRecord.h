@@ -31,6 +31,7 @@ namespace parking
 
         // How it ended.
         std::optional<PlanStatus> outcome;
+        std::string reason;  ///< one line on why there is no solution; empty where nobody tells
         std::optional<bool> success, late;
         // What it took.
         std::optional<double> firstSolutionTime, planningTime, cpuTime, mapLoadingTime;

@@ -10,6 +10,7 @@
 #include <ompl/util/Console.h>
 
 #include <chrono>
+#include <exception>
 #include <map>
 #include <sstream>
 
@@ -23,6 +24,38 @@ namespace parking
         constexpr double LATE = 0.05;               // seconds after the time limit, which a busy machine may take
         constexpr double SIMPLIFY_SHARE = 1.0;      // of the time limit, at most
         constexpr double DEGREES = 180.0 / PI;
+        // In a process of its own, a planner that has not come back after this is killed. Some of OMPL's come 2 s late.
+        constexpr double SOLVE_SHARE = 3.0, SOLVE_GRACE = 2.0;  // of the time limit; seconds more
+        // The same for all that is done with its path: simplification and drive take long.
+        constexpr double MEASURE_SHARE = 10.0, MEASURE_GRACE = 60.0;
+
+        /** While it lives OMPL says nothing. */
+        class Quiet
+        {
+        public:
+            Quiet() : handler_(ompl::msg::getOutputHandler())
+            {
+                ompl::msg::noOutputHandler();
+            }
+            ~Quiet()
+            {
+                ompl::msg::useOutputHandler(handler_);
+            }
+            Quiet(const Quiet &) = delete;
+            Quiet &operator=(const Quiet &) = delete;
+
+        private:
+            ompl::msg::OutputHandler *handler_;
+        };
+
+        RunRecord failedRun(RunRecord record, PlanStatus outcome, const std::string &reason)
+        {
+            record.outcome = outcome;
+            record.reason = reason;
+            record.success = record.late = false;
+            record.status = ob::PlannerStatus::CRASH;
+            return record;
+        }
 
         void putPath(RunRecord &record, const PlannedPath &path)
         {
@@ -81,6 +114,7 @@ namespace parking
             // AIT* and LazyPRM* look at the clock too seldom: what they find after the limit is worth nothing.
             record.late = record.exact && run.firstSolutionTime > timeLimit + LATE;
             record.outcome = run.status;
+            record.reason = run.reason;
             record.success = record.exact && run.path && run.path->recheck.valid && !*record.late;
             if (record.exact)
                 record.firstSolutionTime = run.firstSolutionTime;
@@ -97,10 +131,11 @@ namespace parking
     }  // namespace
 
     UnitRunner::UnitRunner(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
-                           const PlannerRegistry &registry, const std::atomic<bool> &stop)
+                           const PlannerRegistry &registry, Isolation isolation, const std::atomic<bool> &stop)
       : config_(config),
         experiments_(experiments),
         registry_(registry),
+        isolation_(isolation),
         stop_(stop)
     {
     }
@@ -113,22 +148,58 @@ namespace parking
         return *slot;
     }
 
+    bool UnitRunner::isIsolated(std::size_t planner) const
+    {
+        return isolation_ == Isolation::All ||
+               (isolation_ == Isolation::Plugins && !registry_.find(config_.planners[planner].planner).library.empty());
+    }
+
+    IsolationLimits UnitRunner::limits() const
+    {
+        return {SOLVE_SHARE * config_.timeLimit + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
+                config_.memoryLimit};
+    }
+
     void UnitRunner::checkSettings()
     {
-        for (std::size_t i = 0; i < experiments_.size(); ++i)
+        for (std::size_t i = 0; i < experiments_.size() && !stop_; ++i)
             for (const std::size_t index : experiments_[i].planners)
+                checkSettings(i, index);
+    }
+
+    void UnitRunner::checkSettings(std::size_t experiment, std::size_t planner)
+    {
+        const PlannerSpec &spec = config_.planners[planner];
+        const Problem &world = problem(experiment);
+        const PlannerEntry &entry = registry_.find(spec.planner);
+        std::string refusal;
+        const auto prepare = [&](const std::function<void()> & /*halfDone*/) -> std::string
+        {
+            try
             {
-                const PlannerSpec &spec = config_.planners[index];
-                try
-                {
-                    problem(i).prepare(registry_.find(spec.planner), spec.settings);
-                }
-                catch (const Error &error)
-                {
-                    throw Error(config_.file + ": planner " + spec.name + " on " + experiments_[i].name + ": " +
-                                error.what());
-                }
+                world.prepare(entry, spec.settings);
             }
+            catch (const Error &error)
+            {
+                return error.what();
+            }
+            return "";
+        };
+        try
+        {
+            if (!isIsolated(planner))
+                refusal = prepare({});
+            else if (const IsolatedResult result = runIsolated(prepare, limits(), stop_);
+                     result.end == IsolatedResult::End::Answered)
+                refusal = result.text;
+        }
+        catch (const std::exception &)
+        {
+            // Whatever else happens in there is an outcome of the runs.
+        }
+        if (!refusal.empty())
+            throw Error(config_.file + ": planner " + spec.name + " on " + experiments_[experiment].name + ": " +
+                        oneLine(refusal));
     }
 
     std::string UnitRunner::setupText(std::size_t experiment)
@@ -145,16 +216,71 @@ namespace parking
         return text.str();
     }
 
-    RunRecord UnitRunner::run(const Unit &unit)
+    RunRecord UnitRunner::recordOf(const Unit &unit) const
     {
-        const PlannerSpec &spec = config_.planners[unit.planner];
-        const Problem &world = problem(unit.experiment);
         RunRecord record;
         record.experiment = experiments_[unit.experiment].name;
-        record.planner = spec.name;
+        record.planner = config_.planners[unit.planner].name;
         record.run = unit.run;
         record.seed = seedOf(config_, experiments_, unit);
+        return record;
+    }
 
+    RunRecord UnitRunner::run(const Unit &unit)
+    {
+        problem(unit.experiment);  // loaded here, as another process could not keep it
+        return isIsolated(unit.planner) ? runApart(unit) : runHere(unit, [] {});
+    }
+
+    RunRecord UnitRunner::runHere(const Unit &unit, const std::function<void()> &solved)
+    {
+        RunRecord record = recordOf(unit);
+        try
+        {
+            benchmarkRun(record, config_.planners[unit.planner], problem(unit.experiment), solved);
+        }
+        catch (...)
+        {
+            const PlannerFailure failure = currentFailure("it");
+            return failedRun(recordOf(unit), statusOf(failure.kind), failure.text);
+        }
+        return record;
+    }
+
+    RunRecord UnitRunner::runApart(const Unit &unit)
+    {
+        const IsolatedResult result = runIsolated(
+            [&](const std::function<void()> &halfDone)
+            { return runHere(unit, halfDone).toJson().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); },
+            limits(), stop_);
+        switch (result.end)
+        {
+            case IsolatedResult::End::Answered:
+                try
+                {
+                    return RunRecord::fromJson(nlohmann::json::parse(result.text));
+                }
+                catch (const std::exception &)
+                {
+                    return failedRun(recordOf(unit), PlanStatus::Nonsense, "it wrote where only its answer belongs");
+                }
+            case IsolatedResult::End::TimeUp:
+                return failedRun(recordOf(unit), PlanStatus::Hang, result.text);
+            case IsolatedResult::End::OutOfMemory:
+                return failedRun(recordOf(unit), PlanStatus::Memory,
+                                 result.text + " (the limit is " + formatNumber(config_.memoryLimit) + " MB)");
+            case IsolatedResult::End::Exception:
+                return failedRun(recordOf(unit), PlanStatus::Exception, result.text);
+            case IsolatedResult::End::Died:
+            case IsolatedResult::End::Stopped:
+                break;
+        }
+        return failedRun(recordOf(unit), PlanStatus::Crash, result.text);
+    }
+
+    void UnitRunner::benchmarkRun(RunRecord &record, const PlannerSpec &spec, const Problem &world,
+                                  const std::function<void()> &solved) const
+    {
         seedRandomNumbers(record.seed);
         const PreparedPlanner prepared = world.prepare(registry_.find(spec.planner), spec.settings);
         prepared.planner->setName(spec.name);
@@ -175,24 +301,32 @@ namespace parking
                 seedRandomNumbers(record.seed);
                 world.resetCounts();
             });
+        std::exception_ptr failure;
         benchmark.setPostRunEvent(
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
+                solved();
                 takeOmplProperties(record, properties);
-                measure(record, world, prepared);
+                try
+                {
+                    measure(record, world, prepared);
+                }
+                catch (...)
+                {
+                    failure = std::current_exception();  // OMPL would keep it to itself
+                }
             });
         ompl::tools::Benchmark::Request request(config_.timeLimit, config_.memoryLimit, 1, PROGRESS_INTERVAL, false,
                                                 false, false);
-        ompl::msg::OutputHandler *handler = ompl::msg::getOutputHandler();
-        ompl::msg::noOutputHandler();
+        const Quiet nothingToTell;
         benchmark.benchmark(request);
-        ompl::msg::useOutputHandler(handler);
 
+        if (failure)
+            std::rethrow_exception(failure);
         const auto &experiment = benchmark.getRecordedExperimentData();
-        if (experiment.planners.empty() || experiment.planners.front().runs.empty())
-            throw Error("planner " + spec.name + " on " + record.experiment + ": OMPL's benchmark recorded no run");
+        if (!record.outcome || experiment.planners.empty())
+            throw Error("an exception, of which OMPL's benchmark tells no more");
         record.parameters = experiment.planners.front().common;
-        return record;
     }
 
     void UnitRunner::measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const

@@ -3,14 +3,24 @@
 #include "benchmarks/comparison/Experiment.h"
 #include "benchmarks/comparison/RunRecord.h"
 #include "benchmarks/problems/PlanRun.h"
+#include "benchmarks/system/Isolation.h"
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 namespace parking
 {
+    /** \brief Which runs have a process of their own. */
+    enum class Isolation
+    {
+        None,
+        Plugins,  ///< those of planners from elsewhere
+        All
+    };
+
     /** \brief Does single runs of a comparison, each through ompl::tools::Benchmark.
 
         Every run has a planner, a problem definition, a goal and samplers of its own, made anew from the run's own
@@ -21,14 +31,15 @@ namespace parking
     public:
         /** \brief \param stop once true, the run under way ends early and must not be kept */
         UnitRunner(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
-                   const PlannerRegistry &registry, const std::atomic<bool> &stop);
+                   const PlannerRegistry &registry, Isolation isolation, const std::atomic<bool> &stop);
 
         /** \brief Makes every planner on every experiment once, so that bad settings are found before hours of work.
             Throws parking::Error naming the planner and the experiment. */
         void checkSettings();
 
-        /** \brief Throws parking::Error when a planner refuses; what it finds, or that it does not, is in the
-            record. */
+        /** \brief What the planner finds, or that it does not, or what happens to it, is in the record: an exception,
+           and in a process of its own a crash, too much memory (more than the limit of the configuration), or that
+           solve() does not come back within three times the time limit and two seconds. */
         RunRecord run(const Unit &unit);
 
         const Problem &problem(std::size_t experiment);
@@ -37,11 +48,21 @@ namespace parking
         std::string setupText(std::size_t experiment);
 
     private:
+        bool isIsolated(std::size_t planner) const;
+        IsolationLimits limits() const;
+        void checkSettings(std::size_t experiment, std::size_t planner);
+        /** Without what comes of the run. */
+        RunRecord recordOf(const Unit &unit) const;
+        RunRecord runHere(const Unit &unit, const std::function<void()> &solved);
+        RunRecord runApart(const Unit &unit);
+        void benchmarkRun(RunRecord &record, const PlannerSpec &spec, const Problem &world,
+                          const std::function<void()> &solved) const;
         void measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const;
 
         const BenchmarkConfig &config_;
         const std::vector<Experiment> &experiments_;
         const PlannerRegistry &registry_;
+        Isolation isolation_;
         const std::atomic<bool> &stop_;
         std::map<std::size_t, std::unique_ptr<Problem>> problems_;
     };

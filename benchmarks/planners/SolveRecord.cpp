@@ -1,12 +1,21 @@
 #include "benchmarks/planners/SolveRecord.h"
 
+#include "parking_geometry/text/Text.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <ompl/geometric/PathGeometric.h>
+
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <new>
 
 namespace parking
 {
     namespace
     {
+        constexpr double FARTHEST = 1e6;  // metres; assertions of OMPL about Reeds-Shepp curves fail far beyond
+
         std::timespec processorTime()
         {
             std::timespec now{};
@@ -75,6 +84,53 @@ namespace parking
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         return improvements_;
+    }
+
+    PlannerFailure currentFailure(const std::string &where)
+    {
+        try
+        {
+            throw;
+        }
+        catch (const std::bad_alloc &)
+        {
+            return {PlannerFailure::Kind::Memory, where + " found no memory"};
+        }
+        catch (const std::exception &error)
+        {
+            return {PlannerFailure::Kind::Exception, where + " threw: " + oneLine(error.what())};
+        }
+        catch (...)
+        {
+            return {PlannerFailure::Kind::Exception, where + " threw something that is no std::exception"};
+        }
+    }
+
+    PlannerFailure failureOfAnswer(const ompl::base::ProblemDefinition &problem, bool exact)
+    {
+        const auto nonsense = [](const std::string &text)
+        {
+            return PlannerFailure{PlannerFailure::Kind::Nonsense, text};
+        };
+        const ompl::base::PathPtr path = problem.getSolutionPath();
+        if (!path)
+            return exact ? nonsense("it speaks of an exact solution, but there is no path") : PlannerFailure();
+        const auto *states = dynamic_cast<const ompl::geometric::PathGeometric *>(path.get());
+        if (states == nullptr)
+            return nonsense("its path is of a kind that nobody here knows");
+        if (states->getStateCount() == 0)
+            return nonsense("its path has no states");
+        for (unsigned int i = 0; i < states->getStateCount(); ++i)
+        {
+            const ompl::base::State *state = states->getState(i);
+            if (state == nullptr)
+                return nonsense("state " + std::to_string(i) + " of its path is null");
+            const Pose pose = poseOf(state);
+            if (!(std::abs(pose.x) <= FARTHEST && std::abs(pose.y) <= FARTHEST && std::abs(pose.yaw) <= FARTHEST))
+                return nonsense("state " + std::to_string(i) + " of its path is nowhere: " + formatNumber(pose.x) +
+                                ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw));
+        }
+        return {};
     }
 
     RecordingObjective::RecordingObjective(const ompl::base::SpaceInformationPtr &si,

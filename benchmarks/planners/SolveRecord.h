@@ -78,6 +78,29 @@ namespace parking
         std::shared_ptr<SolveRecord> record_;
     };
 
+    /** \brief What went wrong inside a planner. */
+    struct PlannerFailure
+    {
+        enum class Kind
+        {
+            None,
+            Exception,
+            Memory,   ///< there was not enough
+            Nonsense  ///< an answer that nobody can read
+        };
+        Kind kind{Kind::None};
+        std::string text;  ///< one line
+    };
+
+    /** \brief The exception that is being handled, as a failure in \e where. */
+    PlannerFailure currentFailure(const std::string &where);
+
+    /** \brief Is what a planner left as its solution a path at all: states of numbers, within a thousand kilometres?
+        Whether it is a good one is the referee's matter.
+
+        \param exact it speaks of an exact solution, so that there must be one */
+    PlannerFailure failureOfAnswer(const ompl::base::ProblemDefinition &problem, bool exact);
+
     /** \brief What all planners made by PlannerRegistry are, beside the OMPL planner that they are. */
     class MeasuredPlanner
     {
@@ -103,6 +126,10 @@ namespace parking
 
         /** \brief One line on why the last solve() found nothing, from planners that tell; otherwise empty. */
         virtual std::string whyNothing() const = 0;
+
+        /** \brief What went wrong in the planner since it was made, first. It is not thrown on: after it, solve()
+           returns CRASH and there is no solution. */
+        virtual const PlannerFailure &failure() const = 0;
     };
 
     namespace detail
@@ -141,6 +168,8 @@ namespace parking
         {
             const auto limit = std::chrono::duration<double>(timeLimit_);
             record_->begin();
+            if (failure_.kind != PlannerFailure::Kind::None)
+                return ompl::base::PlannerStatus::CRASH;  // in clear()
             const SolveRecord::Clock::time_point begin = SolveRecord::Clock::now();
             wasStopped_ = false;
             const ompl::base::PlannerTerminationCondition timeUp(
@@ -152,11 +181,35 @@ namespace parking
                         wasStopped_ = true;
                     return stop;
                 });
-            const ompl::base::PlannerStatus status = Planner::solve(timeUp);
+            ompl::base::PlannerStatus status = ompl::base::PlannerStatus::CRASH;
+            guard("solve()", [&] { status = Planner::solve(timeUp); });
             record_->end();
-            if (status == ompl::base::PlannerStatus::EXACT_SOLUTION)
+            const bool exact = status == ompl::base::PlannerStatus::EXACT_SOLUTION;
+            if (failure_.kind == PlannerFailure::Kind::None)
+                failure_ = failureOfAnswer(*this->getProblemDefinition(), exact);
+            if (failure_.kind != PlannerFailure::Kind::None)
+            {
+                this->getProblemDefinition()->clearSolutionPaths();
+                return ompl::base::PlannerStatus::CRASH;
+            }
+            if (exact)
                 record_->noteAtEnd(this->getProblemDefinition()->getSolutionPath()->length());
             return status;
+        }
+
+        void clear() override
+        {
+            guard("clear()", [this] { Planner::clear(); });
+        }
+
+        void getPlannerData(ompl::base::PlannerData &data) const override
+        {
+            guard("getPlannerData()", [&] { Planner::getPlannerData(data); });
+        }
+
+        const PlannerFailure &failure() const override
+        {
+            return failure_;
         }
 
         const std::shared_ptr<SolveRecord> &record() const override
@@ -188,7 +241,22 @@ namespace parking
         }
 
     private:
+        template <class Work>
+        void guard(const char *where, Work work) const
+        {
+            try
+            {
+                work();
+            }
+            catch (...)
+            {
+                if (failure_.kind == PlannerFailure::Kind::None)
+                    failure_ = currentFailure(where);
+            }
+        }
+
         std::shared_ptr<SolveRecord> record_{std::make_shared<SolveRecord>()};
+        mutable PlannerFailure failure_;
         double timeLimit_{1e9};
         const std::atomic<bool> *stop_{nullptr};
         std::atomic<bool> wasStopped_{false};  ///< planners with threads ask in each of them

@@ -99,8 +99,39 @@ namespace parking
                 return "invalid_goal";
             case PlanStatus::Infeasible:
                 return "infeasible";
+            case PlanStatus::Exception:
+                return "exception";
+            case PlanStatus::Crash:
+                return "crash";
+            case PlanStatus::Hang:
+                return "hang";
+            case PlanStatus::Memory:
+                return "memory";
+            case PlanStatus::Nonsense:
+                return "nonsense";
         }
         return "timeout";
+    }
+
+    bool isFailure(PlanStatus status)
+    {
+        return status >= PlanStatus::Exception;
+    }
+
+    PlanStatus statusOf(PlannerFailure::Kind failure)
+    {
+        switch (failure)
+        {
+            case PlannerFailure::Kind::Exception:
+                return PlanStatus::Exception;
+            case PlannerFailure::Kind::Memory:
+                return PlanStatus::Memory;
+            case PlannerFailure::Kind::Nonsense:
+                return PlanStatus::Nonsense;
+            case PlannerFailure::Kind::None:
+                break;
+        }
+        return PlanStatus::Timeout;
     }
 
     PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ob::PlannerStatus status,
@@ -123,7 +154,19 @@ namespace parking
             run.firstSolutionTime = std::max(0.0, run.firstSolutionTime - run.mapLoadingTime);
         }
         run.status = statusOf(status, prepared);
+        const auto failed = [&]
+        {
+            if (prepared.measured == nullptr || prepared.measured->failure().kind == PlannerFailure::Kind::None)
+                return false;
+            run.status = statusOf(prepared.measured->failure().kind);
+            run.reason = prepared.measured->failure().text;
+            return true;
+        };
+        if (failed())
+            return run;
         run.search = figuresOf(problem, *prepared.planner);
+        if (failed())
+            return run;
         const bool exact = run.status == PlanStatus::Exact;
         if (!exact && prepared.measured != nullptr)
             run.reason = prepared.measured->whyNothing();

@@ -30,12 +30,25 @@ namespace parking
         Timeout,       ///< nothing found until the time was up
         InvalidStart,  ///< no start is free
         InvalidGoal,   ///< no goal is free
-        Infeasible     ///< the planner came to an end without having been stopped: there is nothing that it could still
+        Infeasible,    ///< the planner came to an end without having been stopped: there is nothing that it could still
                        ///< try
+        Exception,     ///< the planner threw
+        Crash,         ///< a signal ended it, or it ended its process
+        Hang,          ///< it did not come back
+        Memory,        ///< it took too much memory
+        Nonsense       ///< its answer is none: no path, or states that are nowhere
     };
+    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
 
-    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible. */
+    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception,
+       crash, hang, memory, nonsense. */
     std::string toString(PlanStatus status);
+
+    /** \brief Did the planner itself fail, whatever the problem? */
+    bool isFailure(PlanStatus status);
+
+    /** \brief How a run ended in which the planner failed so; Timeout where it did not. */
+    PlanStatus statusOf(PlannerFailure::Kind failure);
 
     /** \brief One run of a planner. */
     struct PlanRun

@@ -31,6 +31,10 @@ namespace parking
             add("shard", oneValue("I/N"), "do part I of N (1/N to N/N) and leave its runs to be merged");
             add("merge", "run nothing: put the runs in the output folder together, or those of --from");
             add("from", manyValues("FILE|DIR"), "with --merge: where the runs are; may be given several times");
+            add("isolate",
+                "each run in a process of its own, which may crash, hang or run out of memory without harm to "
+                "the others (runs of plug-ins always are)");
+            add("no-isolate", "no processes of their own for plug-ins, either; then only exceptions do no harm");
             add("fresh", "start over, whatever is finished");
             add("no-report", "leave out the HTML report");
             add("quiet", "tell no progress");
@@ -79,6 +83,10 @@ namespace parking
         result.fresh = line.given("fresh");
         result.report = !line.given("no-report");
         result.quiet = line.given("quiet");
+        if (line.given("isolate") && line.given("no-isolate"))
+            throw Error("--isolate and --no-isolate contradict each other");
+        if (line.given("isolate") || line.given("no-isolate"))
+            result.isolation = line.given("isolate") ? Isolation::All : Isolation::None;
         if (!result.inputs.empty() && !result.merge)
             throw Error("--from goes with --merge only");
         if (result.merge && (line.given("shard") || result.fresh))

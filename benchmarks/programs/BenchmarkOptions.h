@@ -1,5 +1,6 @@
 #pragma once
 
+#include "benchmarks/comparison/UnitRunner.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 
 #include <cstdint>
@@ -26,6 +27,7 @@ namespace parking
         bool merge{false};                ///< only put together what is there
         std::vector<std::string> inputs;  ///< to merge: files or folders; empty: the output folder
         bool fresh{false};
+        Isolation isolation{Isolation::Plugins};
         bool report{true};  ///< make the HTML report, too
         bool quiet{false};
     };

@@ -168,7 +168,7 @@ namespace parking
 
     bool Comparison::run(const std::atomic<bool> &stop)
     {
-        UnitRunner runner(config_, experiments_, registry_, stop);
+        UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
         makeFolder(folder_);
         std::vector<std::string> setups;
@@ -200,6 +200,8 @@ namespace parking
             RunRecord record = runner.run(unit);
             if (stop)
                 return false;
+            if (!options_.quiet && isFailure(record.outcome.value_or(PlanStatus::Timeout)))
+                progress.note(failureText(record));
             store_->add(std::move(record));
             progress.end(planner, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
@@ -334,7 +336,8 @@ namespace parking
         files.folder = folder_;
         const fs::path folder(folder_);
         const auto summaryRows = summarize(config_, experiments_, records_);
-        summary_ = summaryText(summaryRows);
+        const std::string failures = failuresText(records_);
+        summary_ = summaryText(summaryRows) + failures;
         std::size_t expected = 0;
         files.database = (folder / "benchmark.db").string();
         DatabaseWriter database(files.database);  // first, as it keeps others from writing here
@@ -350,7 +353,7 @@ namespace parking
         files.missing = expected - std::min(expected, records_.size());
         database.write(files.logs);
         files.table = (folder / "summary.md").string();
-        writeFileAtomically(files.table, summaryMarkdown(summaryRows));
+        writeFileAtomically(files.table, summaryMarkdown(summaryRows) + failures);
         files.csv = (folder / "summary.csv").string();
         writeFileAtomically(files.csv, summaryCsv(summaryRows));
         // Last, and whatever happens to it does not harm the results.

@@ -14,11 +14,15 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <unistd.h>
 
 namespace
 {
     constexpr int DONE = 0, INCOMPLETE = 1, BAD_INPUT = 2, INTERRUPTED = 130;
+    constexpr unsigned int PATIENCE = 3;  // seconds that a run may take to end after a signal
 
     std::atomic<bool> interrupted{false};
 
@@ -27,6 +31,19 @@ namespace
         interrupted = true;
         // A second time means it.
         std::signal(signal, SIG_DFL);
+        alarm(PATIENCE);
+    }
+
+    /** What is finished is safe at any time, so that a planner that does not listen is no reason to stay. */
+    extern "C" void endNow(int /*signal*/)
+    {
+        constexpr std::string_view TEXT =
+            "Interrupted in the middle of something that did not end. What is finished is kept; "
+            "the same command goes on from there.\n";
+        if (write(STDERR_FILENO, TEXT.data(), TEXT.size()) < 0)
+        {
+        }  // nobody is listening
+        _exit(INTERRUPTED);
     }
 
     /** Names files; of many in one folder only the folder. */
@@ -65,6 +82,8 @@ namespace
         {
             std::signal(SIGINT, interrupt);
             std::signal(SIGTERM, interrupt);
+            std::signal(SIGALRM, endNow);
+            std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
             if (!comparison.run(interrupted))
             {
                 std::cerr << "Interrupted. What is finished is kept in " << comparison.runsFile()

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <tuple>
 
 namespace parking
 {
@@ -265,6 +267,35 @@ namespace parking
                 text += " " + cell + " |";
             text += "\n";
         }
+        return text;
+    }
+
+    std::string failureText(const RunRecord &record)
+    {
+        return record.planner + " on " + record.experiment + ", run " + std::to_string(record.run) + ": " +
+               toString(*record.outcome) + ": " + oneLine(record.reason);
+    }
+
+    std::string failuresText(const std::vector<RunRecord> &records)
+    {
+        struct Failures
+        {
+            std::size_t count{0};
+            const RunRecord *first{nullptr};
+        };
+        std::map<std::tuple<std::string, std::string, PlanStatus>, Failures> all;
+        for (const RunRecord &record : records)
+            if (record.outcome && isFailure(*record.outcome))
+            {
+                Failures &same = all[{record.planner, record.experiment, *record.outcome}];
+                if (same.count++ == 0)
+                    same.first = &record;
+            }
+        if (all.empty())
+            return "";
+        std::string text = "\nPlanners that failed:\n\n";
+        for (const auto &[key, same] : all)
+            text += "- " + std::to_string(same.count) + " times " + failureText(*same.first) + "\n";
         return text;
     }
 

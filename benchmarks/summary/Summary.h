@@ -47,6 +47,12 @@ namespace parking
     /** \brief The same as a Markdown table. */
     std::string summaryMarkdown(const std::vector<SummaryRow> &rows);
 
+    /** \brief What happened in a run in which the planner itself failed, on one line. */
+    std::string failureText(const RunRecord &record);
+
+    /** \brief A list of the planners that failed, with how often and why; empty when none did. */
+    std::string failuresText(const std::vector<RunRecord> &records);
+
     /** \brief With all figures, as comma-separated values. Infinite and missing values are empty. */
     std::string summaryCsv(const std::vector<SummaryRow> &rows);
 }  // namespace parking

@@ -66,6 +66,14 @@ namespace parking
             say(std::to_string(done_) + " of " + std::to_string(total_) + " runs", true);
     }
 
+    void Progress::note(const std::string &text)
+    {
+        if (terminal_ && width_ > 0)
+            std::cerr << std::endl;
+        width_ = 0;
+        std::cerr << text << std::endl;
+    }
+
     void Progress::say(const std::string &text, bool last)
     {
         const auto now = std::chrono::steady_clock::now();

@@ -27,6 +27,9 @@ namespace parking
         /** \brief \param seconds that the run took, with everything round it */
         void end(const std::string &planner, double seconds);
 
+        /** \brief Says something on a line of its own. */
+        void note(const std::string &text);
+
     private:
         struct Count
         {

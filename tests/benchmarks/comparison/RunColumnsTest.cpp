@@ -143,7 +143,7 @@ namespace
         expectError([&] { runColumn("cusps").set(record, std::int64_t(-1)); }, {"cusps", "-1"});
         expectError([&] { runColumn("success").set(record, std::int64_t(1)); }, {"success", "BOOLEAN"});
         expectError([&] { runColumn("path length").set(record, true); }, {"path length", "REAL"});
-        expectError([&] { runColumn("outcome").set(record, std::int64_t(6)); }, {"outcome", "6"});
+        expectError([&] { runColumn("outcome").set(record, std::int64_t(11)); }, {"outcome", "11"});
         expectError([&] { runColumn("seed").set(record, std::int64_t(1) << 33); }, {"seed"});
         nlohmann::json line = fullRecord(0).toJson();
         line["figures"].erase("run");

@@ -1,0 +1,322 @@
+#include "benchmarks/system/Isolation.h"
+
+#include "benchmarks/system/Subprocess.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <new>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace parking
+{
+    namespace
+    {
+        using Clock = std::chrono::steady_clock;
+        using End = IsolatedResult::End;
+
+        constexpr double BYTES = 1048576.0;        // in a MB
+        constexpr int LONGEST_WAIT = 100;          // milliseconds between looks at the process and at stop
+        constexpr std::size_t KEPT = 4096;         // bytes of what the work says on its error stream
+        constexpr rlim_t LEAST = rlim_t(1) << 20;  // bytes
+
+        // What the process says, each with a byte before it.
+        constexpr char HALF_DONE = 'h', ANSWER = 'a', EXCEPTION = 'x', OUT_OF_MEMORY = 'm', LAST = '\n';
+
+        int answers = -1;  // where the process of the work writes; in that process only
+
+        void say(const char *text, std::size_t size)
+        {
+            while (size > 0)
+            {
+                const ssize_t count = write(answers, text, size);
+                if (count < 0 && errno != EINTR)
+                    return;
+                text += std::max<ssize_t>(count, 0);
+                size -= static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+            }
+        }
+
+        void say(char kind, const std::string &text)
+        {
+            const std::string line = kind + text + LAST;
+            say(line.data(), line.size());
+        }
+
+        /** No memory is left to tell it in a nicer way. */
+        [[noreturn]] void endWithoutMemory()
+        {
+            const std::array<char, 2> text{OUT_OF_MEMORY, LAST};
+            say(text.data(), text.size());
+            _exit(EXIT_FAILURE);
+        }
+
+        void limitResources(double memory)
+        {
+            const rlimit none{0, 0};
+            setrlimit(RLIMIT_CORE, &none);
+            // Pages of data and stack are what the kernel compares with the limit.
+            std::ifstream file("/proc/self/statm");
+            double size = 0.0, resident = 0.0, shared = 0.0, text = 0.0, library = 0.0, data = 0.0;
+            if (!(file >> size >> resident >> shared >> text >> library >> data) || !(memory > 0.0))
+                return;
+            const double bytes = data * static_cast<double>(sysconf(_SC_PAGESIZE)) + memory * BYTES;
+            if (bytes < 0.9 * static_cast<double>(RLIM_INFINITY))
+            {
+                const rlim_t limit = std::max(LEAST, static_cast<rlim_t>(bytes));
+                const rlimit both{limit, limit};
+                setrlimit(RLIMIT_DATA, &both);
+            }
+            std::set_new_handler(endWithoutMemory);
+        }
+
+        [[noreturn]] void work(const std::function<std::string(const std::function<void()> &)> &what, double memory)
+        {
+            try
+            {
+                limitResources(memory);
+                say(ANSWER, what(
+                                []
+                                {
+                                    const char text = HALF_DONE;
+                                    say(&text, 1);
+                                }));
+            }
+            catch (const std::bad_alloc &)
+            {
+                endWithoutMemory();
+            }
+            catch (const std::exception &error)
+            {
+                say(EXCEPTION, oneLine(error.what()));
+            }
+            catch (...)
+            {
+                say(EXCEPTION, "an exception that is no std::exception");
+            }
+            // Without destructors and whatever waits for the end of the program: all that belongs to the other process.
+            _exit(EXIT_SUCCESS);
+        }
+
+        /** A pipe whose ends are closed. */
+        struct Pipe
+        {
+            Pipe()
+            {
+                if (pipe2(ends.data(), O_CLOEXEC) != 0)
+                    throw Error(std::string("a process for a run cannot be started: ") + std::strerror(errno));
+            }
+            ~Pipe()
+            {
+                closeEnd(0);
+                closeEnd(1);
+            }
+            Pipe(const Pipe &) = delete;
+            Pipe &operator=(const Pipe &) = delete;
+
+            void closeEnd(std::size_t end)
+            {
+                if (ends[end] >= 0)
+                    close(ends[end]);
+                ends[end] = -1;
+            }
+
+            std::array<int, 2> ends{-1, -1};
+        };
+
+        /** Takes what is there; closes the end of a pipe that has no other any more. */
+        void take(Pipe &pipe, std::string &text)
+        {
+            std::array<char, 65536> buffer;
+            for (;;)
+            {
+                const ssize_t count = read(pipe.ends[0], buffer.data(), buffer.size());
+                if (count > 0)
+                {
+                    text.append(buffer.data(), static_cast<std::size_t>(count));
+                    if (count < static_cast<ssize_t>(buffer.size()))
+                        return;
+                }
+                else if (count < 0 && errno == EINTR)
+                    continue;
+                else
+                {
+                    if (count == 0)
+                        pipe.closeEnd(0);
+                    return;
+                }
+            }
+        }
+
+        std::string signalText(int number)
+        {
+            const char *name = strsignal(number);
+            return "killed by signal " + std::to_string(number) +
+                   (name != nullptr ? std::string(" (") + name + ")" : "");
+        }
+
+        /** Of a process that ended without a last word. */
+        IsolatedResult endOf(int status, const std::string &errors)
+        {
+            const std::string last =
+                errors.find_first_not_of(" \r\n") == std::string::npos ? "" : ": " + lastLine(errors);
+            if (!WIFSIGNALED(status))
+                return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + last};
+            // Nobody but the system does that.
+            if (WTERMSIG(status) == SIGKILL)
+                return {End::OutOfMemory, "killed by the system, as it is when memory runs out"};
+            return {End::Died, signalText(WTERMSIG(status)) + last};
+        }
+
+        IsolatedResult readAnswer(const std::string &said, std::size_t begin)
+        {
+            const std::string text = said.substr(begin + 1, said.size() - begin - 2);
+            switch (said[begin])
+            {
+                case ANSWER:
+                    return {End::Answered, text};
+                case EXCEPTION:
+                    return {End::Exception, text};
+                case OUT_OF_MEMORY:
+                    return {End::OutOfMemory, "out of memory"};
+                default:
+                    return {End::Died, "it wrote where only its answer belongs"};
+            }
+        }
+
+        /** The process of the work; it does not outlive this. */
+        class Child
+        {
+        public:
+            explicit Child(pid_t process) : process_(process)
+            {
+                setpgid(process_, process_);
+            }
+            ~Child()
+            {
+                end();
+            }
+            Child(const Child &) = delete;
+            Child &operator=(const Child &) = delete;
+
+            bool hasEnded()
+            {
+                if (!ended_)
+                    ended_ = waitpid(process_, &status_, WNOHANG) == process_;
+                return ended_;
+            }
+
+            /** Kills it, if it is still there, and whatever it has started. \return its status */
+            int end()
+            {
+                kill(-process_, SIGKILL);
+                if (!ended_)
+                {
+                    kill(process_, SIGKILL);
+                    while (waitpid(process_, &status_, 0) < 0 && errno == EINTR)
+                    {
+                    }
+                }
+                ended_ = true;
+                return status_;
+            }
+
+        private:
+            pid_t process_;
+            bool ended_{false};
+            int status_{0};
+        };
+
+        /** Waits for the last word, or for what comes instead of it. */
+        IsolatedResult await(Child &child, Pipe &said, Pipe &errors, const IsolationLimits &limits,
+                             const std::atomic<bool> &stop)
+        {
+            const auto later = [](double seconds)
+            {
+                return Clock::now() + std::chrono::milliseconds(std::llround(1e3 * std::min(seconds, 1e9)));
+            };
+            Clock::time_point deadline = later(limits.timeToHalf);
+            std::string words, complaints;
+            bool half = false, ended = false;
+            for (;;)
+            {
+                std::array<pollfd, 2> ends{{{said.ends[0], POLLIN, 0}, {errors.ends[0], POLLIN, 0}}};
+                if (!ended)
+                    poll(ends.data(), ends.size(), LONGEST_WAIT);
+                if (said.ends[0] >= 0)
+                    take(said, words);
+                if (errors.ends[0] >= 0)
+                    take(errors, complaints);
+                if (complaints.size() > 2 * KEPT)
+                    complaints.erase(0, complaints.size() - KEPT);
+                if (!half && !words.empty() && words.front() == HALF_DONE)
+                {
+                    half = true;
+                    deadline = later(limits.timeAfter);
+                }
+                const std::size_t begin = half ? 1 : 0;
+                if (words.size() > begin + 1 && words.back() == LAST)
+                    return readAnswer(words, begin);
+                if (stop)
+                    return {End::Stopped, "stopped"};
+                if (ended)
+                    return endOf(child.end(), complaints);
+                if (Clock::now() >= deadline)
+                    return {End::TimeUp,
+                            half ? "its path could not be measured in time" : "it did not come back in time"};
+                // Once more round for what it said last. Who has its pipes from it may keep them open.
+                ended = child.hasEnded();
+            }
+        }
+    }  // namespace
+
+    IsolatedResult runIsolated(const std::function<std::string(const std::function<void()> &halfDone)> &what,
+                               const IsolationLimits &limits, const std::atomic<bool> &stop)
+    {
+        Pipe said, errors;
+        std::cout.flush();
+        std::cerr.flush();
+        std::fflush(nullptr);
+        const pid_t self = getpid(), process = fork();
+        if (process < 0)
+            throw Error(std::string("a process for a run cannot be started: ") + std::strerror(errno));
+        if (process == 0)
+        {
+            setpgid(0, 0);
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            std::signal(SIGINT, SIG_DFL);
+            std::signal(SIGTERM, SIG_DFL);
+            const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+            if (getppid() != self || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0 ||
+                dup2(errors.ends[1], STDERR_FILENO) < 0)
+                _exit(EXIT_FAILURE);
+            said.closeEnd(0);
+            errors.closeEnd(0);
+            answers = said.ends[1];
+            work(what, limits.memory);
+        }
+        Child child(process);
+        said.closeEnd(1);
+        errors.closeEnd(1);
+        fcntl(said.ends[0], F_SETFL, O_NONBLOCK);
+        fcntl(errors.ends[0], F_SETFL, O_NONBLOCK);
+        return await(child, said, errors, limits, stop);
+    }
+}  // namespace parking

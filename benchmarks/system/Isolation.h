@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+namespace parking
+{
+    /** \brief What a process of its own may take. */
+    struct IsolationLimits
+    {
+        double timeToHalf{0.0};  ///< seconds of wall clock until the work says that it is half done
+        double timeAfter{0.0};   ///< seconds from then on
+        double memory{0.0};      ///< MB of data beyond what there is at the beginning
+    };
+
+    /** \brief How work in a process of its own ended. */
+    struct IsolatedResult
+    {
+        enum class End
+        {
+            Answered,
+            Exception,  ///< one left the work
+            Died,       ///< of a signal, or it ended the process itself
+            TimeUp,
+            OutOfMemory,
+            Stopped
+        };
+        End end{End::Died};
+        std::string text;  ///< the answer, or one line on what happened
+    };
+
+    /** \brief Does work in a process of its own, a copy of this one, and waits for its answer: whatever the work does
+       to its process, this one goes on.
+
+        Nothing that the work changes in memory is seen here. It reads nothing, and what it prints is thrown away but
+       for the last line of its errors, which is told when it dies. It ends with this process, and so do the processes
+       that it has started.
+
+        \param work is handed what it may call when it is half done, and returns its answer: a line of text
+        \param stop once true, the work is ended
+        Throws parking::Error when there can be no other process. */
+    IsolatedResult runIsolated(const std::function<std::string(const std::function<void()> &halfDone)> &work,
+                               const IsolationLimits &limits, const std::atomic<bool> &stop);
+}  // namespace parking

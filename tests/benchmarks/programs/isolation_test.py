@@ -1,0 +1,161 @@
+"""No planner can end a comparison: whatever it does is an outcome of its own runs, and the others finish."""
+
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import time
+
+from programs import BENCHMARK, ProgramTest, bundled, main
+
+PLUGIN = os.environ['PARKING_BAD_PLANNERS']
+CONFIG = '''
+[problem]
+scenario = {angled}
+[benchmark]
+time_limit = {{time}}
+mem_limit = 300
+run_count = 2
+[planner]
+improved_astar=
+reeds_shepp=
+{{planners}}
+'''.format(angled=bundled('angled45'))
+EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw something',
+              'throws_in_constructor': 'bad in constructor', 'throws_in_setup': 'bad in setup',
+              'throws_in_clear': 'clear() threw: bad in clear', 'throws_in_data': 'getPlannerData() threw: bad in data'}
+NONSENSE = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is nowhere: nan',
+            'empty': 'its path has no states', 'null': 'no path'}
+# Path lengths of coordinates of 1e300 are an assertion in OMPL.
+DEADLY = {'far': ('crash', 'Assertion'),
+          'segfaults': ('crash', 'killed by signal 11'), 'aborts': ('crash', "signal 6 (Aborted): Assertion `room' failed"),
+          'exits': ('crash', 'ended its process with status 0'), 'hangs': ('hang', 'did not come back in time'),
+          'eats': ('memory', 'the limit is 300 MB')}
+
+
+def depends_on_the_clock(name):
+    return 'time' in name or 'memory' in name
+
+
+class IsolationTest(ProgramTest):
+    def compare(self, planners, *arguments, limit=20, **options):
+        self.write('set.cfg', CONFIG.format(time=limit, planners=''.join(each + '=\n' for each in planners)))
+        return self.benchmark('set.cfg', '--output', 'out', '--plugin', PLUGIN, *arguments, **options)
+
+    def records(self, name='out'):
+        runs = []
+        with open(self.path(name + '/runs.jsonl')) as stream:
+            for line in stream:
+                run = json.loads(line)
+                if 'parking_benchmark' not in run:
+                    run['figures'] = {key: value for key, value in run['figures'].items()
+                                      if not depends_on_the_clock(key)}
+                    run['progress'] = [cost for _, cost in run['progress']]
+                    runs.append(run)
+        return sorted(runs, key=lambda run: (run['planner'], run['figures']['run']))
+
+    def outcomes(self):
+        """What the database says: planner -> set of names of outcomes."""
+        with sqlite3.connect(self.path('out/benchmark.db')) as connection:
+            rows = connection.execute('''
+                SELECT plannerConfigs.name, enums.description, status FROM runs
+                JOIN plannerConfigs ON plannerid = plannerConfigs.id
+                JOIN enums ON enums.name = 'outcome' AND enums.value = outcome''').fetchall()
+        found = {}
+        for planner, outcome, _ in rows:
+            found.setdefault(planner.replace('geometric_', ''), []).append(outcome)
+        return found
+
+    def assert_others_finished(self, outcomes):
+        self.assertEqual(outcomes['improved_astar'], ['exact'] * 2)
+        self.assertEqual(outcomes['reeds_shepp'], ['infeasible'] * 2)
+
+    def assert_reasons(self, done, expected):
+        """Outcome and reason of each planner, in all places where they should be."""
+        outcomes = self.outcomes()
+        self.assert_others_finished(outcomes)
+        reasons = {run['planner']: run.get('reason', '') for run in self.records()}
+        for planner, (outcome, reason) in expected.items():
+            self.assertEqual(outcomes[planner], [outcome] * 2, planner)
+            self.assertIn(reason, reasons[planner])
+            self.assertIn('%s on angled45, run 0: %s: ' % (planner, outcome), done.stderr)
+            self.assertIn('- 2 times %s on angled45, run 0: %s: ' % (planner, outcome), done.stdout)
+            self.assertIn(reason, self.read('out/summary.md'))
+
+
+class Outcomes(IsolationTest):
+    def test_whatever_a_planner_does_the_others_finish(self):
+        expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
+        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        expected.update({name: each for name, each in DEADLY.items() if name != 'hangs'})
+        done = self.compare(list(expected) + ['fine'])
+        self.assert_reasons(done, expected)
+        self.assertEqual(self.outcomes()['fine'], ['infeasible'] * 2)
+        # It is over: nothing is run again.
+        done = self.compare(list(expected) + ['fine'])
+        self.assertIn('already finished', done.stderr)
+
+    def test_one_that_never_returns_is_killed(self):
+        begin = time.monotonic()
+        done = self.compare(['hangs'], limit=0.3)
+        self.assert_reasons(done, {'hangs': DEADLY['hangs']})
+        self.assertGreater(time.monotonic() - begin, 2 * (2 + 3 * 0.3))
+        self.assertLess(time.monotonic() - begin, 60)
+
+    def test_without_isolation_exceptions_and_nonsense_do_no_harm(self):
+        expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
+        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        self.assert_reasons(self.compare(list(expected), '--no-isolate'), expected)
+
+    def test_with_and_without_isolation_results_agree(self):
+        self.compare(['RRTConnect', 'fine'], '--isolate', '--quiet')
+        apart = self.records()
+        os.rename(self.path('out'), self.path('apart'))
+        self.compare(['RRTConnect', 'fine'], '--no-isolate', '--quiet')
+        self.assertEqual(len(apart), 8)
+        self.assertEqual(self.records(), apart)
+
+    def test_taking_the_culprit_out_costs_nothing(self):
+        # The suite as a whole is killed in the middle of its run, and goes on without it.
+        self.write('set.cfg', CONFIG.format(time=100, planners='hangs=\n'))
+        process = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet'],
+                                   cwd=self.folder)
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not os.path.exists(self.path('out/runs.jsonl')):
+            time.sleep(0.05)
+        time.sleep(1.5)
+        process.kill()
+        process.wait()
+        kept = len(self.records())
+        done = self.compare([], limit=100)
+        if kept > 0:
+            self.assertIn('Going on: %d of 4' % kept, done.stderr)
+        self.assert_others_finished(self.outcomes())
+        self.assertFalse([name for name in os.listdir(self.path('out')) if name.startswith('previous')])
+
+    def test_settings_are_refused_as_ever(self):
+        self.write('set.cfg', CONFIG.format(time=5, planners='fine=\nfine.speed=3\n'))
+        for option in ('--isolate', '--no-isolate'):
+            self.refused_benchmark('set.cfg', '--output', 'out', '--plugin', PLUGIN, option, parts=['fine', 'speed'])
+        self.refused_benchmark('set.cfg', '--isolate', '--no-isolate', parts=['--no-isolate'])
+
+
+class Stopping(IsolationTest):
+    def test_one_signal_stops_all(self):
+        self.write('set.cfg', CONFIG.format(time=100, planners='hangs=\n'))
+        for isolation in ('--isolate', '--no-isolate'):
+            for number in (signal.SIGTERM, signal.SIGINT):
+                with self.subTest(isolation, number=number):
+                    process = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet',
+                                                '--planner', 'hangs', isolation], cwd=self.folder,
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                    time.sleep(1.5)
+                    process.send_signal(number)
+                    _, errors = process.communicate(timeout=20)
+                    self.assertEqual(process.returncode, 130, errors)
+                    self.assertIn('goes on from there', errors)
+
+
+if __name__ == '__main__':
+    main()
