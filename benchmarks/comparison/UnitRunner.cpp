@@ -170,8 +170,21 @@ namespace parking
     void UnitRunner::checkSettings(std::size_t experiment, std::size_t planner)
     {
         const PlannerSpec &spec = config_.planners[planner];
-        const Problem &world = problem(experiment);
         const PlannerEntry &entry = registry_.find(spec.planner);
+        const auto refuse = [&](const std::string &why)
+        {
+            throw Error(config_.file + ": planner " + spec.name + " on " + experiments_[experiment].name + ": " +
+                        oneLine(why));
+        };
+        try
+        {
+            problem(experiment);
+        }
+        catch (const Error &error)
+        {
+            refuse(error.what());
+        }
+        const Problem &world = problem(experiment);
         std::string refusal;
         const auto prepare = [&](const std::function<void()> & /*halfDone*/) -> std::string
         {
@@ -198,8 +211,7 @@ namespace parking
             // Whatever else happens in there is an outcome of the runs.
         }
         if (!refusal.empty())
-            throw Error(config_.file + ": planner " + spec.name + " on " + experiments_[experiment].name + ": " +
-                        oneLine(refusal));
+            refuse(refusal);
     }
 
     std::string UnitRunner::setupText(std::size_t experiment)
