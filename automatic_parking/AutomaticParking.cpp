@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -23,12 +24,6 @@ namespace parking
             return std::abs(wrapAngle(a.yaw - b.yaw));
         }
 
-        bool sameGoals(const Scenario &a, const Scenario &b)
-        {
-            return a.goals.size() == b.goals.size() &&
-                   std::equal(a.goals.begin(), a.goals.end(), b.goals.begin(),
-                              [](const Pose &one, const Pose &other) { return isSamePose(one, other, 0.0); });
-        }
     }  // namespace
 
     void ParkingParameters::validate() const
@@ -194,6 +189,12 @@ namespace parking
             return true;
         }
 
+        bool isAt(const Pose &pose, const Pose &goal) const
+        {
+            return positionDistance(pose, goal) <= parameters_.goalTolerance &&
+                   yawBetween(pose, goal) <= parameters_.goalYawTolerance;
+        }
+
         /** Looks at each period of a drive; false asks for a safe stop. */
         bool watch(const ParkingLeg &leg, const DriveRecord &record)
         {
@@ -206,17 +207,17 @@ namespace parking
                 cause_ = "the heading is " + rounded(std::abs(record.control.headingError) * 180.0 / PI, 1.0) +
                          " degrees off the path";
             else if (update_)
-                if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
-                    try
-                    {
+                try
+                {
+                    if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
                         takeOver(std::move(*changed), leg.plan.path, record.control.s);
-                    }
-                    catch (const Error &error)
-                    {
-                        // A moving car is stopped, whatever is wrong with its map.
-                        cause_ = std::string("the changed map cannot be used: ") + error.what();
-                        hopeless_ = true;
-                    }
+                }
+                catch (const std::exception &error)
+                {
+                    // A moving car is stopped, whatever is wrong with its map or with who should bring it.
+                    cause_ = std::string("the changed map cannot be used: ") + error.what();
+                    hopeless_ = true;
+                }
             return cause_.empty();
         }
 
@@ -229,7 +230,9 @@ namespace parking
                 throw Error("scenario " + changed.name + ": it has no goal");
             changed.start = scenario_.start;
             changed.vehicle = scenario_.vehicle;
-            const bool moved = !sameGoals(changed, scenario_);
+            // Goals from perception jitter; the one under way counts as long as a car that stands there would do.
+            const bool moved = std::none_of(changed.goals.begin(), changed.goals.end(),
+                                            [this](const Pose &goal) { return isAt(goal, goal_); });
             world_ = ParkingWorld(changed);
             scenario_ = std::move(changed);
             if (moved)
@@ -256,8 +259,7 @@ namespace parking
                 return true;
             }
             const Pose stands = drive.log.back().control.estimate;
-            if (positionDistance(stands, goal_) > parameters_.goalTolerance ||
-                yawBetween(stands, goal_) > parameters_.goalYawTolerance)
+            if (!isAt(stands, goal_))
             {
                 reason = "the car stands " + rounded(100.0 * positionDistance(stands, goal_), 0.1) + " cm and " +
                          rounded(yawBetween(stands, goal_) * 180.0 / PI, 0.1) + " degrees from the goal";

@@ -22,6 +22,7 @@ namespace parking
     namespace
     {
         constexpr std::size_t LONGEST_HORIZON = 200;
+        constexpr double MOST_WEIGHT = 1e9;
         constexpr double FUNCTION_TOLERANCE = 1e-5;  // relative gain at which Ceres stops
         constexpr double SETTLED = 1e-3;             // relative gain of a step after which another is not worth it
         constexpr int MOST_REJECTIONS = 8;           // of steps by the trust region, per working set
@@ -120,15 +121,20 @@ namespace parking
         require.that(horizon >= 1 && horizon <= LONGEST_HORIZON, "horizon", static_cast<double>(horizon),
                      "a number of steps from 1 to 200");
         require.that(std::isfinite(step) && step > 0.0 && step <= 1.0, "step", step, "above 0 and up to 1 second");
-        require.notNegative("accelerationWeight", accelerationWeight);
-        require.notNegative("steeringWeight", steeringWeight);
-        require.notNegative("accelerationChangeWeight", accelerationChangeWeight);
-        require.notNegative("steeringChangeWeight", steeringChangeWeight);
-        require.notNegative("alongWeight", alongWeight);
-        require.notNegative("acrossWeight", acrossWeight);
-        require.notNegative("headingWeight", headingWeight);
+        // Far beyond what makes sense, and far from what squares and sums overflow at.
+        const auto weight = [&require](const char *field, double value)
+        {
+            require.that(value >= 0.0 && value <= MOST_WEIGHT, field, value, "a number from 0 to 1e9");
+        };
+        weight("accelerationWeight", accelerationWeight);
+        weight("steeringWeight", steeringWeight);
+        weight("accelerationChangeWeight", accelerationChangeWeight);
+        weight("steeringChangeWeight", steeringChangeWeight);
+        weight("alongWeight", alongWeight);
+        weight("acrossWeight", acrossWeight);
+        weight("headingWeight", headingWeight);
+        weight("farHeadingWeight", farHeadingWeight);
         require.notNegative("alignDistance", alignDistance);
-        require.notNegative("farHeadingWeight", farHeadingWeight);
         require.that(maxIterations >= 1, "maxIterations", maxIterations, "at least 1");
     }
 

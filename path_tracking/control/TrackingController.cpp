@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -292,11 +293,38 @@ namespace parking
         return true;
     }
 
+    MpcSolution TrackingController::solve(const MpcProblem &problem)
+    {
+        if (!solve_)
+            return mpc_.solve(problem);
+        try
+        {
+            return solve_(problem);
+        }
+        catch (const std::exception &error)
+        {
+            // A moving car needs its controller, whatever happens to the optimiser.
+            MpcSolution none;
+            none.message = std::string("the solver failed: ") + error.what();
+            return none;
+        }
+    }
+
+    double TrackingController::withinSpeedLimit(double acceleration) const
+    {
+        // What the car still takes up of earlier commands counts: its drive lags behind.
+        const double scale = estimator_.speedScale(), period = parameters_.mpc.step;
+        const double coming = estimator_.speed() + scale * driveLag_.acceleration() * driveLag_.lag();
+        const double most = (vehicle_.maxSpeed - coming) / (scale * period);
+        const double least = (-vehicle_.maxSpeed - coming) / (scale * period);
+        return std::clamp(std::clamp(acceleration, least, most), -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+    }
+
     void TrackingController::drive(TrackingStep &step)
     {
         const double period = parameters_.mpc.step;
         const MpcProblem problem = makeProblem();
-        const MpcSolution solution = solve_ ? solve_(problem) : mpc_.solve(problem);
+        const MpcSolution solution = solve(problem);
         step.solved = true;
         step.solveTime = solution.solveTime;
         step.iterations = solution.iterations;
@@ -324,8 +352,7 @@ namespace parking
                 return;
             }
         }
-        step.command.acceleration =
-            std::clamp(step.command.acceleration, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+        step.command.acceleration = withinSpeedLimit(step.command.acceleration);
         step.command.steering =
             std::clamp(towards(last_.steering, step.command.steering, vehicle_.maxSteeringRate * period),
                        -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);

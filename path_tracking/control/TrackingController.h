@@ -140,6 +140,8 @@ namespace parking
         void brake(TrackingStep &step);
         void standStill(TrackingStep &step, double steering, double rate);
         MpcProblem makeProblem() const;
+        MpcSolution solve(const MpcProblem &problem);
+        double withinSpeedLimit(double acceleration) const;
         bool useOldPlan(const std::string &why, TrackingStep &step);
 
         Vehicle vehicle_;

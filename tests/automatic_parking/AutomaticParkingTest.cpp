@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -311,6 +312,26 @@ namespace
         stops("worldOffset", [](Scenario &s) { s.worldOffset = {1.0, 0.0}; });
         stops("no goal", [](Scenario &s) { s.goals.clear(); });
         stops("bounds", [](Scenario &s) { s.bounds.max = s.bounds.min; });
+        stops("the lidar is gone", [](Scenario &) { throw std::runtime_error("the lidar is gone"); });
+    }
+
+    TEST(AutomaticParkingTest, aGoalThatJittersIsNotAnotherOne)
+    {
+        const Scenario scenario = openGround();
+        AutomaticParking parking;
+        int updates = 0;
+        parking.setMapUpdate(
+            [&](double, const Pose &) -> std::optional<Scenario>
+            {
+                Scenario other = scenario;
+                other.goals.front().x += ++updates % 2 == 0 ? 0.01 : -0.01;
+                other.goals.front().yaw += updates % 3 == 0 ? 0.002 : -0.002;
+                return other;
+            });
+        const ParkingResult result = parking.park(scenario);
+        EXPECT_TRUE(result.parked()) << result.message;
+        EXPECT_EQ(result.legs.size(), 1u);
+        EXPECT_GT(updates, 50);
     }
 
     TEST(AutomaticParkingTest, figuresOfSeveralDrivesAreThoseOfOne)

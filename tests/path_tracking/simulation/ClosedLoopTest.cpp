@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace parking::test
 {
@@ -299,6 +300,60 @@ namespace parking::test
             EXPECT_EQ(result.message, "safe stop: no licence");
             EXPECT_EQ(result.evaluation.solverFailures, static_cast<std::size_t>(count));
             EXPECT_EQ(result.evaluation.drivenLength, 0.0);
+        }
+
+        TEST(ClosedLoop, ASolverThatThrowsStopsTheCar)
+        {
+            ClosedLoop loop{Vehicle()};
+            int count = 0;
+            loop.setSolve(
+                [&count](const MpcProblem &problem)
+                {
+                    if (++count > 30)
+                        throw std::runtime_error("out of licences");
+                    MpcSolution solution;
+                    solution.usable = true;
+                    solution.controls.assign(problem.reference.size(), {0.5, 0.0});
+                    return solution;
+                });
+            const DriveResult result = loop.drive(arcs({}, {{0.0, 30.0}}));
+            EXPECT_FALSE(result.arrived);
+            EXPECT_NE(result.message.find("out of licences"), std::string::npos) << result.message;
+            EXPECT_GT(result.evaluation.drivenLength, 1.0);
+            EXPECT_EQ(result.trajectory.back().v, 0.0);
+        }
+
+        TEST(ClosedLoop, CommandsKeepToTheSpeedLimitWhateverTheSolverSays)
+        {
+            for (const double direction : {1.0, -1.0})
+                for (const bool disturbed : {false, true})
+                {
+                    ClosedLoopParameters parameters;
+                    if (disturbed)
+                        parameters.disturbances.accelerationLag = parameters.tracking.driveLag = 0.2;
+                    ClosedLoop loop(Vehicle(), parameters);
+                    loop.setSolve(
+                        [direction](const MpcProblem &problem)
+                        {
+                            MpcSolution solution;
+                            solution.usable = true;
+                            solution.controls.assign(problem.reference.size(), {direction, 0.0});
+                            return solution;
+                        });
+                    const DriveResult result = loop.drive(arcs({}, {{0.0, direction * 40.0}}));
+                    double fastest = 0.0;
+                    for (const TrajectoryPoint &point : result.trajectory)
+                        fastest = std::max(fastest, std::abs(point.v));
+                    EXPECT_GT(fastest, 0.95 * Vehicle().maxSpeed);
+                    EXPECT_LE(fastest, 1.002 * Vehicle().maxSpeed);
+                    EXPECT_EQ(result.trajectory.back().v, 0.0);
+                }
+        }
+
+        TEST(ClosedLoop, APathWithoutAMoveIsAnError)
+        {
+            EXPECT_THROW(ClosedLoop{Vehicle()}.drive({}), Error);
+            EXPECT_THROW(ClosedLoop{Vehicle()}.drive({{}, {PathPiece::turnOnTheSpot(1.0)}}), Error);
         }
 
         TEST(ClosedLoop, PrintsNothing)
