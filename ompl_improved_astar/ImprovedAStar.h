@@ -51,6 +51,12 @@ namespace ompl::geometric
         solution at least as good. Another problem definition, another goal object or another value of a parameter
         begins the query anew, as clearQuery() does; that is also what to call when the obstacles have changed.
 
+        \par Threads
+
+        A planner serves one thread at a time: no call of solve() may overlap with another on the same planner, nor with
+        clear() or a change of parameters. Several planners may run at once, on one SpaceInformation too. Progress
+        properties may be read while solve() runs.
+
         \par Associated publication
 
         Y. Zhao, Automatic parking planning control method based on improved A* algorithm, arXiv:2406.15429, 2024. */

@@ -99,6 +99,8 @@ namespace ompl::geometric
             query_->outcome = PlanOutcome::Infeasible;
             query_->reason = parking::search::reasonOf(query_->planner.search().exhaustion(), query_->car);
         }
+        else if (query_->planner.search().isFull())
+            query_->reason = parking::search::outOfMemory(parameters_);
         expanded_ = query_->planner.statistics().expanded;
         if (query_->hasSolution)
         {
@@ -106,7 +108,8 @@ namespace ompl::geometric
             query_->reason.clear();
             return report(query_->states, false);
         }
-        if (parameters_.approximate)
+        // Where memory is short, another search would take as much again.
+        if (parameters_.approximate && !query_->planner.search().isFull())
             if (const ob::PlannerStatus status = approach(ptc))
                 return status;
         return query_->outcome == PlanOutcome::Infeasible

@@ -67,6 +67,17 @@ namespace parking::search
         queue.turns.assign(levels_, 0);
     }
 
+    std::size_t Frontier::bytes() const
+    {
+        // An array that grows is there twice, once of double the size.
+        constexpr std::size_t GROWING = 3;
+        std::size_t bytes = cells_.bytes() + GROWING * nodes_.size() * sizeof(Node);
+        for (const Queue &queue : queues_)
+            for (const std::unique_ptr<OpenList> &list : queue.open)
+                bytes += GROWING * list->size() * sizeof(OpenList::Entry);
+        return bytes;
+    }
+
     void Frontier::setQueues(std::size_t count)
     {
         if (queues_.size() < count)

@@ -97,6 +97,9 @@ namespace parking::search
             return queueCount_;
         }
 
+        /** \brief Bytes of nodes, cells and open entries at the most, while their arrays grow. */
+        std::size_t bytes() const;
+
         /** \brief From now on so many queues take turns; those that are new are empty. */
         void setQueues(std::size_t count);
 

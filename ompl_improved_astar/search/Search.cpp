@@ -58,6 +58,7 @@ namespace parking::search
         bestPath_ = {};
         improved_ = false;
         underWay_.node = NO_NODE;
+        full_ = false;
         loadingTime_ = 0.0;
         statistics_ = {};
         endDetours();
@@ -133,7 +134,10 @@ namespace parking::search
 
     SearchOutcome Search::run(const StopFunction &stop)
     {
-        stop_ = stop;
+        stop_ = [this, stop]
+        {
+            return outgrowsMemory() || (stop && stop());
+        };
         exhaustion_ = Exhaustion::None;
         for (;;)
         {
@@ -305,6 +309,27 @@ namespace parking::search
             push(own, level, own.place(node, replaced, cell));
             return;
         }
+    }
+
+    std::size_t Search::memory() const
+    {
+        std::size_t bytes = 0;
+        for (const Frontier &each : frontiers_)
+            bytes += each.bytes();
+        for (const Guides &guides : guides_)
+            if (guides.roundObstacles)
+                bytes += guides.obstacles.bytes();
+        for (const std::unique_ptr<Detour> &detour : detours_)
+            bytes += detour->way.bytes();
+        return bytes;
+    }
+
+    bool Search::outgrowsMemory()
+    {
+        constexpr std::uint32_t LOOK_EVERY = 64;
+        if (!full_ && ++looks_ % LOOK_EVERY == 0)
+            full_ = memory() > parameters_.maxMemory;
+        return full_;
     }
 
     const SearchStatistics &Search::statistics() const

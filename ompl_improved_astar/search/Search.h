@@ -81,6 +81,15 @@ namespace parking::search
         /** \brief Searches until the solution improves, nothing is left, or \e stop says so. */
         SearchOutcome run(const StopFunction &stop);
 
+        /** \brief Bytes that nodes, cells, open lists and the ways round obstacles take at most, growing included. */
+        std::size_t memory() const;
+
+        /** \brief Has it stopped since it would take more than SearchParameters::maxMemory? */
+        bool isFull() const
+        {
+            return full_;
+        }
+
         Exhaustion exhaustion() const
         {
             return exhaustion_;
@@ -227,6 +236,8 @@ namespace parking::search
         void joinPair(const Frontier &own, NodeIndex index, NodeIndex partner);
         bool join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom);
 
+        bool outgrowsMemory();
+
         // SearchEstimates.cpp: what nodes are worth
         void prepare();
         void measureMobility(Frontier &own);
@@ -277,7 +288,9 @@ namespace parking::search
         bool improved_{false};
         bool boundIsKept_{false};             // weights of at most 1: see lowerBound()
         std::array<double, 2> leastDropped_;  // least g + lower bound of the nodes that were dropped, by side
-        StopFunction stop_;
+        StopFunction stop_;                   // also when memory runs out
+        bool full_{false};
+        std::uint32_t looks_{0};  // at the memory that is left
         double loadingTime_{0.0};
         mutable SearchStatistics statistics_;
         Expansion expansion_;  // of the node under way

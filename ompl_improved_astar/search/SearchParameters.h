@@ -4,6 +4,7 @@
 #include "ompl_improved_astar/search/SearchTuning.h"
 #include "parking_geometry/Box.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -48,6 +49,7 @@ namespace parking::search
         bool obstacleHeuristic{true};   ///< guide round obstacles by ObstacleHeuristic
         bool detours{true};             ///< try other ways round obstacles when stuck
         bool eagerObstacles{false};     ///< find out what is free before the search instead of during it
+        std::size_t maxMemory{std::size_t{512} << 20};  ///< bytes of nodes, cells and lists; the search stops there
         CostModel cost;
         SearchTuning tuning;
     };

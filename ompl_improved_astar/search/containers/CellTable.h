@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +34,12 @@ namespace parking::search
                 if (slots_[i].key == key)
                     return slots_[i].value;
             }
+        }
+
+        /** \brief The most bytes that it takes up to its next growth, old and new slots together. */
+        std::size_t bytes() const
+        {
+            return std::max(slots_.size(), 6 * size_) * sizeof(Slot);
         }
 
         /** \brief Inserts or overwrites. */

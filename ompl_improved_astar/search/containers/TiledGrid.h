@@ -72,6 +72,12 @@ namespace parking::search
             return all;
         }
 
+        /** \brief Of the tiles in use. */
+        std::size_t bytes() const
+        {
+            return touched_.size() * sizeof(Tile);
+        }
+
         void clear()
         {
             for (const std::uint32_t place : touched_)

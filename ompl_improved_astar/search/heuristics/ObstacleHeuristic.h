@@ -80,6 +80,12 @@ namespace parking::search
             return settled_;
         }
 
+        /** \brief Bytes of cells and open list at the most, while the list grows. */
+        std::size_t bytes() const
+        {
+            return states_.bytes() + 3 * open_.size() * sizeof(Entry);
+        }
+
     private:
         struct CellState
         {

@@ -245,7 +245,9 @@ namespace parking
              "replace parts of the solution by shorter curves (car model)"},
             {"approximate", &P::approximate, yesOrNo(), "",
              "end as near to the goal as possible when it cannot be reached"},
-            {"anytime", &P::anytime, yesOrNo(), "", "after the first solution go on improving until terminated"}};
+            {"anytime", &P::anytime, yesOrNo(), "", "after the first solution go on improving until terminated"},
+            {"max_memory_mb", &P::maxMemoryMb, between(16.0, 1048576.0, 1.0), "MB",
+             "of the search: with more it ends as when the time is up, and says so"}};
         return table;
     }
 

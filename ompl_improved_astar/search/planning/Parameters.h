@@ -43,6 +43,7 @@ namespace parking
         bool shortening{true};
         bool approximate{true};
         bool anytime{false};
+        unsigned int maxMemoryMb{512};
 
         search::HeuristicWeights weights() const
         {

@@ -54,6 +54,7 @@ namespace parking::search
         search.analyticExpansion = parameters.analyticExpansion;
         search.obstacleHeuristic = parameters.obstacleHeuristic;
         search.detours = parameters.detours;
+        search.maxMemory = std::size_t{parameters.maxMemoryMb} << 20;
         search.eagerObstacles = parameters.obstacleLoading == "eager";
         search.cost.reversePenalty = parameters.reversePenalty;
         search.cost.gearChangePenalty = parameters.gearChangePenalty;
@@ -81,6 +82,11 @@ namespace parking::search
                 break;
         }
         return {};
+    }
+
+    std::string outOfMemory(const PlannerParameters &parameters)
+    {
+        return "the search has used up its " + std::to_string(parameters.maxMemoryMb) + " MB of memory (max_memory_mb)";
     }
 
     PlanResult plan(MotionEnvironment &environment, const PlanRequest &request)
@@ -120,6 +126,8 @@ namespace parking::search
             result.outcome = PlanOutcome::Infeasible;
             result.reason = reasonOf(planner.search().exhaustion(), request.car);
         }
+        else if (planner.search().isFull())
+            result.reason = outOfMemory(request.parameters);
         if (planner.hasSolution())
         {
             result.outcome = PlanOutcome::Solved;
@@ -129,7 +137,8 @@ namespace parking::search
             result.suboptimalityBound = planner.suboptimalityBound();
             result.goal = nearest(request.goals, result.path.end());
         }
-        else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
+        else if (request.parameters.approximate && !planner.search().isFull() &&
+                 planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
         result.statistics = planner.statistics();
         result.loadingTime = planner.search().loadingTime();

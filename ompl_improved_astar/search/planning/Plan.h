@@ -76,4 +76,7 @@ namespace parking::search
 
     /** \brief Why a search has ended without a solution, in words. */
     std::string reasonOf(Exhaustion exhaustion, const CarInSpace &car);
+
+    /** \brief Why a search that isFull() has ended, in words. */
+    std::string outOfMemory(const PlannerParameters &parameters);
 }  // namespace parking::search

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -56,6 +57,32 @@ TEST(Plan, solvesAndSaysWhichGoalItReached)
     EXPECT_GE(result.suboptimalityBound, 1.0);
     EXPECT_LT(result.suboptimalityBound, 2.0);
     EXPECT_TRUE(result.reason.empty());
+}
+
+TEST(Plan, endsWhereItsMemoryEnds)
+{
+    // Fine cells round a goal in a room without a door: more and more of them, without end.
+    CarProblem problem = walledIn();
+    PlanRequest request = requestFor(problem);
+    request.car.inscribedRadius = 0.0;
+    request.parameters.obstacleHeuristic = false;
+    request.parameters.xyResolution = 0.001;
+    request.parameters.headingBins = 1440;
+    request.parameters.steeringAngles = 21;
+    request.maxExpansions = 1000000;
+    std::uint64_t before = 0;
+    for (const unsigned int megabytes : {16U, 32U})
+    {
+        request.parameters.maxMemoryMb = megabytes;
+        const PlanResult result = plan(problem.world, request);
+        EXPECT_EQ(result.outcome, PlanOutcome::Timeout);
+        EXPECT_NE(result.reason.find(std::to_string(megabytes) + " MB"), std::string::npos) << result.reason;
+        // About twice the memory for twice the work.
+        EXPECT_GT(result.statistics.generated, before + before / 2);
+        EXPECT_LT(result.statistics.generated, 500000U * megabytes);
+        before = result.statistics.generated;
+        EXPECT_EQ(plan(problem.world, request).statistics.generated, before);
+    }
 }
 
 TEST(Plan, saysWhyThereIsNoWay)
