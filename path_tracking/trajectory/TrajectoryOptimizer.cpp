@@ -24,7 +24,7 @@ namespace parking
         constexpr double AGAIN_BARRIER = 1e-3;      // of rounds that begin with a solution
         constexpr double ENOUGH_GAIN = 3e-3;        // share of the cost for which another round is worth its time
         constexpr double PROMISING = 1.15;          // share of the best cost that improving a solution may make up for
-        constexpr double LEAST_WORK = 5e4;          // that may be done for any path, see Search
+        constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path, see Search
         constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
         constexpr double LIMITS_LEFT = 2e-5;        // share of the limits that is left for rounding

@@ -157,24 +157,36 @@ namespace parking
 
     void IntervalModel::addSpan(const SpanTerms &span, IntervalTerms &terms) const
     {
-        Eigen::Matrix<double, 12, PAIR_SIZE> chain = Eigen::Matrix<double, 12, PAIR_SIZE>::Zero();
+        /** A derivative of a quantity of the span by an entry of the nodes. There are few of them. */
+        struct Derivative
+        {
+            int quantity, entry;
+            double value;
+        };
+        std::array<Derivative, 24> chain;
         for (int e = 0; e < 3; ++e)
         {
-            chain(4 * e, e) = 1.0;
-            chain(4 * e + 2, SECOND + e) = 1.0;
-            chain(4 * e + 1, H) = begin_.byDuration[e];
-            chain(4 * e + 1, V0) = begin_.bySpeed[e];
-            chain(4 * e + 1, angleOf(e)) = begin_.byAngle[e];
-            chain(4 * e + 3, H) = end_.byDuration[e];
-            chain(4 * e + 3, V1) = end_.bySpeed[e];
-            chain(4 * e + 3, SECOND + angleOf(e)) = end_.byAngle[e];
+            Derivative *next = &chain[static_cast<std::size_t>(8 * e)];
+            *next++ = {4 * e, e, 1.0};
+            *next++ = {4 * e + 1, H, begin_.byDuration[e]};
+            *next++ = {4 * e + 1, V0, begin_.bySpeed[e]};
+            *next++ = {4 * e + 1, angleOf(e), begin_.byAngle[e]};
+            *next++ = {4 * e + 2, SECOND + e, 1.0};
+            *next++ = {4 * e + 3, H, end_.byDuration[e]};
+            *next++ = {4 * e + 3, V1, end_.bySpeed[e]};
+            *next = {4 * e + 3, SECOND + angleOf(e), end_.byAngle[e]};
             terms.wayAtBegin[e] += span.gradient[4 * e + 1];
             terms.wayAtEnd[e] += span.gradient[4 * e + 3];
         }
-        const Eigen::Matrix<double, 12, PAIR_SIZE> half = span.hessian.lazyProduct(chain);
-        terms.hessian += chain.transpose().lazyProduct(half);
-        terms.gradient += chain.transpose().lazyProduct(span.gradient);
-        terms.shift += chain.transpose().lazyProduct(span.shift);
+        Eigen::Matrix<double, 12, PAIR_SIZE> half = Eigen::Matrix<double, 12, PAIR_SIZE>::Zero();
+        for (const Derivative &by : chain)
+        {
+            half.col(by.entry) += by.value * span.hessian.col(by.quantity);
+            terms.gradient[by.entry] += by.value * span.gradient[by.quantity];
+            terms.shift[by.entry] += by.value * span.shift[by.quantity];
+        }
+        for (const Derivative &by : chain)
+            terms.hessian.col(by.entry) += by.value * half.row(by.quantity).transpose();
     }
 
     void IntervalModel::addWayCurvature(IntervalTerms &terms) const
