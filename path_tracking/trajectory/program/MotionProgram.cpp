@@ -96,6 +96,15 @@ namespace parking
         return {problem_.directions[k], problem_.vehicle.wheelbase, nodes[k], nodes[k + 1]};
     }
 
+    Eigen::Vector4d MotionProgram::jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
+                                            std::size_t k) const
+    {
+        Eigen::Vector4d joints;
+        joints << model.gaps(),
+            problem_.sharesDuration(k) ? nodes[k + 1][NODE_DURATION] - nodes[k][NODE_DURATION] : 0.0;
+        return joints;
+    }
+
     double MotionProgram::evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
                                    std::vector<double> &values) const
     {
@@ -106,8 +115,7 @@ namespace parking
         {
             const IntervalModel interval = model(nodes, k);
             cost += interval.cost(problem_.weights);
-            joints[k] << interval.gaps(),
-                problem_.sharesDuration(k) ? nodes[k + 1][NODE_DURATION] - nodes[k][NODE_DURATION] : 0.0;
+            joints[k] = jointsOf(interval, nodes, k);
             const PairVector pair = pairOf(nodes, k);
             for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
                 values[i] = limits_[i].slope(pair) + limits_[i].constant;
@@ -123,8 +131,8 @@ namespace parking
         return cost;
     }
 
-    void MotionProgram::addJoints(const IntervalModel &model, std::size_t k, const MotionDuals &duals, double softness,
-                                  IntervalTerms &terms)
+    void MotionProgram::addJoints(const IntervalModel &model, std::size_t k, const Eigen::Vector4d &joints,
+                                  const MotionDuals &duals, double softness, IntervalTerms &terms)
     {
         const Eigen::Vector4d &prices = duals.joints[k];
         JointRows &rows = jointRows_[k];
@@ -145,18 +153,19 @@ namespace parking
         }
         model.addGapCurvature(prices.head<3>(), terms);
         terms.gradient += rows.transpose() * prices;
-        terms.shift -= rows.transpose() * (joints_[k] / softness);
+        terms.shift -= rows.transpose() * (joints / softness);
         terms.hessian += rows.transpose().lazyProduct(rows) / softness;
     }
 
-    void MotionProgram::addLimitTerms(std::size_t k, const MotionDuals &duals, double barrier,
+    void MotionProgram::addLimitTerms(std::size_t k, const PairVector &pair, const MotionDuals &duals, double barrier,
                                       IntervalTerms &terms) const
     {
         for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
         {
             const Limit &limit = limits_[i];
             const double z = duals.prices[i], s = duals.slacks[i], sigma = z / s;
-            const double shift = barrier / s - sigma * (values_[i] - s) - z;
+            const double value = limit.slope(pair) + limit.constant;
+            const double shift = barrier / s - sigma * (value - s) - z;
             for (std::size_t p = 0; p < 3; ++p)
             {
                 if (limit.coefficient[p] == 0.0)
@@ -187,11 +196,12 @@ namespace parking
             {
                 const std::size_t i = limits_.size() + r;
                 const double z = duals.prices[i], slack = duals.slacks[i], sigma = z / slack;
+                const double value = problem_.rows[r].value(pose[0], pose[1], c, s);
                 const Eigen::Vector3d g = derive(problem_.rows[r], pose, c, s, -z, hessian);
                 rowGradients_[r] = g;
                 hessian.noalias() += sigma * g * g.transpose();
                 gradient -= z * g;
-                shift += (barrier / slack - sigma * (values_[i] - slack) - z) * g;
+                shift += (barrier / slack - sigma * (value - slack) - z) * g;
             }
             span.add(point.fraction, hessian, gradient, shift);
         }
@@ -233,7 +243,6 @@ namespace parking
     void MotionProgram::linearize(const std::vector<NodeVector> &nodes, const MotionDuals &duals, double barrier,
                                   double softness)
     {
-        evaluate(nodes, joints_, values_);
         system_.reset(nodes.size());
         right_.assign(nodes.size(), NodeVector::Zero());
         gradient_ = costGradient_ = right_;
@@ -243,8 +252,8 @@ namespace parking
             models_.push_back(model(nodes, k));
             IntervalTerms terms;
             models_[k].addCost(problem_.weights, terms);
-            addJoints(models_[k], k, duals, softness, terms);
-            addLimitTerms(k, duals, barrier, terms);
+            addJoints(models_[k], k, jointsOf(models_[k], nodes, k), duals, softness, terms);
+            addLimitTerms(k, pairOf(nodes, k), duals, barrier, terms);
             addRowTerms(models_[k], k, duals, barrier, terms);
             models_[k].addWayCurvature(terms);
             scatter(k, terms);

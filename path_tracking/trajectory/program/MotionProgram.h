@@ -99,9 +99,12 @@ namespace parking
         void addLimits(std::size_t interval);
         void addNodeLimits(std::size_t node, int first);
         IntervalModel model(const std::vector<NodeVector> &nodes, std::size_t interval) const;
-        void addJoints(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double softness,
-                       IntervalTerms &terms);
-        void addLimitTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms) const;
+        Eigen::Vector4d jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
+                                 std::size_t interval) const;
+        void addJoints(const IntervalModel &model, std::size_t interval, const Eigen::Vector4d &joints,
+                       const MotionDuals &duals, double softness, IntervalTerms &terms);
+        void addLimitTerms(std::size_t interval, const PairVector &pair, const MotionDuals &duals, double barrier,
+                           IntervalTerms &terms) const;
         void addRowTerms(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double barrier,
                          IntervalTerms &terms);
         void scatter(std::size_t interval, const IntervalTerms &terms);
@@ -114,8 +117,6 @@ namespace parking
 
         // The linearisation.
         std::vector<IntervalModel> models_;
-        std::vector<Eigen::Vector4d> joints_;
-        std::vector<double> values_;
         std::vector<JointRows> jointRows_;
         std::vector<Eigen::Vector3d> rowGradients_;
         BlockTridiagonal system_;
