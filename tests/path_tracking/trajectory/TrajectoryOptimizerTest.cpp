@@ -150,6 +150,24 @@ namespace parking
             EXPECT_GE(optimised, 4);
         }
 
+        TEST(TrajectoryOptimizer, CutsNoCornerThroughWhatIsFarFromThePath)
+        {
+            // A wide way round a box that is out of the optimiser's sight at first: straight on would be quicker.
+            const Vehicle car;
+            const double turn = PI / 3.0, radius = 6.0;
+            Path path{{}, {}};
+            for (const double side : {1.0, -1.0, -1.0, 1.0})
+                path.append({side / radius, turn * radius});
+            const std::vector<Polygon> obstacles{box(11.5, 0.5, 1.0, 1.0, 0.0)};
+            EXPECT_NE(
+                collisionsOf(TrajectoryOptimizer(checkerOf({})).optimize(path).motion, checkerOf(obstacles), 1).size(),
+                0U);
+            const FootprintChecker checker = checkerOf(obstacles);
+            const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path);
+            EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, obstacles).fault, "");
+            EXPECT_FALSE(found.fallback) << found.reason;
+        }
+
         TEST(TrajectoryOptimizer, IsTheSameEveryTime)
         {
             const Vehicle car;
