@@ -183,6 +183,7 @@ namespace parking::planning
         request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
         request.parameters.clearanceWeight = parameters_.clearanceWeight;
         request.parameters.preferredClearance = 0.0;  // the gaps say what is kept
+        request.parameters.detours = task.bothSides;  // out of a slot they lead in more stretches
         request.parameters.approximate = false;
         request.maxExpansions = task.expansions;
         request.stop = [this, isLast = task.expansions == 0]

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <thread>
@@ -83,6 +85,50 @@ TEST(Plan, endsWhereItsMemoryEnds)
         before = result.statistics.generated;
         EXPECT_EQ(plan(problem.world, request).statistics.generated, before);
     }
+}
+
+// Two rows of 50 free slots between pillars, the aisle in the middle. Counted are questions to the world.
+TEST(Plan, findsTheNearestOfManyGoalsWithLittleMoreThanOne)
+{
+    CarProblem problem{DiscCarWorld({{-110.0, -12.0}, {110.0, 12.0}}), {{-20.0, 0.0, 0.0}}, {}};
+    std::vector<Pose> slots;
+    for (int i = 0; i < 50; ++i)
+        for (const double side : {-1.0, 1.0})
+        {
+            const double x = -100.0 + 4.0 * i;
+            if (i % 5 == 0)
+                problem.world.boxes.push_back(
+                    {{x - 2.6, side > 0.0 ? 5.0 : -12.0}, {x - 1.4, side > 0.0 ? 12.0 : -5.0}});
+            slots.push_back({x, 10.0 * side, -0.5 * PI * side});
+        }
+    std::uint64_t most = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+    {
+        // Those round the nearest, and some far away.
+        if (std::abs(slots[i].x - problem.starts.front().x) > 10.0 && i % 25 != 0)
+            continue;
+        problem.goals = {slots[i]};
+        problem.world.questions = 0;
+        const PlanResult one = plan(problem.world, requestFor(problem));
+        ASSERT_EQ(one.outcome, PlanOutcome::Solved) << i;
+        most = std::max(most, problem.world.questions);
+        if (one.cost < shortest)
+        {
+            shortest = one.cost;
+            nearest = i;
+        }
+    }
+    problem.goals = slots;
+    problem.world.questions = 0;
+    const PlanResult all = plan(problem.world, requestFor(problem));
+    ASSERT_EQ(all.outcome, PlanOutcome::Solved);
+    EXPECT_LE(problem.world.questions, 3 * most);
+    EXPECT_LE(all.cost, 1.15 * shortest) << "the nearest is " << nearest << ", found was " << all.goal;
+    EXPECT_TRUE(isSamePose(all.path.end(), slots[all.goal], 1e-6));
+    RecordProperty("one", static_cast<int>(most));
+    RecordProperty("all", static_cast<int>(problem.world.questions));
 }
 
 TEST(Plan, saysWhyThereIsNoWay)
