@@ -24,7 +24,7 @@ namespace parking::search
                 cost += clearanceWeight * std::max(0.0, nearness) * length / samples;
             }
         }
-        if (!(preferredClearance > 0.0 && clearanceCost > 0.0))
+        if (!prefersClearance())
             return cost;
         if (clear < 0.0)
         {

@@ -30,10 +30,16 @@ namespace parking::search
             return segment.length < 0.0 ? length * (1.0 + reversePenalty) : length;
         }
 
+        /** \brief Does it cost anything to be nearer than preferred? */
+        bool prefersClearance() const
+        {
+            return preferredClearance > 0.0 && clearanceCost > 0.0;
+        }
+
         /** \brief Do obstacles nearby cost anything? */
         bool pricesCloseness() const
         {
-            return clearanceWeight > 0.0 || (preferredClearance > 0.0 && clearanceCost > 0.0);
+            return clearanceWeight > 0.0 || prefersClearance();
         }
 
         /** \brief Extra cost of driving \e segment from \e from because of the obstacles nearby; the same in either

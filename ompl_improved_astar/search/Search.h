@@ -115,6 +115,13 @@ namespace parking::search
             return *model_;
         }
 
+        /** \brief What motions cost in this query: as begin() was told, with the lock of the car, and with the
+            preferred clearance where the model has one. */
+        const CostModel &cost() const
+        {
+            return parameters_.cost;
+        }
+
         bool hasGoal() const
         {
             return !frontier(Side::Goal).roots().empty();

@@ -35,6 +35,7 @@ namespace parking::search
         double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
         double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
         double coarsestCell{3.0};            ///< but at most so many times heuristicCell
+        std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
         /** \name Detours, when the search is stuck
@@ -81,5 +82,19 @@ namespace parking::search
         std::uint64_t shorteningsPerRound{3};
         std::uint64_t leastRounds{50};  ///< before a search that finds nothing more may end
         /** @} */
+    };
+
+    /** \brief The cells of the table of curve lengths (see CurveHeuristic), in turning radii and in parts of a turn.
+
+        Fixed when the project is built: all planners of a process share the table. Chosen as those of SearchTuning. */
+    struct CurveTableCells
+    {
+        static constexpr double NEAR{1.5};        ///< within this the cells are finer
+        static constexpr double NEAR_SIDE{0.04};  ///< of a cell near the targets
+        static constexpr double FAR_SIDE{0.16};   ///< and farther away
+        static constexpr int NEAR_HEADINGS{180};
+        static constexpr int FAR_HEADINGS{60};
+        static constexpr double FARTHEST{2047.0};      ///< columns and rows; what lies beyond is not tabulated
+        static constexpr std::size_t SLOTS{1u << 15};  ///< lengths that are remembered
     };
 }  // namespace parking::search

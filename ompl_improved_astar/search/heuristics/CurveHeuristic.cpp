@@ -14,12 +14,7 @@ namespace parking::search
 {
     namespace
     {
-        // Cells in units of the turning radius and of a whole turn, near the targets and farther away.
-        constexpr double NEAR = 1.5, NEAR_CELL = 0.04, FAR_CELL = 0.16;
-        constexpr int NEAR_HEADINGS = 180, FAR_HEADINGS = 60;
-        // Of the far cells' columns and rows; what lies beyond is not tabulated.
-        constexpr double FARTHEST = 2047.0;
-        constexpr std::size_t SLOTS = 1u << 15;
+        using Cells = CurveTableCells;
 
         /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
             bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
@@ -32,7 +27,7 @@ namespace parking::search
             float at(std::uint64_t key, const Length &length)
             {
                 std::atomic<std::uint64_t> &slot =
-                    slots_[((key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32) & (SLOTS - 1)];
+                    slots_[((key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32) & (Cells::SLOTS - 1)];
                 const std::uint64_t known = slot.load(std::memory_order_relaxed);
                 if (known >> 31 == key)
                     return floatOf(static_cast<std::uint32_t>(known & 0x7fffffffu));
@@ -42,7 +37,7 @@ namespace parking::search
             }
 
         private:
-            std::array<std::atomic<std::uint64_t>, SLOTS> slots_{};
+            std::array<std::atomic<std::uint64_t>, Cells::SLOTS> slots_{};
         };
 
         /** Reeds-Shepp curves are as long one way as the other; Dubins curves are not. */
@@ -91,9 +86,9 @@ namespace parking::search
     double CurveHeuristic::tabulated(const Pose &relative) const
     {
         const double farther = std::max(std::abs(relative.x), std::abs(relative.y));
-        const bool near = farther < NEAR;
-        const double cell = near ? NEAR_CELL : FAR_CELL;
-        const int headings = near ? NEAR_HEADINGS : FAR_HEADINGS;
+        const bool near = farther < Cells::NEAR;
+        const double cell = near ? Cells::NEAR_SIDE : Cells::FAR_SIDE;
+        const int headings = near ? Cells::NEAR_HEADINGS : Cells::FAR_HEADINGS;
         const double column = std::round(relative.x / cell), row = std::round(relative.y / cell);
         const auto heading = (std::lround(relative.yaw / (2.0 * PI) * headings) + headings) % headings;
         const auto length = [&]
@@ -102,7 +97,7 @@ namespace parking::search
             const Pose target, centre{column * cell, row * cell, static_cast<double>(heading) * 2.0 * PI / headings};
             return backwards_ ? unit.distance(target, centre) : unit.distance(centre, target);
         };
-        if (!(farther < FARTHEST * FAR_CELL))
+        if (!(farther < Cells::FARTHEST * Cells::FAR_SIDE))
             return length();
         const auto twelveBits = [](double value)
         {

@@ -14,7 +14,6 @@ namespace parking::search
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
-        constexpr std::uint64_t MOST_CELLS = 4000000;  // a world without walls must not fill the memory
 
         struct Later
         {
@@ -28,7 +27,7 @@ namespace parking::search
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
     {
-        begin(query, {query.parameters.inscribedRadius}, MOST_CELLS);
+        begin(query, {query.parameters.inscribedRadius}, query.parameters.tuning.mostCells);
         if (query.parameters.eagerObstacles)
             load(query.parameters.bounds);
     }
@@ -58,7 +57,7 @@ namespace parking::search
         environment_ = &environment;
         resolution_ = resolution;
         disc_ = disc;
-        mostCells_ = MOST_CELLS;
+        mostCells_ = SearchTuning().mostCells;
         states_.clear();
         open_.clear();
         settled_ = 0;

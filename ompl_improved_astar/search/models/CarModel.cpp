@@ -95,7 +95,7 @@ namespace parking::search
         const std::size_t count = motions_.size();
         free_.resize(count);
         clear_.assign(count, 0.0);
-        if (!pricesPreferredClearance())
+        if (!parameters_->cost.prefersClearance())
         {
             environment_->freeLengths(from, motions_.data(), count, free_.data());
             return;
@@ -126,7 +126,7 @@ namespace parking::search
         // How far each motion is free is found out once and serves the finer levels, too.
         float *const known = &lengths[index * slots];
         const double step = steps_[level];
-        const bool priced = pricesPreferredClearance();
+        const bool priced = parameters_->cost.prefersClearance();
         const auto add = [&](std::size_t i, double length, bool farthest)
         {
             const Arc &motion = motions_[i];

@@ -48,10 +48,6 @@ namespace parking::search
     private:
         void collectMotions(Side side, const Node &node);
         void measureMotions(const Pose &from);
-        bool pricesPreferredClearance() const
-        {
-            return parameters_->cost.preferredClearance > 0.0 && parameters_->cost.clearanceCost > 0.0;
-        }
 
         MotionEnvironment *environment_{nullptr};
         const SearchParameters *parameters_{nullptr};

@@ -48,13 +48,18 @@ namespace parking
 
     void FootprintEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free)
     {
-        const FootprintChecker::SweepStart start = checker_.sweepStart(from, tolerance_, counts_);
+        sweep(checker_.sweepStart(from, tolerance_, counts_), from, arcs, count, free);
+    }
+
+    void FootprintEnvironment::sweep(const FootprintChecker::SweepStart &start, const Pose &from, const Arc *arcs,
+                                     std::size_t count, double *lengths)
+    {
         for (std::size_t i = 0; i < count; ++i)
         {
             const auto &[curvature, length] = arcs[i];
             const double whole = std::abs(length);
             const double inside = boundsMatter_ ? lengthInside(from, curvature, length) : whole;
-            free[i] = checker_.freeLength(start, curvature, std::copysign(std::min(inside, whole), length), counts_);
+            lengths[i] = checker_.freeLength(start, curvature, std::copysign(std::min(inside, whole), length), counts_);
         }
     }
 
@@ -70,15 +75,8 @@ namespace parking
         if (clearance > FootprintChecker::MAX_TOLERANCE)
             return;  // too large to sweep: the caller samples
         const FootprintChecker::SweepStart start = checker_.sweepStart(from, clearance, counts_);
-        if (start.enlargement < clearance)
-            return;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            const auto &[curvature, length] = arcs[i];
-            const double whole = std::abs(length);
-            const double inside = boundsMatter_ ? lengthInside(from, curvature, length) : whole;
-            clear[i] = checker_.freeLength(start, curvature, std::copysign(std::min(inside, whole), length), counts_);
-        }
+        if (start.enlargement >= clearance)
+            sweep(start, from, arcs, count, clear);
     }
 
     double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const

@@ -43,6 +43,8 @@ namespace parking
         }
 
     private:
+        void sweep(const FootprintChecker::SweepStart &start, const Pose &from, const Arc *arcs, std::size_t count,
+                   double *lengths);
         double lengthInside(const Pose &from, double curvature, double length) const;
 
         const FootprintChecker &checker_;

@@ -15,10 +15,7 @@ namespace parking::search
     {
         environment_ = &environment;
         parameters_ = parameters;
-        parameters_.search.cost.fullLockCurvature = 1.0 / parameters.search.turningRadius;
         search_.begin(environment, parameters_.search);
-        if (!search_.model().traits().prefersClearance)
-            parameters_.search.cost.preferredClearance = 0.0;
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
         starts_.clear();
@@ -45,14 +42,14 @@ namespace parking::search
     bool PathPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest,
                               CurveChoice choice)
     {
-        PathShortener shortener(*environment_, *search_.model().curves(), parameters_.search.cost);
+        PathShortener shortener(*environment_, *search_.model().curves(), search_.cost());
         Path shorter = path;
         const bool isShorter = shortener.pass(shorter, spacing, offset, widest, choice, stop_);
         shortenerConnections_ += shortener.connections();
         if (!isShorter)
             return false;
         // Clearance is sampled, so that the cost of the whole is not quite the sum of its parts'.
-        const double less = pathCost(parameters_.search.cost, shorter, *environment_);
+        const double less = pathCost(search_.cost(), shorter, *environment_);
         if (!(less < cost))
             return false;
         path = std::move(shorter);
@@ -80,7 +77,7 @@ namespace parking::search
 
     double PathPlanner::closeness(const Path &path) const
     {
-        return pathCloseness(parameters_.search.cost, path, *environment_);
+        return pathCloseness(search_.cost(), path, *environment_);
     }
 
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)

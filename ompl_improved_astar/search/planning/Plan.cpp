@@ -62,7 +62,6 @@ namespace parking::search
         search.cost.clearanceWeight = parameters.clearanceWeight;
         search.cost.preferredClearance = parameters.preferredClearance;
         search.cost.clearanceCost = parameters.clearanceCost;
-        search.cost.fullLockCurvature = 1.0 / car.turningRadius;
         return result;
     }
 
