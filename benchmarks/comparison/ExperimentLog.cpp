@@ -1,8 +1,6 @@
 #include "benchmarks/comparison/ExperimentLog.h"
 
 #include "benchmarks/comparison/RunColumns.h"
-#include "benchmarks/system/Subprocess.h"
-#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <ompl/base/spaces/SE2StateSpace.h>
@@ -10,12 +8,9 @@
 #include <ompl/tools/benchmark/Benchmark.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
+#include <limits>
 #include <map>
 #include <sstream>
-
-#include <unistd.h>
 
 using nlohmann::json;
 
@@ -24,8 +19,6 @@ namespace parking
     namespace
     {
         constexpr double PROGRESS_STEP = 0.05;  // seconds between samples of the best cost
-
-        const char *const STATISTICS = "ompl_benchmark_statistics";
 
         std::string packagedVersion()
         {
@@ -140,38 +133,5 @@ namespace parking
         if (const std::size_t at = log.find(one); at != std::string::npos)
             log.replace(at, one.size(), "\n2 enum types\n" + outcomeNames() + "\n");
         return log;
-    }
-
-    void requireStatisticsProgram()
-    {
-        if (!isProgram(STATISTICS))
-            throw Error(std::string(STATISTICS) + " is not installed; it comes with the Debian package ompl-demos");
-    }
-
-    DatabaseWriter::DatabaseWriter(std::string database) : database_(std::move(database))
-    {
-        unfinished_.emplace(database_ + ".new");
-    }
-
-    DatabaseWriter::~DatabaseWriter()
-    {
-        std::error_code ignored;
-        if (unfinished_ && unfinished_->name() != database_)
-            std::filesystem::remove(unfinished_->name(), ignored);
-    }
-
-    void DatabaseWriter::write(const std::vector<std::string> &logs)
-    {
-        requireStatisticsProgram();
-        const std::string name = unfinished_->name();
-        unfinished_->cutTo(0);
-        std::error_code ignored;
-        std::filesystem::remove(name + "-journal", ignored);  // SQLite would put it into the new one
-        std::vector<std::string> command{STATISTICS, "-d", name};
-        command.insert(command.end(), logs.begin(), logs.end());
-        const ProcessResult result = runProcess(command);
-        if (result.status != 0)
-            throw Error(database_ + ": " + STATISTICS + " failed: " + lastLine(result.errors));
-        unfinished_->rename(database_);
     }
 }  // namespace parking

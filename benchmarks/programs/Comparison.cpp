@@ -2,6 +2,7 @@
 
 #include "benchmarks/comparison/ExperimentLog.h"
 #include "benchmarks/comparison/UnitRunner.h"
+#include "benchmarks/database/DatabaseWriter.h"
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
 #include "benchmarks/summary/Summary.h"
@@ -102,7 +103,6 @@ namespace parking
         folder_ = !options.output.empty()   ? options.output
                   : !config_.output.empty() ? config_.output
                                             : "results-" + fs::path(options.config).stem().string();
-        requireStatisticsProgram();
         experiments_ = planExperiments(config_);
     }
 

@@ -1,5 +1,5 @@
 # Micro-benchmarks of state_validity: checks of states and motions, swept arcs, distance fields.
-find_package(benchmark REQUIRED)
+parking_require(libbenchmark-dev benchmark)
 add_executable(validity_benchmark
   ${CMAKE_CURRENT_LIST_DIR}/ValidityWorlds.cpp
   ${CMAKE_CURRENT_LIST_DIR}/validity_benchmark.cpp)

@@ -15,6 +15,23 @@ require_cmake()
     fi
 }
 
+# The compiler that CMake will take.
+require_compiler()
+{
+    local compiler=${CXX:-c++}
+    command -v "${compiler%% *}" >/dev/null || die "there is no C++ compiler $compiler; Debian's package is g++"
+}
+
+# require_space MEGABYTES: what a build takes in the end; without it the compiler fails in odd ways.
+require_space()
+{
+    local free
+    free=$(df --output=avail --block-size=1M -- "$project_root" | tail -n 1)
+    if ((free < $1)); then
+        die "$project_root: $((free)) MB of disk are free, the build takes up to $1 MB"
+    fi
+}
+
 # configure_preset PRESET [CMAKE ARGUMENT...]
 configure_preset()
 {
@@ -22,6 +39,8 @@ configure_preset()
     local -a fresh=()
     shift
     require_cmake 3.25
+    require_compiler
+    require_space 1000
     # A build folder that was copied along with the project belongs to another place: CMake refuses it.
     if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$project_root" "$cache"; then
         fresh=(--fresh)

@@ -24,9 +24,10 @@ libyaml-cpp-dev              | build | reads scenarios and maps
 nlohmann-json3-dev           | build | writes results as JSON
 libpng-dev                   | build | reads maps in PNG
 libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
-ompl-demos                   | build | ompl_benchmark_statistics, which turns logs into a database
+libsqlite3-dev               | build | SQLite: the database of a comparison
 python3                      | build | reports from the database; checks of the tests
 libgtest-dev                 | test  | GoogleTest
+ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
 pkg-config                   | test  | the consumer that finds the installed package by pkg-config
 git                          | test  | names the files that the style tests look at
 clang-format                 | test  | checks the format of the sources

@@ -106,6 +106,20 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn('cmake 3.18.4 is too old', done.stderr)
 
+    def test_missing_compiler_is_named_with_its_package(self):
+        for script in SCRIPTS:
+            done = self.run_script(script, CXX='no-such-compiler')
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr, f"{script}: there is no C++ compiler no-such-compiler; Debian's package is g++\n")
+
+    def test_full_disk_is_said_before_the_build(self):
+        self.replace('df', 'printf "Avail\\n  310\\n"')
+        for script in SCRIPTS:
+            done = self.run_script(script)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('310 MB of disk are free', done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+
     def test_wrong_options_end_with_status_2_and_one_line(self):
         for script, arguments in (('test', ['--release']), ('test', ['a', 'b']), ('compare', ['--fast']),
                                   ('compare', ['results'])):

@@ -2,6 +2,7 @@
 
 #include "benchmarks/comparison/ExperimentLog.h"
 #include "benchmarks/comparison/RunColumns.h"
+#include "benchmarks/database/DatabaseWriter.h"
 #include "benchmarks/system/Subprocess.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -167,14 +168,6 @@ namespace
 
         const parking_test::TemporaryFolder folder;
         const std::string database = folder.path("benchmark.db");
-        try
-        {
-            requireStatisticsProgram();
-        }
-        catch (const Error &error)
-        {
-            GTEST_SKIP() << error.what();
-        }
         DatabaseWriter(database).write({folder.write("garage.log", log)});
         const ProcessResult rows =
             runProcess({"python3", "-c",

@@ -130,8 +130,10 @@ class Output(InputTest):
                 self.write('out/runs.jsonl', content)
                 self.refused_benchmark('set.cfg', '--output', 'out', '--merge', parts=['out/runs.jsonl'])
 
-    def test_no_program_for_databases(self):
-        self.refused_benchmark('set.cfg', '--output', 'out', env={'PATH': self.folder}, parts=['ompl-demos'])
+    def test_the_database_needs_no_other_program(self):
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, env={'PATH': self.folder})
+        with open(self.path('out/benchmark.db'), 'rb') as stream:
+            self.assertEqual(stream.read(16), b'SQLite format 3\0')
 
     def test_standard_output_that_is_full(self):
         with open('/dev/full', 'w') as full:

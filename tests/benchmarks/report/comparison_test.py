@@ -5,7 +5,6 @@ usage: comparison_test.py PARKING_BENCHMARK SCENARIOS
 import csv
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,7 +16,6 @@ from gallery import read_picture  # noqa: E402
 from page import Cell  # noqa: E402
 from results import read_results  # noqa: E402
 
-SKIPPED = 77
 CONFIG = '''[problem]
 scenario = {scenarios}/perpendicular.yaml
 [benchmark]
@@ -35,9 +33,6 @@ def close(value, text):
 
 
 def main(program, scenarios):
-    if shutil.which('ompl_benchmark_statistics') is None:
-        print('Skipped: ompl_benchmark_statistics (Debian package ompl-demos) is not installed')
-        return SKIPPED
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         config = os.path.join(folder, 'small.cfg')

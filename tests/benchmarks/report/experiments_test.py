@@ -3,21 +3,16 @@
 usage: experiments_test.py PARKING_BENCHMARK FOLDER_OF_CONFIGURATIONS
 """
 import os
-import shutil
 import sqlite3
 import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
 # What the paper's tables hold.
 COLUMNS = ['map_loading_time', 'planning_time', 'path_length', 'travel_time', 'mean_acceleration', 'mean_steering_angle']
 
 
 def main(program, configurations):
-    if shutil.which('ompl_benchmark_statistics') is None:
-        print('Skipped: ompl_benchmark_statistics (Debian package ompl-demos) is not installed')
-        return SKIPPED
     faults = []
     for name in ('perpendicular', 'parallel', 'unreachable'):
         with tempfile.TemporaryDirectory() as folder:
