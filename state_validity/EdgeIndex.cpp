@@ -404,15 +404,42 @@ namespace parking
     {
         const double circumradius = std::hypot(box.halfLength, box.halfWidth);
         double smallest = INFINITE;
-        for (const Edge &edge : edges_)
+        const auto look = [&](std::size_t column, std::size_t row)
         {
-            const double square =
-                squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
-            const double ignored = smallest + circumradius;
-            if (square >= ignored * ignored)
-                continue;
-            const Eigen::Vector2d along = (edge.to - edge.from).normalized();
-            smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
+            const std::size_t cell = row * baseColumns_ + column;
+            for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k)
+            {
+                const Edge &edge = edges_[base_[k]];
+                const double square =
+                    squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
+                const double ignored = smallest + circumradius;
+                if (square >= ignored * ignored)
+                    continue;
+                const Eigen::Vector2d along = (edge.to - edge.from).normalized();
+                smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
+            }
+        };
+        // Rings of base cells round the centre, until the next one is too far away to matter.
+        const std::size_t column = clampTo((box.x - origin_.x()) / baseSize_, baseColumns_);
+        const std::size_t row = clampTo((box.y - origin_.y()) / baseSize_, baseRows_);
+        const std::size_t rings = std::max(baseColumns_, baseRows_);
+        for (std::size_t ring = 0; ring < rings; ++ring)
+        {
+            if (ring > 1 && static_cast<double>(ring - 1) * baseSize_ - circumradius > smallest)
+                break;
+            const std::size_t left = column - std::min(column, ring), right = std::min(baseColumns_ - 1, column + ring);
+            const std::size_t low = row - std::min(row, ring), high = std::min(baseRows_ - 1, row + ring);
+            for (std::size_t r = low; r <= high; ++r)
+            {
+                // Of the rows in between only the two ends belong to the ring.
+                const bool whole = r + ring == row || r == row + ring;
+                for (std::size_t c = left; whole && c <= right; ++c)
+                    look(c, r);
+                if (!whole && column >= ring)
+                    look(column - ring, r);
+                if (!whole && ring > 0 && column + ring < baseColumns_)
+                    look(column + ring, r);
+            }
         }
         return smallest;
     }

@@ -52,7 +52,8 @@ namespace parking
             Infinite when no edge is within reach. */
         double distance(const OrientedBox &box) const;
 
-        /** \brief The distance to the nearest of all edges, however far: each is looked at, no list is gathered. */
+        /** \brief The distance to the nearest of all edges, however far: looks farther and farther out, and gathers no
+            list. */
         double distanceToAll(const OrientedBox &box) const;
 
         /** \brief distance() for the point (x, y). */

@@ -91,7 +91,7 @@ namespace parking
         double clearance(const Pose &pose, double enough, CheckCounts &counts) const;
 
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
-            reports: it looks at every edge when none is within a metre. */
+           reports: dear where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;
 
         /** \brief How far the car can drive along an arc without touching an obstacle: exact, not sampled.

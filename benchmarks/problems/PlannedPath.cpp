@@ -19,10 +19,7 @@ namespace parking
         constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
         constexpr double ROUNDING_TURN = 1e-9;  // radians; anything less is rounding of headings
         constexpr double SHORTEST_PIECE = 1e-7;  // metres; anything shorter is rounding of a curve's formula
-        // The least clearance is found up to two millimetres or one percent.
-        constexpr double CLEARANCE_STEP = 0.002;  // metres
-        constexpr double CLEARANCE_SHARE = 0.01;
-        constexpr double SAME = 1e-6;  // metres and radians between a pose and the goal that it is
+        constexpr double SAME = 1e-6;            // metres and radians between a pose and the goal that it is
 
         std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
         {
@@ -142,71 +139,6 @@ namespace parking
             }
             return result;
         }
-
-        double discClearance(const Problem &problem, const Pose &pose)
-        {
-            const Pose local = problem.obstacles().toLocal(pose);
-            double least = std::numeric_limits<double>::infinity();
-            for (const Edge &edge : problem.obstacles().edges())
-            {
-                const Eigen::Vector2d along = edge.to - edge.from, off = Eigen::Vector2d(local.x, local.y) - edge.from;
-                const double square = along.squaredNorm();
-                const double share = square > 0.0 ? std::clamp(off.dot(along) / square, 0.0, 1.0) : 0.0;
-                least = std::min(least, (off - share * along).norm());
-            }
-            return std::max(0.0, least - problem.circleRadius());
-        }
-
-        double leastClearance(const Problem &problem, const SampledPath &states, bool straight)
-        {
-            if (problem.settings().footprint == FootprintKind::Circle)
-            {
-                double least = std::numeric_limits<double>::infinity();
-                for (const PathState &state : states)
-                    least = std::min(least, discClearance(problem, state.pose));
-                return least;
-            }
-            const FootprintChecker &footprint = problem.footprint();
-            CheckCounts ignored;
-            // A good first guess spares most of the exact answers: the state that looks nearest.
-            const PathState *nearest = &states.front();
-            double least = std::numeric_limits<double>::infinity();
-            for (const PathState &state : states)
-                if (const double bound = footprint.clearance(state.pose); bound < least)
-                {
-                    least = bound;
-                    nearest = &state;
-                }
-            least = footprint.exactClearance(nearest->pose);
-            // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point
-            // has moved by the difference.
-            for (std::size_t i = 1; i < states.size() && least > 0.0; ++i)
-            {
-                const Pose &from = states[i - 1].pose, &to = states[i].pose;
-                const double length = states[i].arcLength - states[i - 1].arcLength;
-                const double turn = wrapAngle(to.yaw - from.yaw);
-                const double moved = length + footprint.farthestPoint() * std::abs(turn);
-                double share = 0.0;
-                while (share <= 1.0 && least > 0.0)
-                {
-                    const Pose pose = straight
-                                          ? Pose{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
-                                                 from.yaw + share * turn}
-                                          : advance(from, states[i].curvature, share * length * states[i].direction);
-                    const double step = std::max(CLEARANCE_STEP, CLEARANCE_SHARE * least);
-                    double clearance = footprint.clearance(pose, least + moved, ignored);
-                    if (clearance < least + step)
-                    {
-                        clearance = footprint.exactClearance(pose);
-                        least = std::min(least, clearance);
-                    }
-                    if (share >= 1.0 || moved <= 0.0)
-                        break;
-                    share = std::min(1.0, share + std::max(clearance - least, step) / moved);
-                }
-            }
-            return least;
-        }
     }  // namespace
 
     SampledPath PlannedPath::states() const
@@ -222,7 +154,7 @@ namespace parking
         if (path.getStateCount() == 0)
             return result;
         const Scenario &scenario = problem.scenario();
-        const Referee referee(scenario, problem.circleRadius());
+        const Referee &referee = problem.referee();
         std::vector<Pose> poses;
         for (const ompl::base::State *state : statesOf(path))
             poses.push_back(poseOf(state));
@@ -248,7 +180,9 @@ namespace parking
         meant.back().pose = result.end;
         result.length = pathLength(meant);
         result.cusps = result.path.cusps();
-        result.clearance = leastClearance(problem, meant, straight);
+        if (straight)
+            poses.front() = result.path.start, poses.back() = result.end;
+        result.clearance = straight ? referee.leastClearance(poses) : referee.leastClearance(result.path);
         return result;
     }
 }  // namespace parking

@@ -144,6 +144,7 @@ namespace parking
         si_->setStateValidityCheckingResolution(std::min(0.01, CHECK_SPACING / space->getMaximumExtent()));
         si_->setup();
         curveSpace_ = std::make_unique<CurveSpace>(*si_->getStateSpace());
+        referee_ = std::make_unique<const Referee>(scenario_, circleRadius());
     }
 
     double Problem::circleRadius() const

@@ -3,6 +3,7 @@
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/planners/SolveRecord.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/referee/Referee.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ObstacleSet.h"
 #include "state_validity/ompl/CurveSpace.h"
@@ -105,6 +106,12 @@ namespace parking
             return *footprint_;
         }
 
+        /** \brief Who has the last word on paths, for the car or the disc. */
+        const Referee &referee() const
+        {
+            return *referee_;
+        }
+
         /** \brief Seconds that obstacles and distance field took to build. */
         double loadingTime() const
         {
@@ -136,6 +143,7 @@ namespace parking
         std::shared_ptr<const FootprintChecker> footprint_;
         ompl::base::SpaceInformationPtr si_;
         std::unique_ptr<CurveSpace> curveSpace_;
+        std::unique_ptr<const Referee> referee_;
         double loadingTime_{0.0};
     };
 

@@ -8,9 +8,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double TOUCH = 1e-6;        // metres of overlap that count as none
-        constexpr double BUCKET = 2.0;        // metres, the side of buckets in worlds of usual size
-        constexpr double BUCKETS = 262144.0;  // no more than about these
+        constexpr double TOUCH = 1e-6;  // metres of overlap that count as none
 
         /** Does the segment pass through the box? Liang and Barsky's clipping. */
         bool meetsBox(const Eigen::Vector2d &from, const Eigen::Vector2d &to, const Eigen::Vector2d &min,
@@ -66,6 +64,7 @@ namespace parking
             cellSize_ = grid.resolution();
             columns_ = grid.width();
             rows_ = grid.height();
+            bounds_ = {{0.0, 0.0}, {static_cast<double>(columns_) * cellSize_, static_cast<double>(rows_) * cellSize_}};
             occupied_.assign(rows_ * (columns_ + 1), 0);
             for (std::size_t row = 0; row < rows_; ++row)
                 for (std::size_t column = 0; column < columns_; ++column)
@@ -76,84 +75,97 @@ namespace parking
                     occupied_[row * (columns_ + 1) + column + 1] =
                         occupied_[row * (columns_ + 1) + column] + (blocked ? 1U : 0U);
                 }
+            addOutlinesOfCells();
             return;
         }
-        polygons_ = scenario.polygons;
-        const Eigen::Vector2d size = bounds_.size();
-        bucket_ = std::max({BUCKET, std::sqrt(size.x() * size.y() / BUCKETS), size.maxCoeff() / BUCKETS});
-        bucketColumns_ = static_cast<std::size_t>(std::max(std::ceil(size.x() / bucket_), 1.0));
-        bucketRows_ = static_cast<std::size_t>(std::max(std::ceil(size.y() / bucket_), 1.0));
-        buckets_.resize(bucketColumns_ * bucketRows_);
-        for (const Polygon &polygon : polygons_)
+        outlines_ = Outlines(bounds_);
+        for (const Polygon &polygon : scenario.polygons)
+            outlines_.add(polygon);
+    }
+
+    /** Between free cells and others, from corner to corner. The end of the world is no outline: distance() knows it.
+     */
+    void FreeSpace::addOutlinesOfCells()
+    {
+        outlines_ = Outlines(bounds_);
+        const auto isOccupied = [this](std::size_t column, std::size_t row)
         {
-            Box box{polygon.front(), polygon.front()};
-            for (std::size_t i = 0; i < polygon.size(); ++i)
-            {
-                const Edge edge{polygon[i], polygon[(i + 1) % polygon.size()]};
-                box.include(edge.from);
-                edges_.push_back(edge);
-                enterEdge(edges_.size() - 1);
-            }
-            boxes_.push_back(box);
+            return occupiedIn(row, column, column) > 0;
+        };
+        const auto at = [this](std::size_t column, std::size_t row)
+        {
+            return Eigen::Vector2d(static_cast<double>(column) * cellSize_, static_cast<double>(row) * cellSize_);
+        };
+        // Runs of cells that differ from their neighbours below, and from those to the left; all in the order of
+        // memory.
+        std::vector<std::size_t> begins(columns_, 0);
+        for (std::size_t row = 0; row <= rows_; ++row)
+        {
+            for (std::size_t column = 0, begin = 0; row > 0 && row < rows_ && column <= columns_; ++column)
+                if (column == columns_ || isOccupied(column, row) == isOccupied(column, row - 1))
+                {
+                    if (column > begin)
+                        outlines_.add(Outlines::Edge{at(begin, row), at(column, row)});
+                    begin = column + 1;
+                }
+            for (std::size_t column = 1; column < columns_; ++column)
+                if (row == rows_ || isOccupied(column, row) == isOccupied(column - 1, row))
+                {
+                    if (row > begins[column])
+                        outlines_.add(Outlines::Edge{at(column, begins[column]), at(column, row)});
+                    begins[column] = row + 1;
+                }
         }
     }
 
-    void FreeSpace::enterEdge(std::size_t index)
+    Pose FreeSpace::toLocal(const Pose &pose) const
     {
-        const Edge &edge = edges_[index];
-        const Eigen::Vector2d low = edge.from.cwiseMin(edge.to), high = edge.from.cwiseMax(edge.to);
-        const std::size_t firstRow = clampIndex((low.y() - bounds_.min.y()) / bucket_, bucketRows_);
-        const std::size_t lastRow = clampIndex((high.y() - bounds_.min.y()) / bucket_, bucketRows_);
-        for (std::size_t row = firstRow; row <= lastRow; ++row)
-        {
-            // The part of the edge in this row, a little more for rounding; a long slanting edge is in few buckets of
-            // its box.
-            double left = low.x(), right = high.x();
-            if (firstRow < lastRow)
-            {
-                const double bottom = bounds_.min.y() + bucket_ * (static_cast<double>(row) - 0.01);
-                const double slope = (edge.to.x() - edge.from.x()) / (edge.to.y() - edge.from.y());
-                const double atBottom = edge.from.x() + slope * (std::clamp(bottom, low.y(), high.y()) - edge.from.y());
-                const double atTop =
-                    edge.from.x() + slope * (std::clamp(bottom + 1.02 * bucket_, low.y(), high.y()) - edge.from.y());
-                left = std::max(left, std::min(atBottom, atTop) - 0.01 * bucket_);
-                right = std::min(right, std::max(atBottom, atTop) + 0.01 * bucket_);
-            }
-            // Whatever lies outside of the bounds is entered at their rim.
-            for (std::size_t column = clampIndex((left - bounds_.min.x()) / bucket_, bucketColumns_);
-                 column <= clampIndex((right - bounds_.min.x()) / bucket_, bucketColumns_); ++column)
-                buckets_[row * bucketColumns_ + column].push_back(index);
-        }
+        return isGrid_ ? relativeTo(origin_, pose) : pose;
+    }
+
+    Rectangle FreeSpace::shapeAt(const Pose &local) const
+    {
+        Rectangle shape;
+        shape.place = {local.x, local.y};
+        shape.cosine = std::cos(local.yaw);
+        shape.sine = std::sin(local.yaw);
+        if (radius_ > 0.0)
+            return shape;
+        shape.rear = -vehicle_.rearOverhang;
+        shape.front = vehicle_.wheelbase + vehicle_.frontOverhang;
+        shape.half = 0.5 * vehicle_.width;
+        return shape;
+    }
+
+    double FreeSpace::distance(const Rectangle &shape, double enough) const
+    {
+        // A disc is its middle, which has to be farther away.
+        const Box box = shape.box();
+        const double toEnd = std::min((box.min - bounds_.min).minCoeff(), (bounds_.max - box.max).minCoeff());
+        return std::max(0.0, outlines_.distance(shape, std::min(toEnd, enough + radius_)) - radius_);
+    }
+
+    double FreeSpace::clearance(const Pose &pose, double enough) const
+    {
+        return isFree(pose) ? distance(shapeAt(toLocal(pose)), enough) : 0.0;
+    }
+
+    double FreeSpace::clearanceAlong(const Pose &from, double length, double enough) const
+    {
+        if (!isFinite(from) || !std::isfinite(length))
+            return 0.0;
+        Rectangle covered = shapeAt(toLocal(from));
+        covered.rear += std::min(0.0, length);
+        covered.front += std::max(0.0, length);
+        return distance(covered, enough);
     }
 
     bool FreeSpace::isFree(const Pose &pose) const
     {
         if (!isFinite(pose))
             return false;
-        const Pose local = isGrid_ ? relativeTo(origin_, pose) : pose;
+        const Pose local = toLocal(pose);
         return radius_ > 0.0 ? isDiscFree({local.x, local.y}) : isBodyFree(local);
-    }
-
-    template <class Visit>
-    bool FreeSpace::visitEdges(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Visit &visit) const
-    {
-        for (std::size_t row = clampIndex((min.y() - bounds_.min.y()) / bucket_, bucketRows_);
-             row <= clampIndex((max.y() - bounds_.min.y()) / bucket_, bucketRows_); ++row)
-            for (std::size_t column = clampIndex((min.x() - bounds_.min.x()) / bucket_, bucketColumns_);
-                 column <= clampIndex((max.x() - bounds_.min.x()) / bucket_, bucketColumns_); ++column)
-                for (const std::size_t index : buckets_[row * bucketColumns_ + column])
-                    if (!visit(edges_[index]))
-                        return false;
-        return true;
-    }
-
-    bool FreeSpace::insideObstacle(const Eigen::Vector2d &point) const
-    {
-        for (std::size_t i = 0; i < polygons_.size(); ++i)
-            if ((point.array() > boxes_[i].min.array()).all() && (point.array() < boxes_[i].max.array()).all() &&
-                contains(polygons_[i], point))
-                return true;
-        return false;
     }
 
     std::size_t FreeSpace::occupiedIn(std::size_t row, std::size_t first, std::size_t last) const
@@ -164,36 +176,25 @@ namespace parking
 
     bool FreeSpace::isBodyFree(const Pose &local) const
     {
-        Eigen::Vector2d min(INFINITY, INFINITY), max(-INFINITY, -INFINITY);
-        for (const Eigen::Vector2d &corner : vehicle_.footprint(local))
-        {
-            min = min.cwiseMin(corner);
-            max = max.cwiseMax(corner);
-        }
+        const Rectangle body = shapeAt(local);
+        const Box box = body.box();
+        if ((box.min.array() < bounds_.min.array() - TOUCH).any() ||
+            (box.max.array() > bounds_.max.array() + TOUCH).any())
+            return false;
         if (isGrid_)
-            return cellsFree(min, max, local);
-        if ((min.array() < bounds_.min.array() - TOUCH).any() || (max.array() > bounds_.max.array() + TOUCH).any())
-            return false;
-        const double c = std::cos(local.yaw), s = std::sin(local.yaw);
-        const Eigen::Vector2d low(-vehicle_.rearOverhang + TOUCH, -0.5 * vehicle_.width + TOUCH);
-        const Eigen::Vector2d high(vehicle_.wheelbase + vehicle_.frontOverhang - TOUCH, 0.5 * vehicle_.width - TOUCH);
-        const auto inBody = [&](const Eigen::Vector2d &point)
+            return cellsFree(box, local);
+        const Eigen::Vector2d low(body.rear + TOUCH, -body.half + TOUCH);
+        const Eigen::Vector2d high(body.front - TOUCH, body.half - TOUCH);
+        const auto isOutside = [&](const Outlines::Edge &edge)
         {
-            const double dx = point.x() - local.x, dy = point.y() - local.y;
-            return Eigen::Vector2d(c * dx + s * dy, -s * dx + c * dy);
+            return !meetsBox(body.toFrame(edge.from), body.toFrame(edge.to), low, high);
         };
-        if (!visitEdges(min, max,
-                        [&](const Edge &edge) { return !meetsBox(inBody(edge.from), inBody(edge.to), low, high); }))
-            return false;
-        const Eigen::Vector2d middle = 0.5 * (low + high);
-        return !insideObstacle({local.x + c * middle.x() - s * middle.y(), local.y + s * middle.x() + c * middle.y()});
+        return outlines_.visit(box, isOutside) && !outlines_.isInside(body.middle());
     }
 
-    bool FreeSpace::cellsFree(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Pose &local) const
+    bool FreeSpace::cellsFree(const Box &box, const Pose &local) const
     {
-        const Eigen::Vector2d size(static_cast<double>(columns_) * cellSize_, static_cast<double>(rows_) * cellSize_);
-        if ((min.array() < -TOUCH).any() || (max.array() > size.array() + TOUCH).any())
-            return false;
+        const Eigen::Vector2d &min = box.min, &max = box.max;
         const double c = std::cos(local.yaw), s = std::sin(local.yaw);
         const double front = vehicle_.wheelbase + vehicle_.frontOverhang - TOUCH;
         const double rear = -vehicle_.rearOverhang + TOUCH, half = 0.5 * vehicle_.width - TOUCH;
@@ -231,18 +232,16 @@ namespace parking
         const double radius = radius_ - TOUCH;
         const Eigen::Vector2d reach(radius, radius);
         const Eigen::Vector2d min = centre - reach, max = centre + reach;
+        if ((min.array() < bounds_.min.array()).any() || (max.array() > bounds_.max.array()).any())
+            return false;
         if (!isGrid_)
         {
-            if ((min.array() < bounds_.min.array()).any() || (max.array() > bounds_.max.array()).any())
-                return false;
-            return visitEdges(min, max,
-                              [&](const Edge &edge)
-                              { return distanceToSegment(centre, edge.from, edge.to) >= radius; }) &&
-                   !insideObstacle(centre);
+            const auto isOutside = [&](const Outlines::Edge &edge)
+            {
+                return distanceToSegment(centre, edge.from, edge.to) >= radius;
+            };
+            return outlines_.visit({min, max}, isOutside) && !outlines_.isInside(centre);
         }
-        const Eigen::Vector2d size(static_cast<double>(columns_) * cellSize_, static_cast<double>(rows_) * cellSize_);
-        if ((min.array() < 0.0).any() || (max.array() > size.array()).any())
-            return false;
         for (std::size_t row = clampIndex(min.y() / cellSize_, rows_); row <= clampIndex(max.y() / cellSize_, rows_);
              ++row)
             for (std::size_t column = clampIndex(min.x() / cellSize_, columns_);

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Scenario.h"
+#include "parking_geometry/referee/Outlines.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,15 @@ namespace parking
         /** \brief Is the shape at this local pose free of obstacles and inside of the world? */
         bool isFree(const Pose &pose) const;
 
+        /** \brief Metres between the shape and the nearest obstacle or the end of the world; 0 where it touches one. It
+           is exact if less than \e enough, otherwise some number from \e enough up to the distance. */
+        double clearance(const Pose &pose, double enough) const;
+
+        /** \brief The least clearance on a straight drive from a free pose: that of all that the shape covers.
+
+            \param length metres, negative in reverse */
+        double clearanceAlong(const Pose &from, double length, double enough) const;
+
         /** \brief Metres from the rear axle to the point of the shape that moves most when the heading turns. */
         double farthestPoint() const
         {
@@ -33,32 +43,21 @@ namespace parking
         }
 
     private:
-        struct Edge
-        {
-            Eigen::Vector2d from, to;
-        };
-
-        void enterEdge(std::size_t index);
+        Pose toLocal(const Pose &pose) const;
+        Rectangle shapeAt(const Pose &local) const;
+        double distance(const Rectangle &shape, double enough) const;
         bool isBodyFree(const Pose &local) const;
         bool isDiscFree(const Eigen::Vector2d &centre) const;
-        bool insideObstacle(const Eigen::Vector2d &point) const;
-        bool cellsFree(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Pose &local) const;
+        bool cellsFree(const Box &box, const Pose &local) const;
         std::size_t occupiedIn(std::size_t row, std::size_t first, std::size_t last) const;
-        template <class Visit>
-        bool visitEdges(const Eigen::Vector2d &min, const Eigen::Vector2d &max, const Visit &visit) const;
+        void addOutlinesOfCells();
 
         Vehicle vehicle_;
         double radius_;
         double farthest_;
 
-        // A world of polygons: edges by square buckets, row by row.
-        std::vector<Polygon> polygons_;
-        std::vector<Box> boxes_;
-        std::vector<Edge> edges_;
-        Box bounds_;
-        double bucket_{0.0};  // metres, the side of one
-        std::size_t bucketColumns_{0}, bucketRows_{0};
-        std::vector<std::vector<std::size_t>> buckets_;
+        Box bounds_;  ///< in the frame of the obstacles
+        Outlines outlines_;
 
         // A world of cells: occupied_[row * (columns + 1) + i] counts those in the first i columns of a row.
         bool isGrid_{false};

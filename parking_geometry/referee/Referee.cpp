@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace parking
@@ -12,6 +13,8 @@ namespace parking
     {
         constexpr double CURVATURE = 1.0001;  // share of the greatest curvature that may be used
         constexpr double NO_TURN = 1e-6;      // radians on the spot that are rounding
+        constexpr double FAR = 4.0;           // metres: more room than this is not asked for
+        constexpr double STRAIGHT = 8.0;      // metres of a straight drive that are looked at as one
 
         std::string rounded(double value)
         {
@@ -60,7 +63,7 @@ namespace parking
             else if (!isNear(start, referee_.start_))
                 fail(Fault::WrongStart, "begins");
             else
-                test();
+                test(0.0);
         }
 
         void drive(const PathPiece &piece)
@@ -81,17 +84,28 @@ namespace parking
                 fail(Fault::NotDrivable, "curvature " + formatNumber(curvature) + " 1/m");
             if (!referee_.isDisc_ && std::abs(piece.turn) > NO_TURN)
                 fail(Fault::NotDrivable, "turn on the spot");
-            const std::size_t steps =
-                stepsFor(driven + referee_.space_.farthestPoint() * (curvature * driven + std::abs(piece.turn)));
+            const double way = driven + referee_.space_.farthestPoint() * (curvature * driven + std::abs(piece.turn));
+            const std::size_t steps = stepsFor(way);
             const double step = piece.length / static_cast<double>(steps);
             // Sharpness is per metre driven: along a reverse piece the curvature grows against the signed distance.
             const double slope = piece.length < 0.0 ? -piece.sharpness : piece.sharpness;
-            for (std::size_t k = 0; k < steps; ++k)
+            const bool isStraight = curvature == 0.0 && piece.turn == 0.0;
+            for (std::size_t k = 0; k < steps;)
             {
+                const std::size_t freeSteps = isStraight ? freeStraight(step, steps - k) : 0;
+                if (freeSteps > 0)
+                {
+                    pose_ = moved(pose_, 0.0, 0.0, static_cast<double>(freeSteps) * step);
+                    verdict_.states += freeSteps;
+                    room_ = 0.0;
+                    k += freeSteps;
+                    continue;
+                }
                 const double curvatureHere = piece.curvature + slope * step * static_cast<double>(k);
                 pose_ = moved(pose_, curvatureHere, slope, step);
                 pose_.yaw += piece.turn / static_cast<double>(steps);
-                test();
+                test(way / static_cast<double>(steps));
+                ++k;
             }
         }
 
@@ -107,12 +121,13 @@ namespace parking
             length_ += length;
             if (length_ > FARTHEST)
                 return fail(Fault::NotFinite, "longer than any drive");
-            const std::size_t steps = stepsFor(length + referee_.space_.farthestPoint() * std::abs(turn));
+            const double way = length + referee_.space_.farthestPoint() * std::abs(turn);
+            const std::size_t steps = stepsFor(way);
             for (std::size_t k = 1; k <= steps; ++k)
             {
                 const double share = static_cast<double>(k) / static_cast<double>(steps);
                 pose_ = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.yaw + share * turn};
-                test();
+                test(way / static_cast<double>(steps));
             }
         }
 
@@ -137,13 +152,31 @@ namespace parking
             return static_cast<std::size_t>(std::max(1.0, std::ceil(way / STEP)));
         }
 
-        void test()
+        /** \brief The pose that the walk has come to. \param way that the body has moved at most since the last one */
+        void test(double way)
         {
             ++verdict_.states;
-            if (referee_.space_.isFree(pose_))
+            room_ -= way;
+            if (room_ > 0.0)
+                return;
+            isFree_ = referee_.space_.isFree(pose_);
+            room_ = isFree_ ? referee_.space_.clearance(pose_, FAR) : 0.0;
+            if (isFree_)
                 return;
             ++verdict_.collisions;
             fail(Fault::Collision, "collision");
+        }
+
+        /** \brief How many of the next \e steps straight ahead are free at a glance; 0 when that cannot be said. */
+        std::size_t freeStraight(double step, std::size_t steps) const
+        {
+            if (!isFree_)
+                return 0;
+            const double most = std::max(1.0, std::floor(STRAIGHT / std::max(std::abs(step), 1e-9)));
+            if (most < static_cast<double>(steps))
+                steps = static_cast<std::size_t>(most);
+            const double length = static_cast<double>(steps) * step;
+            return referee_.space_.clearanceAlong(pose_, length, STEP) > 0.0 ? steps : 0;
         }
 
         void fail(Fault fault, const std::string &what)
@@ -163,7 +196,78 @@ namespace parking
         const Referee &referee_;
         Pose pose_;
         double length_{0.0};
+        bool isFree_{false};  // the last pose that was looked at
+        double room_{0.0};    // metres that the body may move before it has to be looked at again
         Verdict verdict_;
+    };
+
+    /** The least clearance of a path: halves each motion until it cannot matter any more. */
+    class Referee::NearestApproach
+    {
+    public:
+        explicit NearestApproach(const Referee &referee) : space_(referee.space_)
+        {
+        }
+
+        double least() const
+        {
+            return least_;
+        }
+
+        void stand(const Pose &pose)
+        {
+            least_ = std::min(least_, space_.clearance(pose, least_));
+        }
+
+        void driveStraight(Pose pose, double length)
+        {
+            const double pieces = std::max(1.0, std::ceil(std::abs(length) / STRAIGHT));
+            for (double k = 0.0; k < pieces && least_ > 0.0; ++k)
+            {
+                least_ = std::min(least_, space_.clearanceAlong(pose, length / pieces, least_));
+                pose = advance(pose, 0.0, length / pieces);
+            }
+        }
+
+        /** \brief \param way that no point of the body moves farther than
+            \param at the pose at a share of the motion */
+        template <class At>
+        void move(double way, const At &at)
+        {
+            const double pieces = std::max(1.0, std::ceil(way / FAR));
+            double begin = 0.0, room = roomAt(at(0.0), way / pieces);
+            for (double k = 1.0; k <= pieces && least_ > 0.0; ++k)
+            {
+                const double end = k / pieces, roomThere = roomAt(at(end), way / pieces);
+                halve(way, at, begin, room, end, roomThere);
+                begin = end;
+                room = roomThere;
+            }
+        }
+
+    private:
+        double roomAt(const Pose &pose, double way)
+        {
+            const double room = space_.clearance(pose, least_ + way);
+            least_ = std::min(least_, room);
+            return room;
+        }
+
+        template <class At>
+        void halve(double way, const At &at, double begin, double roomThen, double end, double room)
+        {
+            const double moved = (end - begin) * way;
+            // The two ends see to that the body comes no nearer than this.
+            const double bound = 0.5 * (roomThen + room - moved);
+            if (bound >= least_ - std::max(CLEARANCE, 0.01 * least_) || least_ <= 0.0)
+                return;
+            const double middle = 0.5 * (begin + end), roomThere = roomAt(at(middle), 0.5 * moved);
+            halve(way, at, begin, roomThen, middle, roomThere);
+            halve(way, at, middle, roomThere, end, room);
+        }
+
+        const FreeSpace &space_;
+        double least_{std::numeric_limits<double>::infinity()};
     };
 
     std::string toString(Fault fault)
@@ -214,6 +318,59 @@ namespace parking
         for (std::size_t i = 1; i < poses.size(); ++i)
             walk.glide(poses[i]);
         return walk.finish(exact);
+    }
+
+    double Referee::leastClearance(const Path &path) const
+    {
+        // First what is quick, so that most of the rest need not be looked at closely.
+        NearestApproach approach(*this);
+        Pose pose = path.start;
+        approach.stand(pose);
+        const auto isStraight = [](const PathPiece &piece)
+        {
+            return piece.curvature == 0.0 && piece.sharpness == 0.0 && piece.turn == 0.0;
+        };
+        for (const PathPiece &piece : path.pieces)
+        {
+            if (isStraight(piece))
+                approach.driveStraight(pose, piece.length);
+            pose = advance(pose, piece);
+            approach.stand(pose);
+        }
+        pose = path.start;
+        for (const PathPiece &piece : path.pieces)
+        {
+            const double curvature = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            const double turn = curvature * piece.driven() + std::abs(piece.turn);
+            if (!isStraight(piece))
+                approach.move(piece.driven() + space_.farthestPoint() * turn,
+                              [&](double share)
+                              {
+                                  PathPiece part = piece;
+                                  part.turn *= share;
+                                  return advance(pose, part, share * piece.driven());
+                              });
+            pose = advance(pose, piece);
+        }
+        return approach.least();
+    }
+
+    double Referee::leastClearance(const std::vector<Pose> &poses) const
+    {
+        NearestApproach approach(*this);
+        for (const Pose &pose : poses)
+            approach.stand(pose);
+        for (std::size_t i = 1; i < poses.size(); ++i)
+        {
+            const Pose &from = poses[i - 1], &to = poses[i];
+            const double turn = std::remainder(to.yaw - from.yaw, 2.0 * PI);
+            approach.move(std::hypot(to.x - from.x, to.y - from.y) + space_.farthestPoint() * std::abs(turn),
+                          [&](double share) {
+                              return Pose{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                                          from.yaw + share * turn};
+                          });
+        }
+        return approach.least();
     }
 
     bool Referee::isPlace(const Pose &pose) const

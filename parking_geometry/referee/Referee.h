@@ -32,7 +32,7 @@ namespace parking
         bool valid{false};
         Fault fault{Fault::NoPath};     ///< the first one found; None when valid
         std::string reason{"no path"};  ///< what and where, in a few words; empty when valid
-        std::size_t states{0};          ///< poses tested
+        std::size_t states{0};          ///< poses decided
         std::size_t collisions{0};      ///< of those in collision
         double maxCurvature{0.0};       ///< 1/m, largest magnitude along the path
     };
@@ -41,7 +41,8 @@ namespace parking
 
         Nothing that planners say about their paths is believed, and nothing that they compute with is used here but the
         types of the geometry: path and obstacles are gone through once more by code of its own, in steps between which
-        no point of the body moves farther than STEP. */
+        no point of the body moves farther than STEP. Where the distance to the nearest obstacle is more than the body
+        moves, the poses up to there are known to be free and are not looked at one by one; the verdict is the same. */
     class Referee
     {
     public:
@@ -51,6 +52,8 @@ namespace parking
         static constexpr double TOLERANCE = 1e-4;
         /** Metres: no place farther than this from the world, and no longer drive, is looked at. */
         static constexpr double FARTHEST = 1e6;
+
+        static constexpr double CLEARANCE = 0.002;  ///< metres
 
         /** \brief For the car's rectangle, or when \e circleRadius is positive for a disc round its rear axle. */
         explicit Referee(const Scenario &scenario, double circleRadius = 0.0);
@@ -70,11 +73,19 @@ namespace parking
             plain SE2 space mean them. No car drives like that, so drivable is whatever is finite. */
         Verdict checkLines(const std::vector<Pose> &poses, bool exact = true) const;
 
+        /** \brief Metres between the shape and the obstacles, the least along the path, 0 where it touches one: never
+           too little, and too much by no more than CLEARANCE or a hundredth of it. The path has to be a finite one. */
+        double leastClearance(const Path &path) const;
+
+        /** \brief The same along lines as of checkLines(), of which there has to be at least one pose. */
+        double leastClearance(const std::vector<Pose> &poses) const;
+
         /** \brief Is this a place that can be computed with: finite, and no farther than FARTHEST from the world? */
         bool isPlace(const Pose &pose) const;
 
     private:
         class Walk;
+        class NearestApproach;
 
         Vehicle vehicle_;
         Pose start_;
