@@ -3,8 +3,10 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
+#include "path_tracking/trajectory/MotionCheck.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -30,12 +32,26 @@ namespace parking
     {
         planning.validate();
         drive.validate();
+        trajectory.trajectory.validate();
         const Require require("parking");
+        require.notNegative("keptClearance", keptClearance);
+        require.notNegative("leastClearance", leastClearance);
+        require.notNegative("motionClearance", motionClearance);
+        require.that(clearanceShare > 0.0 && clearanceShare < 1.0, "clearanceShare", clearanceShare, "between 0 and 1");
         require.positive("replanCrossTrack", replanCrossTrack);
         require.positive("replanHeadingError", replanHeadingError);
         require.positive("goalTolerance", goalTolerance);
         require.positive("goalYawTolerance", goalYawTolerance);
         require.notNegative("lookBack", lookBack);
+    }
+
+    ParkingParameters::ParkingParameters()
+    {
+        trajectory.trajectory.finalSteering = std::nullopt;
+        trajectory.trajectory.speedShare = 0.98;
+        trajectory.trajectory.accelerationShare = 0.95;
+        trajectory.trajectory.steeringShare = 0.97;
+        trajectory.trajectory.steeringRateShare = 0.8;
     }
 
     /** One call of park(): the world as it is now, and what has been driven so far. */
@@ -78,6 +94,7 @@ namespace parking
                     stay(truth);
                     break;
                 }
+                optimize(leg);
                 const bool driven = drive(leg, truth, count);
                 result_.legs.push_back(std::move(leg));
                 if (!driven)
@@ -152,6 +169,39 @@ namespace parking
             finish(ParkingStatus::Parked, "parked");
         }
 
+        /** Looks for a motion that is quicker than the path of \e leg. */
+        void optimize(ParkingLeg &leg)
+        {
+            if (!parameters_.optimizeTrajectory || leg.plan.clearance < parameters_.motionClearance)
+                return;
+            const auto begin = std::chrono::steady_clock::now();
+            const Vehicle &car = scenario_.vehicle;
+            QuickestTrajectoryOptions options = parameters_.trajectory;
+            options.trajectory.initialSteering = std::clamp(steering_, -car.maxSteeringAngle, car.maxSteeringAngle);
+            options.trajectory.margin =
+                std::max(options.trajectory.margin,
+                         std::min(parameters_.leastClearance, parameters_.clearanceShare * leg.plan.clearance));
+            options.trajectory.preferredClearance =
+                std::max(options.trajectory.preferredClearance, parameters_.keptClearance);
+            if (leg.plan.path.pieces.size() != leg.plan.arcs.pieces.size())
+                options.others.push_back(leg.plan.arcs);
+            try
+            {
+                QuickestTrajectory found =
+                    quickestTrajectory(world_.footprint(), scenario_.bounds, leg.plan.path, options);
+                if (found.trajectory.fallback)
+                    note("the path is driven with standstills: " + found.trajectory.reason);
+                else
+                    leg.trajectory = std::move(found);
+            }
+            catch (const Error &error)
+            {
+                note(std::string("the path is driven with standstills: ") + error.what());
+            }
+            leg.optimizationTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            result_.planningTime += leg.optimizationTime;
+        }
+
         /** Drives the plan of \e leg; false when it cannot be driven. */
         bool drive(ParkingLeg &leg, const Pose &truth, std::size_t count)
         {
@@ -165,7 +215,8 @@ namespace parking
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
             try
             {
-                leg.drive = loop.drive(leg.plan.path, truth, steering_);
+                leg.drive = leg.trajectory ? loop.follow(leg.trajectory->trajectory.motion, truth)
+                                           : loop.drive(leg.plan.path, truth, steering_);
             }
             catch (const Error &error)
             {
@@ -210,7 +261,7 @@ namespace parking
                 try
                 {
                     if (std::optional<Scenario> changed = update_(leg.begin + record.t, record.control.estimate))
-                        takeOver(std::move(*changed), leg.plan.path, record.control.s);
+                        takeOver(std::move(*changed), leg, record.control.s);
                 }
                 catch (const std::exception &error)
                 {
@@ -222,7 +273,7 @@ namespace parking
         }
 
         /** The world is another one from now on. */
-        void takeOver(Scenario changed, const Path &path, double s)
+        void takeOver(Scenario changed, const ParkingLeg &leg, double s)
         {
             if (changed.worldOffset != scenario_.worldOffset)
                 throw Error("scenario " + changed.name + ": a changed map must have the worldOffset of the first one");
@@ -237,8 +288,17 @@ namespace parking
             scenario_ = std::move(changed);
             if (moved)
                 cause_ = "the goal has changed";
-            else if (!world_.isFree(path.rest(std::max(0.0, s - parameters_.lookBack))))
+            else if (!isFreeFrom(leg, std::max(0.0, s - parameters_.lookBack)))
                 cause_ = "the map has changed";
+        }
+
+        /** Is what lies behind the first \e driven metres of the drive free? */
+        bool isFreeFrom(const ParkingLeg &leg, double driven) const
+        {
+            if (!leg.trajectory)
+                return world_.isFree(leg.plan.path.rest(driven));
+            const TimedMotion rest = restOf(leg.trajectory->trajectory.motion, scenario_.vehicle, driven);
+            return collisionsOf(rest, world_.footprint(), 1).empty();
         }
 
         /** Is it over? Otherwise \e reason says why to plan anew. */

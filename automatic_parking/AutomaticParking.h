@@ -2,6 +2,7 @@
 
 #include "automatic_parking/ParkingPlanner.h"
 #include "automatic_parking/ParkingStatus.h"
+#include "automatic_parking/QuickestTrajectory.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/simulation/Evaluation.h"
@@ -21,12 +22,28 @@ namespace parking
         PlanningParameters planning;
         ClosedLoopParameters drive;
 
+        /** Drive the fastest trajectory near the path, the wheels turning while the car rolls; otherwise the path
+           itself with standstills wherever its curvature jumps. */
+        bool optimizeTrajectory{true};
+        /** How that is found. The wheels begin where they are; margin and preferred clearance are at least
+            what leastClearance and keptClearance make of the plan's clearance. */
+        QuickestTrajectoryOptions trajectory;
+        double keptClearance{0.2};    ///< metres that a trajectory prefers to keep where the plan does
+        double leastClearance{0.15};  ///< metres that it does keep, where the plan does,
+        double clearanceShare{0.9};   ///< and where it does not, this share of what that keeps
+        /** Metres; a plan that keeps less is driven with standstills: there the errors of a moving car would tell. */
+        double motionClearance{0.03};
+
         std::size_t maxReplans{3};        ///< plans after the first one
         double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and plans anew
         double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
         double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
         double lookBack{0.1};             ///< metres of path behind the car that a changed map must leave free, too
+
+        /** \brief Trajectories that leave a controller something to correct with, and the wheels at the end as they
+            are. */
+        ParkingParameters();
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
@@ -38,6 +55,9 @@ namespace parking
         std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
         double begin{0.0};   ///< seconds since the first command
         ParkingPlan plan;
+        /** What is driven; absent when the path itself is. */
+        std::optional<QuickestTrajectory> trajectory;
+        double optimizationTime{0.0};  ///< seconds
         DriveResult drive;  ///< empty when there was nothing to drive: no plan, or the car stands at the goal
     };
 
@@ -50,7 +70,7 @@ namespace parking
         /** Of all drives, time running on; the car plans in no time. Of a car that stays: its pose, twice. */
         Trajectory trajectory;
         Evaluation evaluation;     ///< of all drives together, final errors against the goal
-        double planningTime{0.0};  ///< seconds, all plans
+        double planningTime{0.0};  ///< seconds, all plans and trajectories
 
         bool parked() const
         {

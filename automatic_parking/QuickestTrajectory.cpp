@@ -69,6 +69,7 @@ namespace parking
     {
         const TrajectoryOptimizer optimizer(checker, options.trajectory);
         std::vector<Path> paths{path};
+        paths.insert(paths.end(), options.others.begin(), options.others.end());
         if (options.alternatives)
             for (Path &each : alternativePaths(checker, bounds, path, options, interrupted))
                 paths.push_back(std::move(each));

@@ -16,6 +16,7 @@ namespace parking
     {
         TrajectoryOptions trajectory;
         bool alternatives{true};             ///< whether other paths are looked for
+        std::vector<Path> others;            ///< known already: other ways between the same poses
         bool forwardOnly{false};             ///< whether those must not drive in reverse
         std::uint64_t mostExpansions{1000};  ///< of the search for each of them
     };

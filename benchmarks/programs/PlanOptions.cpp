@@ -31,7 +31,10 @@ namespace parking
                 "(default 1); the first run's path is the result");
             add("seed", oneValue("N"), "of the random numbers (default 1)");
             add("trajectory", "optimise the path in time: the fastest trajectory near it");
-            add("track", "drive the path with the model predictive controller");
+            add("track",
+                "drive it with the model predictive controller: the trajectory, or without --trajectory the path, "
+                "standing "
+                "wherever its curvature jumps");
             add("json", oneValue("FILE|-"), "write the result, - to standard output");
             add("svg", oneValue("FILE"), "draw the result");
             add("csv", oneValue("FILE"),

@@ -364,7 +364,8 @@ namespace parking
             return;
         try
         {
-            result.drive = drivePath(problem, *run.path);
+            result.drive = result.trajectory ? driveMotion(problem, result.trajectory->trajectory.motion)
+                                             : drivePath(problem, *run.path);
         }
         catch (const Error &error)
         {

@@ -93,7 +93,7 @@ namespace
         row.planningTime = plan.planningTime + plan.smoothingTime;
         row.length = plan.path.length();
         row.cusps = plan.path.cusps();
-        row.clearance = plan.clearance;
+        row.clearance = nominal.evaluation.minClearance;
         row.nominal = nominal.evaluation;
         row.nominalWorst.add(nominal);
         for (std::size_t i = 0; i < seeds; ++i)
@@ -147,6 +147,14 @@ namespace
         add("seeds", oneValue("N"), "disturbed drives of each problem (default 20)");
         add("first-seed", oneValue("N"), "their first seed (default 1)");
         add("output", oneValue("FILE.md"), "write the table there, too");
+        add("stop-and-steer", "drive the paths with standstills, not optimised trajectories");
+        add("acceleration-share", oneValue("X"), "of the car's acceleration that trajectories use");
+        add("steering-rate-share", oneValue("X"), "of its steering rate");
+        add("steering-share", oneValue("X"), "of its steering angle");
+        add("nearness", oneValue("X"), "seconds that a metre in touch with obstacles is worth");
+        add("kept", oneValue("M"), "metres that trajectories prefer to keep from obstacles");
+        add("least", oneValue("M"), "metres that they do keep where the plan does");
+        add("clearance-share", oneValue("X"), "of the plan's clearance that they keep in any case");
         add("no-smoothing", "drive the planner's arcs as they are");
         add("help", "this text");
         options.add_options()("scenario", po::value<std::vector<std::string>>());
@@ -162,6 +170,15 @@ namespace
         const std::size_t first = line.whole("first-seed", 0, 1000000000).value_or(1);
         ParkingParameters parameters;
         parameters.planning.smooth = !line.given("no-smoothing");
+        parameters.optimizeTrajectory = !line.given("stop-and-steer");
+        TrajectoryOptions &trajectory = parameters.trajectory.trajectory;
+        trajectory.accelerationShare = line.positive("acceleration-share").value_or(trajectory.accelerationShare);
+        trajectory.steeringRateShare = line.positive("steering-rate-share").value_or(trajectory.steeringRateShare);
+        trajectory.steeringShare = line.positive("steering-share").value_or(trajectory.steeringShare);
+        trajectory.weights.nearness = line.positive("nearness").value_or(trajectory.weights.nearness);
+        parameters.keptClearance = line.positive("kept").value_or(parameters.keptClearance);
+        parameters.leastClearance = line.positive("least").value_or(parameters.leastClearance);
+        parameters.clearanceShare = line.positive("clearance-share").value_or(parameters.clearanceShare);
         const std::string output = line.text("output").value_or("");
         if (!output.empty())
             requireWritable(output);

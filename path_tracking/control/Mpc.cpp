@@ -107,6 +107,7 @@ namespace parking
             bool finite = isFinite(problem.pose) && std::isfinite(problem.speed) &&
                           std::isfinite(problem.last.acceleration) && std::isfinite(problem.last.steering) &&
                           std::isfinite(problem.wheels) && std::isfinite(problem.steeringNow) &&
+                          std::isfinite(problem.speedNow) && std::isfinite(problem.accelerationNow) &&
                           std::isfinite(problem.steeringLag) && std::isfinite(problem.driveLag) &&
                           std::isfinite(problem.acceleration);
             for (const MpcReference &point : problem.reference)

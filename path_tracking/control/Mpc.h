@@ -29,6 +29,8 @@ namespace parking
         /** Does W1 weigh the steering angle against the one that the path has there, and W2 its changes likewise? The
             paper's cost (false) pulls the wheels straight, which on an arc pulls the car off the path. */
         bool relativeSteering{true};
+        /** The same for the acceleration: W1 and W2 weigh it against that of the timed path, which is not smooth. */
+        bool relativeAcceleration{true};
 
         int maxIterations{6};  ///< of the solver per step
 
@@ -62,6 +64,8 @@ namespace parking
         double wheels{0.0};                   ///< radians, angle of the wheels now
         double steeringLag{0.0};              ///< seconds, time constant of the wheels behind their command
         double steeringNow{0.0};              ///< radians, of the path at this moment
+        double speedNow{0.0};                 ///< m/s, of the path at this moment, negative in reverse
+        double accelerationNow{0.0};          ///< m/s^2, of the path, what leads to this moment
         int direction{1};                     ///< of the leg: the car may not move the other way
         bool align{false};                    ///< m of the paper: is the goal nearer than alignDistance?
         std::vector<MpcReference> reference;  ///< one per step of the horizon

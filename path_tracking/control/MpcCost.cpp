@@ -113,7 +113,18 @@ namespace parking
             steering.push_back(parameters_.relativeSteering ? point.steering : 0.0);
         }
         setWanted(steering_, problem.last.steering, steering);
-        setWanted(acceleration_, direction_ * problem.last.acceleration, std::vector<double>(steering.size(), 0.0));
+        std::vector<double> acceleration(steering.size(), 0.0);
+        if (parameters_.relativeAcceleration)
+        {
+            acceleration[0] = direction_ * problem.accelerationNow;
+            double speed = problem.speedNow;
+            for (std::size_t k = 0; k < problem.reference.size(); ++k)
+            {
+                acceleration[k + 1] = direction_ * (problem.reference[k].speed - speed) / parameters_.step;
+                speed = problem.reference[k].speed;
+            }
+        }
+        setWanted(acceleration_, direction_ * problem.last.acceleration, acceleration);
     }
 
     void MpcCost::evaluate(const Eigen::VectorXd &unknowns, Eigen::VectorXd &residuals, Jacobian *jacobian) const

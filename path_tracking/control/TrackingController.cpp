@@ -1,7 +1,9 @@
 #include "path_tracking/control/TrackingController.h"
 
+#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
+#include "path_tracking/reference/ProfileReference.h"
 #include "path_tracking/simulation/BicycleModel.h"
 
 #include <algorithm>
@@ -21,6 +23,7 @@ namespace parking
         constexpr double STUCK_TIME = 5.0;         // seconds with a standing clock after which the drive is given up
         constexpr double STEERING_PATIENCE = 2.0;  // seconds without progress that the wheels are waited for
         constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
+        constexpr double NO_TIME = 1e-9;           // seconds
 
         void checkShare(const Require &require, const char *field, double value)
         {
@@ -66,9 +69,18 @@ namespace parking
 
     TrackingController::TrackingController(const Path &path, const Vehicle &vehicle,
                                            const TrackingParameters &parameters, double initialSteering, Solve solve)
+      : TrackingController((parameters.validate(), std::make_shared<ProfileReference>(
+                                                       SpeedProfile(ReferencePath(path, vehicle, parameters.reference),
+                                                                    parameters.limits(vehicle), initialSteering))),
+                           vehicle, parameters, initialSteering, std::move(solve))
+    {
+    }
+
+    TrackingController::TrackingController(std::shared_ptr<const TimedReference> reference, const Vehicle &vehicle,
+                                           const TrackingParameters &parameters, double initialSteering, Solve solve)
       : vehicle_(vehicle),
         parameters_((parameters.validate(), parameters)),
-        profile_(ReferencePath(path, vehicle, parameters.reference), parameters.limits(vehicle), initialSteering),
+        reference_(std::move(reference)),
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
         estimator_(vehicle.wheelbase, parameters.estimator),
@@ -77,7 +89,10 @@ namespace parking
     {
         last_.steering = initialSteering;
         steeringBefore_ = initialSteering;
+        if (!reference_)
+            throw Error("tracking: there is no reference");
         s_ = leg().beginLength;
+        clock_ = -leg().standstill;
     }
 
     void TrackingController::requestStop(const std::string &reason)
@@ -96,7 +111,7 @@ namespace parking
         locate(step);
         watch(step);
         bool over = mode_ == TrackingMode::Driving && legOver();
-        if (over && std::abs(estimator_.measuredSpeed()) <= STANDING)
+        if (over && (std::abs(estimator_.measuredSpeed()) <= STANDING || mayReverse()))
         {
             nextLeg(step);
             over = false;
@@ -104,7 +119,10 @@ namespace parking
         if (mode_ == TrackingMode::Steering)
             steer(step);
         if (mode_ == TrackingMode::Driving && over)
+        {
             standStill(step, last_.steering, vehicle_.maxSteeringRate);
+            clock_ += parameters_.mpc.step;
+        }
         else if (mode_ == TrackingMode::Driving)
             drive(step);
         if (mode_ == TrackingMode::Braking)
@@ -130,8 +148,7 @@ namespace parking
         {
             // Nothing to reckon from: the first measurement must be good.
             started_ = usable;
-            estimator_.start(usable ? measurement
-                                    : Measurement{profile_.reference().pose(0, 0.0), 0.0, last_.steering});
+            estimator_.start(usable ? measurement : Measurement{reference_->at(0, 0.0).pose, 0.0, last_.steering});
             return usable;
         }
         if (!usable)
@@ -154,7 +171,7 @@ namespace parking
 
     void TrackingController::locate(TrackingStep &step)
     {
-        const PathProjection place = profile_.reference().project(leg_, estimator_.pose(), s_ - SEARCH, s_ + SEARCH);
+        const PathProjection place = reference_->project(leg_, estimator_.pose(), s_ - SEARCH, s_ + SEARCH);
         s_ = place.s;
         beyond_ = place.beyond;
         step.s = place.s;
@@ -182,31 +199,58 @@ namespace parking
 
     bool TrackingController::legOver() const
     {
-        const double over = clock_ - profile_.legDuration(leg_);
+        const double over = clock_ - leg().duration;
         if (over >= parameters_.settleTime)
             return true;
         const double left = leg().endLength - (s_ + beyond_);
+        // With less than half a period to go the car may reverse within this period.
+        const double braking = 0.5 * vehicle_.maxAcceleration * std::pow(0.5 * parameters_.mpc.step, 2);
+        if (over >= -0.5 * parameters_.mpc.step && mayReverse() && left <= parameters_.stopTolerance + braking)
+            return true;
         // Beyond the end nothing is left to drive; shortly before it the timed path is given its time.
         return left <= (over >= 0.0 ? parameters_.stopTolerance : 0.0);
     }
 
+    bool TrackingController::isNearlyStanding() const
+    {
+        return std::abs(estimator_.measuredSpeed()) <=
+               std::max(STANDING, 0.5 * vehicle_.maxAcceleration * parameters_.mpc.step);
+    }
+
+    bool TrackingController::mayReverse() const
+    {
+        return isNearlyStanding() && leg_ + 1 < reference_->legs().size() &&
+               reference_->legs()[leg_ + 1].standstill < parameters_.mpc.step;
+    }
+
     void TrackingController::nextLeg(TrackingStep &step)
     {
-        if (leg_ + 1 == profile_.reference().legs().size())
+        // The time since the leg should have ended, or until then, counts for what follows.
+        const double over = clock_ - leg().duration;
+        waited_ = 0.0;
+        wheelsOff_ = 0.0;
+        if (leg_ + 1 == reference_->legs().size())
         {
-            const Pose end = profile_.reference().end();
-            const double off = positionDistance(estimator_.pose(), end);
-            mode_ = off <= parameters_.arrivalTolerance ? TrackingMode::Arrived : TrackingMode::Stopped;
-            if (mode_ == TrackingMode::Stopped)
-                step.event = "stopped " + formatNumber(std::round(100.0 * off)) + " cm from the end of the path";
+            turnsLast_ = reference_->finalStandstill() > 0.0;
+            if (turnsLast_)
+                mode_ = TrackingMode::Steering;
+            else
+                arrive(step);
             return;
         }
         ++leg_;
         s_ = leg().beginLength;
+        clock_ = over - leg().standstill;
         mode_ = TrackingMode::Steering;
-        waited_ = 0.0;
-        wheelsOff_ = 0.0;
         locate(step);
+    }
+
+    void TrackingController::arrive(TrackingStep &step)
+    {
+        const double off = positionDistance(estimator_.pose(), reference_->end());
+        mode_ = off <= parameters_.arrivalTolerance ? TrackingMode::Arrived : TrackingMode::Stopped;
+        if (mode_ == TrackingMode::Stopped)
+            step.event = "stopped " + formatNumber(std::round(100.0 * off)) + " cm from the end of the path";
     }
 
     void TrackingController::beginStop(const std::string &reason, TrackingStep &step)
@@ -228,13 +272,26 @@ namespace parking
 
     void TrackingController::steer(TrackingStep &step)
     {
-        const double target = leg().steering.front().angle;
+        const double period = parameters_.mpc.step;
+        const double target = turnsLast_ ? reference_->finalSteering() : leg().steering;
         const double off = std::abs(estimator_.measuredSteering() - target);
         const bool standing = std::abs(estimator_.measuredSpeed()) <= STANDING;
-        if (last_.steering == target && standing && off <= parameters_.steeringTolerance)
+        const bool there = last_.steering == target && off <= parameters_.steeringTolerance;
+        if (turnsLast_ && standing && there)
+        {
+            arrive(step);
+            return;
+        }
+        // A leg that begins within this period may be begun when the wheels get there in time.
+        const double left = std::clamp(-clock_, 0.0, period);
+        const bool inTime =
+            off <= parameters_.steeringTolerance + reference_->steeringRate() * left &&
+            std::abs(last_.steering - target) <= parameters_.steeringTolerance + reference_->steeringRate() * left;
+        if (!turnsLast_ && (standing || (leg().standstill < period && isNearlyStanding())) &&
+            clock_ + period > NO_TIME && (there || inTime))
         {
             mode_ = TrackingMode::Driving;
-            clock_ = 0.0;
+            clock_ = std::min(clock_, 0.0);
             waited_ = 0.0;
             planAge_ = 0;
             plan_.clear();
@@ -242,14 +299,25 @@ namespace parking
             return;
         }
         // Wheels that come nearer are given time; wheels that do not move are broken.
-        waited_ = off < wheelsOff_ - LEAST_PROGRESS || last_.steering != target ? 0.0 : waited_ + parameters_.mpc.step;
+        waited_ = off < wheelsOff_ - LEAST_PROGRESS || last_.steering != target ? 0.0 : waited_ + period;
         wheelsOff_ = off;
         if (waited_ > STEERING_PATIENCE)
         {
             beginStop(standing ? "the wheels do not follow their command" : "the car does not stand still", step);
             return;
         }
-        standStill(step, target, profile_.limits().steeringRate);
+        standStill(step, target, reference_->steeringRate());
+        clock_ += period;
+    }
+
+    double TrackingController::steeringAt(double time) const
+    {
+        const double angle = reference_->at(leg_, time).steering, over = time - leg().duration;
+        if (over <= 0.0)
+            return angle;
+        const bool last = leg_ + 1 == reference_->legs().size();
+        return towards(angle, last ? reference_->finalSteering() : reference_->legs()[leg_ + 1].steering,
+                       over * reference_->steeringRate());
     }
 
     MpcProblem TrackingController::makeProblem() const
@@ -264,19 +332,21 @@ namespace parking
         problem.driveLag = driveLag_.lag();
         problem.steeringLag = steeringLag_.lag();
         problem.direction = leg().direction;
-        problem.steeringNow = profile_.reference().steering(leg_, profile_.at(leg_, clock_ + steeringLag_.lag()).s);
-        const Pose goal = profile_.reference().end();
+        problem.steeringNow = steeringAt(clock_ + steeringLag_.lag());
+        problem.speedNow = leg().direction * reference_->at(leg_, clock_ + driveLag_.lag()).speed;
+        problem.accelerationNow =
+            (problem.speedNow - leg().direction * reference_->at(leg_, clock_ - period + driveLag_.lag()).speed) /
+            period;
+        const Pose goal = reference_->end();
         problem.align = positionDistance(goal, estimator_.pose()) < parameters_.mpc.alignDistance;
         problem.reference.reserve(parameters_.mpc.horizon);
         for (std::size_t k = 1; k <= parameters_.mpc.horizon; ++k)
         {
             const double time = clock_ + static_cast<double>(k) * period;
-            const ProfilePoint point = profile_.at(leg_, time);
-            // The command has to be ahead of the wheels by their lag.
-            const double ahead = profile_.at(leg_, time + steeringLag_.lag()).s;
-            problem.reference.push_back({profile_.reference().pose(leg_, point.s),
-                                         leg().direction * profile_.at(leg_, time + driveLag_.lag()).speed,
-                                         profile_.reference().steering(leg_, ahead)});
+            // Commands have to be ahead of the car by its lags.
+            problem.reference.push_back({reference_->at(leg_, time).pose,
+                                         leg().direction * reference_->at(leg_, time + driveLag_.lag()).speed,
+                                         steeringAt(time + steeringLag_.lag())});
         }
         return problem;
     }
@@ -353,16 +423,30 @@ namespace parking
             }
         }
         step.command.acceleration = withinSpeedLimit(step.command.acceleration);
+        endWithPeriod(step);
         step.command.steering =
             std::clamp(towards(last_.steering, step.command.steering, vehicle_.maxSteeringRate * period),
                        -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
 
-        const double behind = profile_.at(leg_, clock_).s - (s_ + beyond_);
+        const double behind = reference_->at(leg_, clock_).s - (s_ + beyond_);
         const double rate = std::clamp((LAG_STOP - behind) / (LAG_STOP - LAG_ALLOWED), 0.0, 1.0);
         clock_ += rate * period;
         waited_ = rate < 0.05 ? waited_ + period : 0.0;
         if (waited_ > STUCK_TIME)
             beginStop("the car does not move on", step);
+    }
+
+    void TrackingController::endWithPeriod(TrackingStep &step)
+    {
+        // A leg that ends within this period ends at rest, however little is left of the period.
+        const double period = parameters_.mpc.step;
+        const double speed = leg().direction * estimator_.measuredSpeed();
+        const double left = leg().endLength - (s_ + beyond_) - 0.5 * estimator_.speedScale() * speed * period;
+        if (clock_ + period < leg().duration || speed < 0.0 || speed > vehicle_.maxAcceleration * period ||
+            std::abs(left) > parameters_.stopTolerance)
+            return;
+        step.command.hold = true;
+        step.command.acceleration = -leg().direction * speed / period;
     }
 
     void TrackingController::brake(TrackingStep &step)
@@ -375,7 +459,7 @@ namespace parking
         // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
         constexpr double K1 = 0.5, K2 = 1.2;
         const double direction = leg().direction;
-        const double curvature = vehicle_.curvature(profile_.reference().steering(leg_, s_)) - K1 * step.crossTrack -
+        const double curvature = vehicle_.curvature(reference_->steering(leg_, s_)) - K1 * step.crossTrack -
                                  direction * K2 * step.headingError;
         standStill(step,
                    std::clamp(vehicle_.steeringAngle(curvature), -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle),

@@ -5,11 +5,13 @@
 #include "path_tracking/control/TrackingTypes.h"
 #include "path_tracking/reference/ReferencePath.h"
 #include "path_tracking/reference/SpeedProfile.h"
+#include "path_tracking/reference/TimedReference.h"
 #include "path_tracking/simulation/ActuatorLag.h"
 #include "path_tracking/simulation/PoseEstimator.h"
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,7 +51,7 @@ namespace parking
 
     enum class TrackingMode
     {
-        Steering,  ///< standing, turning the wheels to where the leg begins
+        Steering,  ///< standing, turning the wheels to where the leg begins, or to where they shall end
         Driving,   ///< on a leg
         Braking,   ///< a safe stop: braking on the path
         Arrived,   ///< standing at the end of the path
@@ -73,12 +75,13 @@ namespace parking
         std::string event;  ///< empty, or what happened: a failure, the reason of a stop
     };
 
-    /** \brief Drives a timed path: model predictive control on the legs, steering at standstill between them.
+    /** \brief Drives a timed path or motion: model predictive control on the legs, steering at standstill between them.
 
-        The horizon is filled from the speed profile by a clock of its own, which runs with time but waits for a car
-        that falls behind. At the end of a leg the car comes to rest; the wheels are turned to where the next leg begins
-        before it moves off. The pose is filtered: dead reckoning with measured speed and steering, corrected by a share
-        of the difference to the measured pose.
+        The horizon is filled from the reference by a clock of its own, which runs with time but waits for a car that
+        falls behind. At the end of a leg the car comes to rest; the wheels are turned to where the next leg begins
+        before it moves off. Legs need not begin or end with a period: what is left of one belongs to what follows. The
+       pose is filtered: dead reckoning with measured speed and steering, corrected by a share of the difference to the
+       measured pose.
 
         Safety: when the optimiser fails, the rest of its last answer is used for a few periods; when failures go on,
         the pose is lost or the car strays from the path, the car brakes with its full deceleration, steered along the
@@ -96,9 +99,15 @@ namespace parking
         TrackingController(const Path &path, const Vehicle &vehicle, const TrackingParameters &parameters = {},
                            double initialSteering = 0.0, Solve solve = {});
 
-        const SpeedProfile &profile() const
+        /** \brief Follows \e reference, in the way that it is timed.
+
+            Throws parking::Error for a vehicle or parameters that cannot be used, and without a reference. */
+        TrackingController(std::shared_ptr<const TimedReference> reference, const Vehicle &vehicle,
+                           const TrackingParameters &parameters = {}, double initialSteering = 0.0, Solve solve = {});
+
+        const TimedReference &reference() const
         {
-            return profile_;
+            return *reference_;
         }
 
         const TrackingParameters &parameters() const
@@ -124,29 +133,34 @@ namespace parking
         void requestStop(const std::string &reason);
 
     private:
-        const ReferenceLeg &leg() const
+        const TimedLeg &leg() const
         {
-            return profile_.reference().legs()[leg_];
+            return reference_->legs()[leg_];
         }
 
         bool takeMeasurement(const Measurement &measurement, TrackingStep &step);
         void locate(TrackingStep &step);
         void watch(TrackingStep &step);
         bool legOver() const;
+        bool isNearlyStanding() const;
+        bool mayReverse() const;
         void nextLeg(TrackingStep &step);
+        void arrive(TrackingStep &step);
         void beginStop(const std::string &reason, TrackingStep &step);
         void steer(TrackingStep &step);
         void drive(TrackingStep &step);
         void brake(TrackingStep &step);
         void standStill(TrackingStep &step, double steering, double rate);
         MpcProblem makeProblem() const;
+        double steeringAt(double time) const;
+        void endWithPeriod(TrackingStep &step);
         MpcSolution solve(const MpcProblem &problem);
         double withinSpeedLimit(double acceleration) const;
         bool useOldPlan(const std::string &why, TrackingStep &step);
 
         Vehicle vehicle_;
         TrackingParameters parameters_;
-        SpeedProfile profile_;
+        std::shared_ptr<const TimedReference> reference_;
         Mpc mpc_;
         Solve solve_;
 
@@ -157,7 +171,8 @@ namespace parking
 
         TrackingMode mode_{TrackingMode::Steering};
         std::size_t leg_{0};
-        double clock_{0.0};      // seconds since the leg's begin, of the profile
+        bool turnsLast_{false};  // is it over but for the wheels, which turn to where they shall end?
+        double clock_{0.0};      // seconds since the motion on the leg began, of the reference
         double waited_{0.0};     // seconds that the wheels have had to arrive, or that the clock has stood still
         double wheelsOff_{0.0};  // radians between the wheels and where the leg begins, a period ago
         bool started_{false};

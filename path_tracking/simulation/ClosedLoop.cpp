@@ -2,9 +2,11 @@
 
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
+#include "path_tracking/reference/MotionReference.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -57,8 +59,7 @@ namespace parking
                 last_ = state;
                 if (driven > 0.0 && onLeg)
                 {
-                    const PathProjection place =
-                        controller_.profile().reference().project(leg, state.pose, s - 1.0, s + 1.0);
+                    const PathProjection place = controller_.reference().project(leg, state.pose, s - 1.0, s + 1.0);
                     figures_.maxCrossTrack = std::max(figures_.maxCrossTrack, std::abs(place.lateral));
                     figures_.maxPositionError = std::max(figures_.maxPositionError, place.distance);
                     figures_.maxHeadingError = std::max(figures_.maxHeadingError, std::abs(place.yaw));
@@ -79,15 +80,15 @@ namespace parking
                     check(state.pose);
             }
 
-            Evaluation finish(const Path &path, double travelTime)
+            Evaluation finish(const Pose &wanted, double travelTime)
             {
-                const ReferencePath &reference = controller_.profile().reference();
+                const TimedReference &reference = controller_.reference();
                 if (clearance_ || validity_)
                     check(last_.pose);
                 figures_.plannedLength = reference.length();
-                figures_.plannedTime = controller_.profile().duration();
+                figures_.plannedTime = reference.duration();
                 figures_.travelTime = travelTime;
-                figures_.cornerDeviation = reference.corners().deviation;
+                figures_.cornerDeviation = reference.cornerDeviation();
                 figures_.standstills = reference.legs().size() - 1;
                 if (time_ > 0.0)
                 {
@@ -96,7 +97,6 @@ namespace parking
                 }
                 if (legTime_ > 0.0)
                     figures_.meanCrossTrack = crossTrackTime_ / legTime_;
-                const Pose wanted = path.end();
                 figures_.finalPositionError = positionDistance(last_.pose, wanted);
                 figures_.finalYawError = std::abs(wrapAngle(last_.pose.yaw - wanted.yaw));
                 const Pose end = reference.end();
@@ -177,14 +177,28 @@ namespace parking
     DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
     {
         TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering, solve_);
-        const ReferencePath &reference = controller.profile().reference();
-        Plant plant(vehicle_, parameters_.disturbances, start.value_or(path.start), initialSteering,
-                    parameters_.plantStep);
+        return run(controller, path.end(), start.value_or(path.start), initialSteering);
+    }
+
+    DriveResult ClosedLoop::follow(const TimedMotion &motion, const std::optional<Pose> &start) const
+    {
+        auto reference = std::make_shared<MotionReference>(motion, vehicle_);
+        const Pose goal = reference->end();
+        const double steering = motion.knots.front().steering;
+        TrackingController controller(std::move(reference), vehicle_, parameters_.tracking, steering, solve_);
+        return run(controller, goal, start.value_or(motion.start), steering);
+    }
+
+    DriveResult ClosedLoop::run(TrackingController &controller, const Pose &goal, const Pose &start,
+                                double initialSteering) const
+    {
+        const TimedReference &reference = controller.reference();
+        Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, parameters_.plantStep);
         Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);
         recorder.begin(plant.state());
 
         const double period = parameters_.tracking.mpc.step;
-        const double patience = 60.0 + parameters_.patience * controller.profile().duration();
+        const double patience = 60.0 + parameters_.patience * reference.duration();
         DriveResult result;
         double t = 0.0, trueS = 0.0;
         std::size_t trueLeg = 0;
@@ -248,7 +262,7 @@ namespace parking
         result.arrived = controller.mode() == TrackingMode::Arrived;
         if (result.arrived)
             result.message = "arrived";
-        result.evaluation = recorder.finish(path, t);
+        result.evaluation = recorder.finish(goal, t);
         return result;
     }
 }  // namespace parking

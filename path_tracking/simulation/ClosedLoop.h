@@ -5,6 +5,7 @@
 #include "path_tracking/control/TrackingController.h"
 #include "path_tracking/simulation/Evaluation.h"
 #include "path_tracking/simulation/Plant.h"
+#include "path_tracking/trajectory/TimedMotion.h"
 #include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>
@@ -52,7 +53,7 @@ namespace parking
         Evaluation evaluation;
     };
 
-    /** \brief Drives a simulated car along a path.
+    /** \brief Drives a simulated car along a path, or through a motion in time.
 
         The controller runs once per period of the MPC, the plant is integrated in smaller steps between. Equal inputs
         give equal results (but for the solver's times). */
@@ -84,7 +85,15 @@ namespace parking
         DriveResult drive(const Path &path, const std::optional<Pose> &start = std::nullopt,
                           double initialSteering = 0.0) const;
 
+        /** \brief Drives \e motion as it is timed; the wheels stand at first as they do there.
+
+            Throws parking::Error for a motion that cannot be used (see MotionReference). */
+        DriveResult follow(const TimedMotion &motion, const std::optional<Pose> &start = std::nullopt) const;
+
     private:
+        DriveResult run(TrackingController &controller, const Pose &goal, const Pose &start,
+                        double initialSteering) const;
+
         Vehicle vehicle_;
         ClosedLoopParameters parameters_;
         Clearance clearance_;

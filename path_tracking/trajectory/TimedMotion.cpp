@@ -86,6 +86,27 @@ namespace parking
         return end;
     }
 
+    TimedMotion restOf(const TimedMotion &motion, const Vehicle &vehicle, double driven)
+    {
+        TimedMotion rest{motion.start, {}};
+        double s = 0.0;
+        visitParts(motion, vehicle, 0.02, 0.05,
+                   [&](const MotionPart &part)
+                   {
+                       s += 0.5 * std::abs(part.from.v + part.to.v) * (part.end - part.begin);
+                       if (s < driven)
+                           return true;
+                       if (rest.knots.empty())
+                       {
+                           rest.start = part.before;
+                           rest.knots.push_back(part.from);
+                       }
+                       rest.knots.push_back(part.to);
+                       return true;
+                   });
+        return rest;
+    }
+
     Trajectory sample(const TimedMotion &motion, const Vehicle &vehicle, double step)
     {
         Trajectory trajectory;

@@ -57,6 +57,9 @@ namespace parking
     /** \brief Where the motion ends, yaw not wrapped. */
     Pose endOf(const TimedMotion &motion, const Vehicle &vehicle);
 
+    /** \brief What is left of the motion behind its first \e driven metres. */
+    TimedMotion restOf(const TimedMotion &motion, const Vehicle &vehicle, double driven);
+
     /** \brief The motion as samples no more than \e step seconds apart, every knot among them.
 
         Acceleration and steering rate of a sample are those behind it, of the last one those before it. */

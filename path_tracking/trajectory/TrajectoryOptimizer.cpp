@@ -49,8 +49,18 @@ namespace parking
         require.notNegative("time weight", weights.time);
         require.notNegative("effort weight", weights.effort);
         require.notNegative("steering weight", weights.steering);
+        require.notNegative("nearness weight", weights.nearness);
+        require.notNegative("preferred clearance", preferredClearance, "metres");
         require.positive("time weight", weights.time);
         require.notNegative("margin", margin, "metres");
+        const auto share = [&require](const char *what, double value)
+        {
+            require.that(value > 0.0 && value <= 1.0, what, value, "above 0 and up to 1");
+        };
+        share("share of the speed", speedShare);
+        share("share of the acceleration", accelerationShare);
+        share("share of the steering angle", steeringShare);
+        share("share of the steering rate", steeringRateShare);
         require.that(step >= 0.02 && step <= 2.0, "step", step, "from 0.02 to 2 seconds");
         if (initialSteering)
             require.finite("initial steering angle", *initialSteering, "radians");
@@ -73,6 +83,10 @@ namespace parking
         body_.frontOverhang += checker.margin();
         body_.rearOverhang += checker.margin();
         body_.width += 2.0 * checker.margin();
+        body_.maxSpeed *= options_.speedShare;
+        body_.maxAcceleration *= options_.accelerationShare;
+        body_.maxSteeringAngle *= options_.steeringShare;
+        body_.maxSteeringRate *= options_.steeringRateShare;
     }
 
     Pose TrajectoryOptimizer::toLocal(const Pose &pose) const
@@ -122,8 +136,9 @@ namespace parking
                 improve(*found);
             if (!found)
                 return std::nullopt;
-            report_.reason = found->cost < limit ? "" : "stopping to steer is as quick";
-            if (found->cost >= limit)
+            const bool isBetter = owner_.costOf(found->motion) < limit;
+            report_.reason = isBetter ? "" : "stopping to steer is as quick";
+            if (!isBetter)
                 return std::nullopt;
             return std::move(found->motion);
         }
@@ -173,6 +188,9 @@ namespace parking
                 problem.vehicle.maxSteeringRate *= 1.0 - LIMITS_LEFT;
                 problem.vehicle.maxSpeed *= 1.0 - LIMITS_LEFT;
                 problem.weights = owner_.options_.weights;
+                problem.clearance = owner_.options_.preferredClearance - separation_.margin;
+                if (problem.clearance <= 0.0)
+                    problem.weights.nearness = 0.0;
                 outline.write(problem);
                 if (auto found = solve(std::move(problem), FIRST_BARRIER,
                                        [&outline](std::size_t interval, double fraction)
@@ -245,8 +263,7 @@ namespace parking
             TimedMotion motion = motionOf(problem);
             if (!holds(motion))
                 return std::nullopt;
-            const double cost = owner_.costOf(motion);
-            return Solution{std::move(problem), std::move(motion), cost};
+            return Solution{std::move(problem), std::move(motion), solved.cost};
         }
 
         TimedMotion motionOf(const MotionProblem &problem) const

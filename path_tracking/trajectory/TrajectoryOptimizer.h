@@ -17,9 +17,19 @@ namespace parking
     /** \brief What a TrajectoryOptimizer aims at. */
     struct TrajectoryOptions
     {
-        MotionWeights weights;  ///< by default time alone
-        double margin{0.002};   ///< metres that body and obstacles keep beyond the checker's margin
-        double step{0.3};       ///< seconds between two nodes, about
+        MotionWeights weights{1.0, 0.0, 0.0, 0.01};  ///< by default time, and a little for what is near
+        double margin{0.002};  ///< metres that body and obstacles keep beyond the checker's margin
+        /** Metres beyond the checker's margin that they keep where that costs little: a metre driven in touch is worth
+            weights.nearness, one at half of it a quarter. */
+        double preferredClearance{0.1};
+        double step{0.3};  ///< seconds between two nodes, about
+
+        // What of the car's limits is used, so that a controller has something left to correct with. In (0, 1].
+        double speedShare{1.0};
+        double accelerationShare{1.0};
+        double steeringShare{1.0};  ///< of the steering angle; where the path needs more the motion may fail
+        double steeringRateShare{1.0};
+
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
         std::optional<double> finalSteering{0.0};    ///< likewise at the end
         std::size_t mostRounds{6};                   ///< attempts near a path, and improvements of a motion, at most
@@ -27,7 +37,7 @@ namespace parking
         /** \brief Weights of the Trajectory Planning Competition of Automated Parking, per 100. */
         static MotionWeights tpcapWeights()
         {
-            return {1.0, 0.1, 0.1};
+            return {1.0, 0.1, 0.1, 0.0};
         }
 
         /** \brief Throws parking::Error naming the first field that is not finite or out of its range. */
@@ -92,7 +102,7 @@ namespace parking
 
         const FootprintChecker &checker_;
         TrajectoryOptions options_;
-        Vehicle body_;  // enlarged by the checker's margin
+        Vehicle body_;  // enlarged by the checker's margin, with what may be used of its limits
         std::vector<ConvexPiece> pieces_;
     };
 }  // namespace parking

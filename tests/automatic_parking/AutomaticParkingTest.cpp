@@ -108,14 +108,16 @@ namespace
     TEST(AutomaticParkingTest, followsAGoalThatMoves)
     {
         const Scenario scenario = openGround(20.0);
+        bool turned = false;
         AutomaticParking parking;
         parking.setMapUpdate(
-            [&](double time, const Pose &) -> std::optional<Scenario>
+            [&](double time, const Pose &car) -> std::optional<Scenario>
             {
                 if (time < 2.0)
                     return std::nullopt;
+                turned = turned || car.yaw > 0.08;
                 Scenario moved = scenario;
-                moved.goals = {{20.0, time < 7.5 ? 3.0 : -3.0, 0.0}};
+                moved.goals = {{20.0, turned ? -3.0 : 3.0, 0.0}};
                 return moved;
             });
         const ParkingResult result = parking.park(scenario);

@@ -28,7 +28,7 @@ namespace parking
     }  // namespace
 
     void SpanTerms::add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,
-                        const Eigen::Vector3d &poseShift)
+                        const Eigen::Vector3d &poseShift, const Eigen::Vector3d &poseCost)
     {
         const Eigen::Vector4d w = hermite(fraction);
         const Eigen::Matrix4d square = w * w.transpose();
@@ -36,6 +36,7 @@ namespace parking
         {
             gradient.segment<4>(4 * e) += poseGradient[e] * w;
             shift.segment<4>(4 * e) += poseShift[e] * w;
+            cost.segment<4>(4 * e) += poseCost[e] * w;
             for (int f = 0; f < 3; ++f)
                 hessian.block<4, 4>(4 * e, 4 * f) += poseHessian(e, f) * square;
         }
@@ -175,8 +176,8 @@ namespace parking
             *next++ = {4 * e + 3, H, end_.byDuration[e]};
             *next++ = {4 * e + 3, V1, end_.bySpeed[e]};
             *next = {4 * e + 3, SECOND + angleOf(e), end_.byAngle[e]};
-            terms.wayAtBegin[e] += span.gradient[4 * e + 1];
-            terms.wayAtEnd[e] += span.gradient[4 * e + 3];
+            terms.wayAtBegin[e] += span.gradient[4 * e + 1] + span.cost[4 * e + 1];
+            terms.wayAtEnd[e] += span.gradient[4 * e + 3] + span.cost[4 * e + 3];
         }
         Eigen::Matrix<double, 12, PAIR_SIZE> half = Eigen::Matrix<double, 12, PAIR_SIZE>::Zero();
         for (const Derivative &by : chain)
@@ -184,6 +185,7 @@ namespace parking
             half.col(by.entry) += by.value * span.hessian.col(by.quantity);
             terms.gradient[by.entry] += by.value * span.gradient[by.quantity];
             terms.shift[by.entry] += by.value * span.shift[by.quantity];
+            terms.cost[by.entry] += by.value * span.cost[by.quantity];
         }
         for (const Derivative &by : chain)
             terms.hessian.col(by.entry) += by.value * half.row(by.quantity).transpose();

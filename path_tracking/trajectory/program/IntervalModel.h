@@ -43,10 +43,11 @@ namespace parking
         Eigen::Matrix<double, 12, 12> hessian{Eigen::Matrix<double, 12, 12>::Zero()};
         Eigen::Matrix<double, 12, 1> gradient{Eigen::Matrix<double, 12, 1>::Zero()};
         Eigen::Matrix<double, 12, 1> shift{Eigen::Matrix<double, 12, 1>::Zero()};
+        Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};  ///< gradient of the cost
 
         /** \brief Adds derivatives by the pose at \e fraction. */
         void add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,
-                 const Eigen::Vector3d &poseShift);
+                 const Eigen::Vector3d &poseShift, const Eigen::Vector3d &poseCost);
     };
 
     /** \brief An interval between two nodes: where it leads, what it costs, and all first and second derivatives.

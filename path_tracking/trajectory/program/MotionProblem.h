@@ -53,6 +53,7 @@ namespace parking
         double fraction{1.0};     ///< of the interval's time, above 0 and up to 1
         std::size_t firstRow{0};  ///< into the rows of the problem
         std::size_t lastRow{0};   ///< one behind
+        double way{0.0};          ///< metres driven for which it stands
     };
 
     /** \brief What is counted as the cost of a motion. */
@@ -61,6 +62,7 @@ namespace parking
         double time{1.0};      ///< per second
         double effort{0.0};    ///< of the integral of a^2 + (v w)^2, with the steering rate w
         double steering{0.0};  ///< of the integral of the squared steering angle
+        double nearness{0.0};  ///< per metre driven in touch with what a row keeps apart, see MotionProblem::clearance
     };
 
     /** \brief A search for the best motion nearby, as a nonlinear program.
@@ -74,6 +76,9 @@ namespace parking
     {
         Vehicle vehicle;  ///< the limits, and the wheelbase
         MotionWeights weights;
+        /** Metres beyond a row from which on it costs nothing to be near; nearer the price grows with the square of
+            what is missing. */
+        double clearance{0.0};
         double leastDuration{0.01};                 ///< seconds, of an interval that drives
         std::vector<int> directions;                ///< per interval: 1 forwards, -1 in reverse, 0 at a standstill
         std::vector<NodeVector> nodes;              ///< one more than intervals: where to begin

@@ -125,7 +125,11 @@ namespace parking
                 const Eigen::Vector3d pose = interval.poseAt(point.fraction);
                 const double c = std::cos(pose[2]), s = std::sin(pose[2]);
                 for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
-                    values[limits_.size() + r] = problem_.rows[r].value(pose[0], pose[1], c, s);
+                {
+                    const double value = problem_.rows[r].value(pose[0], pose[1], c, s);
+                    values[limits_.size() + r] = value;
+                    cost += 0.5 * nearnessOf(point, value).price * (problem_.clearance - value);
+                }
             }
         }
         return cost;
@@ -179,6 +183,14 @@ namespace parking
         }
     }
 
+    MotionProgram::Nearness MotionProgram::nearnessOf(const MotionCheckpoint &point, double value) const
+    {
+        if (problem_.weights.nearness == 0.0 || value >= problem_.clearance)
+            return {};
+        const double growth = 2.0 * problem_.weights.nearness * point.way / (problem_.clearance * problem_.clearance);
+        return {growth * (problem_.clearance - value), growth};
+    }
+
     void MotionProgram::addRowTerms(const IntervalModel &model, std::size_t k, const MotionDuals &duals, double barrier,
                                     IntervalTerms &terms)
     {
@@ -191,19 +203,21 @@ namespace parking
             const Eigen::Vector3d pose = model.poseAt(point.fraction);
             const double c = std::cos(pose[2]), s = std::sin(pose[2]);
             Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-            Eigen::Vector3d gradient = Eigen::Vector3d::Zero(), shift = gradient;
+            Eigen::Vector3d gradient = Eigen::Vector3d::Zero(), shift = gradient, cost = gradient;
             for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
             {
                 const std::size_t i = limits_.size() + r;
                 const double z = duals.prices[i], slack = duals.slacks[i], sigma = z / slack;
                 const double value = problem_.rows[r].value(pose[0], pose[1], c, s);
-                const Eigen::Vector3d g = derive(problem_.rows[r], pose, c, s, -z, hessian);
+                const Nearness near = nearnessOf(point, value);
+                const Eigen::Vector3d g = derive(problem_.rows[r], pose, c, s, -z - near.price, hessian);
                 rowGradients_[r] = g;
-                hessian.noalias() += sigma * g * g.transpose();
+                hessian.noalias() += (sigma + near.growth) * g * g.transpose();
                 gradient -= z * g;
+                cost -= near.price * g;
                 shift += (barrier / slack - sigma * (value - slack) - z) * g;
             }
-            span.add(point.fraction, hessian, gradient, shift);
+            span.add(point.fraction, hessian, gradient, shift, cost);
         }
         model.addSpan(span, terms);
     }

@@ -96,6 +96,12 @@ namespace parking
             }
         };
 
+        /** What a metre nearer to a row costs, and how much that grows with it. */
+        struct Nearness
+        {
+            double price{0.0}, growth{0.0};
+        };
+
         void addLimits(std::size_t interval);
         void addNodeLimits(std::size_t node, int first);
         IntervalModel model(const std::vector<NodeVector> &nodes, std::size_t interval) const;
@@ -107,6 +113,7 @@ namespace parking
                            IntervalTerms &terms) const;
         void addRowTerms(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double barrier,
                          IntervalTerms &terms);
+        Nearness nearnessOf(const MotionCheckpoint &point, double value) const;
         void scatter(std::size_t interval, const IntervalTerms &terms);
         void applyFixed();
 

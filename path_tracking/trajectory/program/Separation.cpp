@@ -371,14 +371,21 @@ namespace parking
     {
         problem.checkpoints.clear();
         problem.rows.clear();
-        for (const Place &place : places_)
+        const auto way = [this](std::size_t i, std::size_t k)
         {
+            return positionDistance(places_[i].point.pose, places_[k].point.pose);
+        };
+        for (std::size_t i = 0; i < places_.size(); ++i)
+        {
+            const Place &place = places_[i];
             if (place.point.fixed)
                 continue;
             const std::size_t first = problem.rows.size();
             addRows(place, problem.rows);
             if (problem.rows.size() > first)
-                problem.checkpoints.push_back({place.point.interval, place.point.fraction, first, problem.rows.size()});
+                problem.checkpoints.push_back(
+                    {place.point.interval, place.point.fraction, first, problem.rows.size(),
+                     0.5 * ((i > 0 ? way(i - 1, i) : 0.0) + (i + 1 < places_.size() ? way(i, i + 1) : 0.0))});
         }
     }
 

@@ -34,7 +34,8 @@ namespace parking::test
             Pose car = problem.pose;
             double speed = problem.speed, commanded = speed + problem.driveLag * problem.acceleration;
             double wheels = problem.wheels, steering = problem.last.steering, acceleration = problem.last.acceleration;
-            double wantedBefore = problem.steeringNow;
+            double wantedBefore = problem.steeringNow, speedBefore = problem.speedNow;
+            double speedingUpBefore = mpc.relativeAcceleration ? problem.accelerationNow : 0.0;
             for (std::size_t k = 0; k < mpc.horizon; ++k)
             {
                 const auto i = static_cast<Eigen::Index>(2 * k);
@@ -59,9 +60,11 @@ namespace parking::test
                 const MpcReference &wanted = problem.reference[k];
                 const double relative = mpc.relativeSteering ? 1.0 : 0.0;
                 const double change = nextSteering - steering - relative * (wanted.steering - wantedBefore);
-                cost += mpc.accelerationWeight * nextAcceleration * nextAcceleration;
+                const double speedingUp = mpc.relativeAcceleration ? (wanted.speed - speedBefore) / h : 0.0;
+                cost += mpc.accelerationWeight * std::pow(nextAcceleration - speedingUp, 2);
                 cost += mpc.steeringWeight * std::pow(nextSteering - relative * wanted.steering, 2);
-                cost += mpc.accelerationChangeWeight * std::pow(nextAcceleration - acceleration, 2);
+                const double jerk = nextAcceleration - acceleration - (speedingUp - speedingUpBefore);
+                cost += mpc.accelerationChangeWeight * jerk * jerk;
                 cost += mpc.steeringChangeWeight * change * change;
                 const Pose off = relativeTo(wanted.pose, car);
                 cost += mpc.alongWeight * off.x * off.x + mpc.acrossWeight * off.y * off.y;
@@ -73,6 +76,8 @@ namespace parking::test
                 wheels = nextWheels;
                 acceleration = nextAcceleration;
                 wantedBefore = wanted.steering;
+                speedBefore = wanted.speed;
+                speedingUpBefore = speedingUp;
             }
             return cost;
         }
@@ -84,6 +89,7 @@ namespace parking::test
                 {
                     MpcParameters mpc;
                     mpc.relativeSteering = relative;
+                    mpc.relativeAcceleration = relative == (seed % 2 == 0);
                     mpc.headingWeight = 70.0;
                     mpc.alongWeight = 40.0;
                     const MpcProblem problem = randomProblem(seed, mpc);

@@ -22,6 +22,8 @@ namespace parking::test
         problem.speed = direction * std::max(0.0, now.speed + speedError);
         problem.last = {direction * now.acceleration, reference.steering(leg, now.s)};
         problem.steeringNow = problem.last.steering;
+        problem.speedNow = direction * now.speed;
+        problem.accelerationNow = direction * now.acceleration;
         problem.wheels = problem.last.steering;
         for (std::size_t k = 1; k <= mpc.horizon; ++k)
         {

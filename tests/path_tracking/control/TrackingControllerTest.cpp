@@ -59,7 +59,7 @@ namespace parking::test
                 const Plant::State state = plant.state();
                 drive.fastest = std::max(drive.fastest, std::abs(state.speed));
                 const PathProjection place =
-                    controller.profile().reference().project(step.leg, state.pose, step.s - 2.0, step.s + 2.0);
+                    controller.reference().project(step.leg, state.pose, step.s - 2.0, step.s + 2.0);
                 drive.farthest = std::max(drive.farthest, place.distance);
                 drive.stoppedAt = place.s;
                 standing = controller.finished() && state.speed == 0.0 ? standing + 1 : 0;
@@ -272,7 +272,7 @@ namespace parking::test
             const Drive accepted = driveWith(near, path);
             EXPECT_EQ(accepted.mode, TrackingMode::Arrived);
             EXPECT_NEAR(accepted.end.x, 2.95, 0.01);
-            EXPECT_LT(accepted.duration, near.profile().duration() + parameters.settleTime + 1.0);
+            EXPECT_LT(accepted.duration, near.reference().duration() + parameters.settleTime + 1.0);
             TrackingController far(path, Vehicle(), parameters, 0.0, shyOf(0.2));
             const Drive refused = driveWith(far, path);
             EXPECT_EQ(refused.mode, TrackingMode::Stopped);
@@ -362,7 +362,7 @@ namespace parking::test
             refused([](TrackingParameters &p) { p.mpc.horizon = 0; });
             refused([](TrackingParameters &p) { p.reference.cornerSpeed = 0.0; });
             refused([](TrackingParameters &p) { p.estimator.drift = 0.0; });
-            EXPECT_THROW(TrackingController({}, Vehicle()), Error);
+            EXPECT_THROW(TrackingController(std::shared_ptr<const TimedReference>(), Vehicle()), Error);
             EXPECT_THROW(TrackingController(Path{}, Vehicle()), Error);
             Vehicle slow;
             slow.maxSpeed = 1e-6;  // a valid car that no timed path suits

@@ -21,7 +21,8 @@ namespace parking
         {
             Random random(seed);
             MotionProblem problem;
-            problem.weights = {1.0, 0.3, 0.2};
+            problem.weights = {1.0, 0.3, 0.2, 0.7};
+            problem.clearance = 3.0;
             problem.directions = {0, 1, 1, 1, 0, -1, -1, 0};
             for (std::size_t k = 0; k <= problem.directions.size(); ++k)
             {
@@ -45,7 +46,7 @@ namespace parking
                                                 {random.between(-4.0, 4.0), random.between(-4.0, 4.0)},
                                                 random.between(-1.0, 1.0)});
                     }
-                    problem.checkpoints.push_back({interval, fraction, first, problem.rows.size()});
+                    problem.checkpoints.push_back({interval, fraction, first, problem.rows.size(), 0.4});
                 }
             return problem;
         }

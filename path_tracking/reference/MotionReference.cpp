@@ -1,0 +1,181 @@
+#include "path_tracking/reference/MotionReference.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double STEP = 0.02;         // seconds between two moments
+        constexpr double WAY = 0.05;          // metres between two moments
+        constexpr double LIMIT_SLACK = 1e-6;  // share of a limit that rounding may take
+
+        void check(const TimedMotion &motion, const Vehicle &vehicle)
+        {
+            vehicle.validate();
+            const std::string what = "timed motion: ";
+            if (motion.knots.size() < 2)
+                throw Error(what + "it has " + std::to_string(motion.knots.size()) + " knots; two are the least");
+            if (!isFinite(motion.start))
+                throw Error(what + "its start is not finite");
+            if (motion.knots.front().v != 0.0 || motion.knots.back().v != 0.0)
+                throw Error(what + "it does not begin and end at rest");
+            const auto most = [](double limit)
+            {
+                return limit * (1.0 + LIMIT_SLACK);
+            };
+            for (std::size_t i = 0; i < motion.knots.size(); ++i)
+            {
+                const MotionKnot &knot = motion.knots[i];
+                const std::string where = what + "at knot " + std::to_string(i + 1) + " ";
+                if (!std::isfinite(knot.t) || !std::isfinite(knot.v) || !std::isfinite(knot.steering))
+                    throw Error(where + "a number is not finite");
+                if (std::abs(knot.v) > most(vehicle.maxSpeed))
+                    throw Error(where + "the speed is " + formatNumber(knot.v) + " m/s; the car's limit is " +
+                                formatNumber(vehicle.maxSpeed));
+                if (std::abs(knot.steering) > most(vehicle.maxSteeringAngle))
+                    throw Error(where + "the steering angle is " + formatNumber(knot.steering) +
+                                " rad; the car's limit is " + formatNumber(vehicle.maxSteeringAngle));
+                if (i == 0)
+                    continue;
+                const MotionKnot &before = motion.knots[i - 1];
+                const double h = knot.t - before.t;
+                if (!(h > 0.0))
+                    throw Error(where + "time does not go on");
+                if (before.v * knot.v < 0.0)
+                    throw Error(where + "the direction has changed without a rest");
+                if (std::abs(knot.v - before.v) > most(vehicle.maxAcceleration) * h + LIMIT_SLACK)
+                    throw Error(where + "the acceleration is beyond the car's " +
+                                formatNumber(vehicle.maxAcceleration) + " m/s^2");
+                if (std::abs(knot.steering - before.steering) > most(vehicle.maxSteeringRate) * h + LIMIT_SLACK)
+                    throw Error(where + "the steering rate is beyond the car's " +
+                                formatNumber(vehicle.maxSteeringRate) + " rad/s");
+            }
+        }
+    }  // namespace
+
+    MotionReference::MotionReference(const TimedMotion &motion, const Vehicle &vehicle)
+      : steeringRate_((check(motion, vehicle), vehicle.maxSteeringRate))
+    {
+        double standstill = 0.0, s = 0.0, begin = 0.0;
+        bool drives = false;
+        visitParts(
+            motion, vehicle, STEP, WAY,
+            [&](const MotionPart &part)
+            {
+                const double speed = 0.5 * (part.from.v + part.to.v), h = part.end - part.begin;
+                if (speed == 0.0)
+                {
+                    standstill += h;
+                    finalSteering_ = part.to.steering;
+                    return true;
+                }
+                if (!drives)
+                {
+                    legs_.push_back({speed > 0.0 ? 1 : -1, s, s, standstill, 0.0, part.from.steering});
+                    moments_.push_back({{0.0, s, 0.0, part.from.steering, part.before}});
+                    begin = part.begin;
+                    standstill = 0.0;
+                }
+                s += std::abs(speed) * h;
+                moments_.back().push_back({part.end - begin, s, std::abs(part.to.v), part.to.steering, part.after});
+                legs_.back().endLength = s;
+                legs_.back().duration = part.end - begin;
+                finalSteering_ = part.to.steering;
+                drives = part.to.v != 0.0;
+                return true;
+            });
+        if (legs_.empty())
+            throw Error("timed motion: it never drives");
+        finalStandstill_ = standstill;
+    }
+
+    TimedState MotionReference::between(const Moment &a, const Moment &b, double time) const
+    {
+        const double h = b.t - a.t, part = h > 0.0 ? std::clamp((time - a.t) / h, 0.0, 1.0) : 1.0;
+        TimedState state;
+        state.speed = a.speed + part * (b.speed - a.speed);
+        state.steering = a.steering + part * (b.steering - a.steering);
+        // The speed is linear in time, and the way therefore quadratic.
+        const double way = part * h * 0.5 * (a.speed + state.speed), all = b.s - a.s;
+        const double share = all > 0.0 ? std::clamp(way / all, 0.0, 1.0) : part;
+        state.s = a.s + share * all;
+        state.pose = {a.pose.x + share * (b.pose.x - a.pose.x), a.pose.y + share * (b.pose.y - a.pose.y),
+                      wrapAngle(a.pose.yaw + share * (b.pose.yaw - a.pose.yaw))};
+        return state;
+    }
+
+    TimedState MotionReference::at(std::size_t leg, double time) const
+    {
+        const std::vector<Moment> &moments = moments_[leg];
+        const auto next = std::upper_bound(moments.begin() + 1, moments.end() - 1, time,
+                                           [](double value, const Moment &moment) { return value < moment.t; });
+        return between(*(next - 1), *next, time);
+    }
+
+    const MotionReference::Moment &MotionReference::behind(std::size_t leg, double s) const
+    {
+        const std::vector<Moment> &moments = moments_[leg];
+        return *std::lower_bound(moments.begin() + 1, moments.end() - 1, s,
+                                 [](const Moment &moment, double value) { return moment.s < value; });
+    }
+
+    double MotionReference::steering(std::size_t leg, double s) const
+    {
+        const Moment *b = &behind(leg, s), *a = b - 1;
+        const double part = b->s > a->s ? std::clamp((s - a->s) / (b->s - a->s), 0.0, 1.0) : 1.0;
+        return a->steering + part * (b->steering - a->steering);
+    }
+
+    PathProjection MotionReference::project(std::size_t leg, const Pose &pose, double from, double to) const
+    {
+        const TimedLeg &l = legs_[leg];
+        from = std::clamp(from, l.beginLength, l.endLength);
+        to = std::clamp(to, from, l.endLength);
+        double best = std::numeric_limits<double>::infinity(), s = from;
+        Pose place;
+        for (const Moment *b = &behind(leg, from); b <= &moments_[leg].back(); ++b)
+        {
+            const Moment *a = b - 1;
+            const double length = b->s - a->s;
+            const double dx = b->pose.x - a->pose.x, dy = b->pose.y - a->pose.y, squared = dx * dx + dy * dy;
+            const double lowest = length > 0.0 ? std::clamp((from - a->s) / length, 0.0, 1.0) : 0.0;
+            const double highest = length > 0.0 ? std::clamp((to - a->s) / length, lowest, 1.0) : 1.0;
+            const double part =
+                squared > 0.0
+                    ? std::clamp(((pose.x - a->pose.x) * dx + (pose.y - a->pose.y) * dy) / squared, lowest, highest)
+                    : lowest;
+            const Pose here{a->pose.x + part * dx, a->pose.y + part * dy,
+                            a->pose.yaw + part * (b->pose.yaw - a->pose.yaw)};
+            const double apart = std::hypot(pose.x - here.x, pose.y - here.y);
+            if (apart < best)
+            {
+                best = apart;
+                s = a->s + part * length;
+                place = here;
+            }
+            if (b->s >= to)
+                break;
+        }
+        const Pose offset = relativeTo(place, pose);
+        return {s, offset.y, wrapAngle(offset.yaw), l.direction * offset.x, std::hypot(offset.x, offset.y)};
+    }
+
+    Pose MotionReference::end() const
+    {
+        Pose pose = moments_.back().back().pose;
+        pose.yaw = wrapAngle(pose.yaw);
+        return pose;
+    }
+
+    double MotionReference::steeringRate() const
+    {
+        return steeringRate_;
+    }
+}  // namespace parking
