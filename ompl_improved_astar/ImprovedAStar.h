@@ -137,7 +137,6 @@ namespace ompl::geometric
         parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;
         bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
-        base::Cost costOf(const base::PathPtr &path) const;
 
         parking::PlannerParameters parameters_;
         std::unique_ptr<Query> query_;

@@ -47,9 +47,8 @@ namespace ompl::geometric
         parking::Path path;                 ///< the best one by the problem's objective
         std::vector<parking::Pose> states;  ///< of it, for OMPL
         base::Cost bestCost{std::numeric_limits<double>::infinity()};
-        double bestRanked{std::numeric_limits<double>::infinity()};  ///< metres: length and closeness, by which it won
-        base::OptimizationObjectivePtr objective;                    ///< that bestCost is of; none: the length
-        std::vector<parking::Pose> solution;                         ///< what was reported last, when it was exact
+        base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: length and closeness, in metres
+        std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
 

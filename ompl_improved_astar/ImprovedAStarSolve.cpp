@@ -29,14 +29,6 @@ namespace ompl::geometric
         constexpr double SAME_POSE = 1e-12;
     }  // namespace
 
-    ob::Cost ImprovedAStar::costOf(const ob::PathPtr &path) const
-    {
-        // Not stored in the problem definition, where it would change what other planners do with it.
-        if (const ob::OptimizationObjectivePtr &objective = pdef_->getOptimizationObjective())
-            return path->cost(objective);
-        return ob::Cost(path->length());
-    }
-
     Path ImprovedAStar::smoothed(const Path &path, const ob::PlannerTerminationCondition &ptc) const
     {
         Path result = path;
@@ -58,14 +50,14 @@ namespace ompl::geometric
             parking::setPose(state.get(), pose);
             geometric->append(state.get());
         }
-        const ob::Cost cost = costOf(geometric);
-        // Without an objective of the problem's, room to the obstacles counts as the parameters say.
-        const double ranked = objective ? cost.value() : cost.value() + query_->planner.closeness(found);
-        if (query_->hasSolution &&
-            !(objective ? objective->isCostBetterThan(cost, query_->bestCost) : ranked < query_->bestRanked))
+        // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
+        // stored in the problem definition, where it would change what other planners do with it.
+        const ob::Cost cost =
+            objective ? geometric->cost(objective) : ob::Cost(geometric->length() + query_->planner.closeness(found));
+        if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
+                                               : cost.value() < query_->bestCost.value()))
             return false;
         query_->hasSolution = true;
-        query_->bestRanked = ranked;
         query_->path = path;
         query_->states = states;
         query_->bestCost = cost;

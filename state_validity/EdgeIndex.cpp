@@ -9,8 +9,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double BUCKET_SIZE = 1.0;    // metres
-        constexpr double MAX_BUCKETS = 4.0e6;  // larger worlds get larger buckets
+        constexpr double BUCKET_SIZE = 1.0;      // metres
+        constexpr double MAX_BUCKETS = 4.0e6;    // larger worlds get larger buckets
+        constexpr double CELL_OF_BUCKETS = 4.0;  // side of a cell in buckets
         constexpr std::size_t BLOCK_SIZE = 8;
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
         // Rounding of rotated coordinates within a few kilometres of the frame, with room to spare.
@@ -62,14 +63,14 @@ namespace parking
             return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count - 1)));
         }
 
-        /** Cuts off what lies outside of a square round (x, y); false when nothing is left. */
-        bool clip(Edge &edge, double x, double y, double half)
+        /** Cuts off what lies outside of the box; false when nothing is left. */
+        bool clip(Edge &edge, const Box &box)
         {
-            const Eigen::Vector2d from = edge.from, along = edge.to - edge.from, centre(x, y);
+            const Eigen::Vector2d from = edge.from, along = edge.to - edge.from;
             double begin = 0.0, end = 1.0;
             for (int axis = 0; axis < 2; ++axis)
             {
-                const double low = centre[axis] - half - from[axis], high = centre[axis] + half - from[axis];
+                const double low = box.min[axis] - from[axis], high = box.max[axis] - from[axis];
                 if (along[axis] == 0.0)
                 {
                     if (low > 0.0 || high < 0.0)
@@ -107,20 +108,8 @@ namespace parking
     struct EdgeIndex::Block
     {
         Eight ax, ay, bx, by;
-        Eight nx, ny;         // unit normals
-        double x, y, ex, ey;  // the box round them: middle and half lengths
-        std::size_t edges;    // distinct ones
-
-        /** How far the oriented box is from the block's box at least, along the axes of the former. */
-        double gap(const OrientedBox &box) const
-        {
-            const double c = box.cosine, s = box.sine;
-            const double dx = x - box.x, dy = y - box.y;
-            const double ac = std::abs(c), as = std::abs(s);
-            const double gapX = std::abs(c * dx + s * dy) - (ac * ex + as * ey) - box.halfLength;
-            const double gapY = std::abs(c * dy - s * dx) - (ac * ey + as * ex) - box.halfWidth;
-            return std::max(gapX, gapY) - ROUNDING;
-        }
+        Eight nx, ny;       // unit normals
+        std::size_t edges;  // distinct ones
 
         /** The smallest separation of the box and the eight edges. */
         double separation(const OrientedBox &box) const
@@ -145,9 +134,28 @@ namespace parking
         }
     };
 
-    struct EdgeIndex::List
+    /** A block and the axis-parallel box round it: middle and half lengths. */
+    struct EdgeIndex::BlockInBox
+    {
+        double x, y, ex, ey;
+        const Block *block;
+
+        /** How far the oriented box is from this one at least, along the axes of the former. */
+        double gap(const OrientedBox &box) const
+        {
+            const double c = box.cosine, s = box.sine;
+            const double dx = x - box.x, dy = y - box.y;
+            const double ac = std::abs(c), as = std::abs(s);
+            const double gapX = std::abs(c * dx + s * dy) - (ac * ex + as * ey) - box.halfLength;
+            const double gapY = std::abs(c * dy - s * dx) - (ac * ey + as * ex) - box.halfWidth;
+            return std::max(gapX, gapY) - ROUNDING;
+        }
+    };
+
+    struct EdgeIndex::Cell
     {
         std::vector<Block> blocks;
+        std::vector<BlockInBox> boxes;  // of the blocks
     };
 
     EdgeIndex::EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach)
@@ -159,89 +167,103 @@ namespace parking
         inverseBucketSize_ = 1.0 / bucketSize_;
         columns_ = static_cast<std::size_t>(std::ceil(size.x() / bucketSize_)) + 1;
         rows_ = static_cast<std::size_t>(std::ceil(size.y() / bucketSize_)) + 1;
+        cellSize_ = CELL_OF_BUCKETS * bucketSize_;
+        cellColumns_ = static_cast<std::size_t>(static_cast<double>(columns_) / CELL_OF_BUCKETS) + 1;
+        cellRows_ = static_cast<std::size_t>(static_cast<double>(rows_) / CELL_OF_BUCKETS) + 1;
         buckets_ = std::vector<std::atomic<List *>>(columns_ * rows_);
+        cells_ = std::vector<std::atomic<Cell *>>(cellColumns_ * cellRows_);
         for (const Edge &edge : edges)
             if ((edge.to - edge.from).squaredNorm() > 0.0)
                 edges_.push_back(edge);
 
-        // Base cells: counting sort of the edges by the cells that their boxes overlap. Long diagonal edges are few.
-        baseSize_ = 2.0 * bucketSize_;
-        baseColumns_ = columns_ / 2 + 1;
-        baseRows_ = rows_ / 2 + 1;
+        // Counting sort of the edges by the cells that their boxes overlap. Long diagonal edges are few.
         const auto forEachCell = [&](const Edge &edge, auto &&visit)
         {
-            const Eigen::Vector2d low = (edge.from.cwiseMin(edge.to) - origin_) / baseSize_;
-            const Eigen::Vector2d high = (edge.from.cwiseMax(edge.to) - origin_) / baseSize_;
-            for (std::size_t row = clampTo(low.y(), baseRows_); row <= clampTo(high.y(), baseRows_); ++row)
-                for (std::size_t column = clampTo(low.x(), baseColumns_); column <= clampTo(high.x(), baseColumns_);
+            const Eigen::Vector2d low = (edge.from.cwiseMin(edge.to) - origin_) / cellSize_;
+            const Eigen::Vector2d high = (edge.from.cwiseMax(edge.to) - origin_) / cellSize_;
+            for (std::size_t row = clampTo(low.y(), cellRows_); row <= clampTo(high.y(), cellRows_); ++row)
+                for (std::size_t column = clampTo(low.x(), cellColumns_); column <= clampTo(high.x(), cellColumns_);
                      ++column)
-                    visit(row * baseColumns_ + column);
+                    visit(row * cellColumns_ + column);
         };
-        first_.assign(baseColumns_ * baseRows_ + 1, 0);
+        first_.assign(cells_.size() + 1, 0);
         for (const Edge &edge : edges_)
             forEachCell(edge, [&](std::size_t cell) { ++first_[cell + 1]; });
         for (std::size_t cell = 1; cell < first_.size(); ++cell)
             first_[cell] += first_[cell - 1];
-        base_.resize(first_.back());
+        ofCells_.resize(first_.back());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
         for (std::size_t i = 0; i < edges_.size(); ++i)
-            forEachCell(edges_[i], [&](std::size_t cell) { base_[next[cell]++] = i; });
+            forEachCell(edges_[i], [&](std::size_t cell) { ofCells_[next[cell]++] = i; });
     }
 
     EdgeIndex::~EdgeIndex()
     {
         for (std::atomic<List *> &bucket : buckets_)
             delete bucket.load(std::memory_order_relaxed);
+        for (std::atomic<Cell *> &cell : cells_)
+            delete cell.load(std::memory_order_relaxed);
     }
 
-    std::unique_ptr<EdgeIndex::List> EdgeIndex::gather(std::size_t column, std::size_t row) const
+    /** What is at this place, made when first asked for. Several threads may make the same; the first to finish wins.
+     */
+    template <class T, class Make>
+    const T &EdgeIndex::once(std::atomic<T *> &place, const Make &make)
     {
-        const double half = 0.5 * bucketSize_, around = reach_ + half;
-        const double x = origin_.x() + static_cast<double>(column) * bucketSize_ + half;
-        const double y = origin_.y() + static_cast<double>(row) * bucketSize_ + half;
-        std::vector<std::size_t> found;
-        for (std::size_t r = clampTo((y - around - origin_.y()) / baseSize_, baseRows_);
-             r <= clampTo((y + around - origin_.y()) / baseSize_, baseRows_); ++r)
+        T *known = place.load(std::memory_order_acquire);
+        if (known == nullptr)
         {
-            const std::size_t begin = r * baseColumns_ + clampTo((x - around - origin_.x()) / baseSize_, baseColumns_);
-            const std::size_t end = r * baseColumns_ + clampTo((x + around - origin_.x()) / baseSize_, baseColumns_);
-            found.insert(found.end(), base_.begin() + static_cast<long>(first_[begin]),
-                         base_.begin() + static_cast<long>(first_[end + 1]));
+            std::unique_ptr<T> fresh = make();
+            if (place.compare_exchange_strong(known, fresh.get(), std::memory_order_acq_rel))
+                known = fresh.release();
         }
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return *known;
+    }
 
-        // What lies farther off than any query looks is cut away, so that long edges do not swell their blocks.
+    std::unique_ptr<EdgeIndex::Cell> EdgeIndex::cut(std::size_t column, std::size_t row) const
+    {
+        // What lies beyond the world belongs to the cells at its border.
+        const Eigen::Vector2d low =
+            origin_ + cellSize_ * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
+        // A hair wider than the cell, so that rounding loses no edge that lies along the border.
+        const Eigen::Vector2d hair(1e-9, 1e-9);
+        Box box{low - hair, low + Eigen::Vector2d(cellSize_, cellSize_) + hair};
+        if (column == 0)
+            box.min.x() = -INFINITE;
+        if (row == 0)
+            box.min.y() = -INFINITE;
+        if (column + 1 == cellColumns_)
+            box.max.x() = INFINITE;
+        if (row + 1 == cellRows_)
+            box.max.y() = INFINITE;
+
         struct Piece
         {
             std::uint32_t key;
             Edge edge;
             Eigen::Vector2d normal;
         };
-        const double farthest = reach_ + half * std::sqrt(2.0);
         std::vector<Piece> pieces;
-        for (const std::size_t i : found)
+        const std::size_t index = row * cellColumns_ + column;
+        for (std::size_t k = first_[index]; k < first_[index + 1]; ++k)
         {
-            Edge edge = edges_[i];
-            if (squaredDistanceToSegment(x, y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y()) >
-                    farthest * farthest ||
-                !clip(edge, x, y, farthest))
+            const Edge &whole = edges_[ofCells_[k]];
+            Edge edge = whole;
+            if (!clip(edge, box))
                 continue;
-            const Eigen::Vector2d along = (edges_[i].to - edges_[i].from).normalized();
-            const Eigen::Vector2d middle = 0.5 * (edge.from + edge.to);
-            pieces.push_back({zOrder(0.5 + 0.5 * (middle.x() - x) / farthest, 0.5 + 0.5 * (middle.y() - y) / farthest),
-                              edge,
-                              {-along.y(), along.x()}});
+            const Eigen::Vector2d along = (whole.to - whole.from).normalized();
+            const Eigen::Vector2d middle = (0.5 * (edge.from + edge.to) - low) / cellSize_;
+            pieces.push_back({zOrder(middle.x(), middle.y()), edge, {-along.y(), along.x()}});
         }
         std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.key < b.key; });
 
-        auto list = std::make_unique<List>();
-        list->blocks.resize((pieces.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
-        for (std::size_t k = 0; k < list->blocks.size(); ++k)
+        auto cell = std::make_unique<Cell>();
+        cell->blocks.resize((pieces.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
+        for (std::size_t k = 0; k < cell->blocks.size(); ++k)
         {
-            Block &block = list->blocks[k];
+            Block &block = cell->blocks[k];
             block.edges = std::min(BLOCK_SIZE, pieces.size() - k * BLOCK_SIZE);
-            Eigen::Vector2d low(INFINITE, INFINITE), high(-INFINITE, -INFINITE);
+            Eigen::Vector2d least(INFINITE, INFINITE), most(-INFINITE, -INFINITE);
             for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
             {
                 const Piece &piece = pieces[k * BLOCK_SIZE + std::min(i, block.edges - 1)];
@@ -253,14 +275,30 @@ namespace parking
                 block.by[at] = b.y();
                 block.nx[at] = piece.normal.x();
                 block.ny[at] = piece.normal.y();
-                low = low.cwiseMin(a.cwiseMin(b));
-                high = high.cwiseMax(a.cwiseMax(b));
+                least = least.cwiseMin(a.cwiseMin(b));
+                most = most.cwiseMax(a.cwiseMax(b));
             }
-            block.x = 0.5 * (low.x() + high.x());
-            block.y = 0.5 * (low.y() + high.y());
-            block.ex = 0.5 * (high.x() - low.x()) + ROUNDING;
-            block.ey = 0.5 * (high.y() - low.y()) + ROUNDING;
+            const Eigen::Vector2d middle = 0.5 * (least + most), half = 0.5 * (most - least);
+            cell->boxes.push_back({middle.x(), middle.y(), half.x() + ROUNDING, half.y() + ROUNDING, &block});
         }
+        return cell;
+    }
+
+    std::unique_ptr<EdgeIndex::List> EdgeIndex::gather(std::size_t column, std::size_t row) const
+    {
+        const double half = 0.5 * bucketSize_, around = reach_ + half;
+        const double x = origin_.x() + static_cast<double>(column) * bucketSize_ + half;
+        const double y = origin_.y() + static_cast<double>(row) * bucketSize_ + half;
+        const double farthest = reach_ + half * std::sqrt(2.0);
+        auto list = std::make_unique<List>();
+        for (std::size_t r = clampTo((y - around - origin_.y()) / cellSize_, cellRows_);
+             r <= clampTo((y + around - origin_.y()) / cellSize_, cellRows_); ++r)
+            for (std::size_t c = clampTo((x - around - origin_.x()) / cellSize_, cellColumns_);
+                 c <= clampTo((x + around - origin_.x()) / cellSize_, cellColumns_); ++c)
+                for (const BlockInBox &each :
+                     once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }).boxes)
+                    if (squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest)
+                        list->push_back(each);
         return list;
     }
 
@@ -272,24 +310,15 @@ namespace parking
         };
         const std::size_t column = index((x - origin_.x()) * inverseBucketSize_, columns_);
         const std::size_t row = index((y - origin_.y()) * inverseBucketSize_, rows_);
-        std::atomic<List *> &bucket = buckets_[row * columns_ + column];
-        List *list = bucket.load(std::memory_order_acquire);
-        if (list == nullptr)
-        {
-            // Several threads may gather the same list; the first to finish wins.
-            std::unique_ptr<List> fresh = gather(column, row);
-            if (bucket.compare_exchange_strong(list, fresh.get(), std::memory_order_acq_rel))
-                list = fresh.release();
-        }
-        return *list;
+        return once(buckets_[row * columns_ + column], [this, column, row] { return gather(column, row); });
     }
 
     double EdgeIndex::separation(const OrientedBox &box, double ignored) const
     {
         double smallest = ignored;
-        for (const Block &block : near(box.x, box.y).blocks)
-            if (block.gap(box) < smallest)
-                smallest = std::min(smallest, block.separation(box));
+        for (const BlockInBox &each : near(box.x, box.y))
+            if (each.gap(box) < smallest)
+                smallest = std::min(smallest, each.block->separation(box));
         return smallest;
     }
 
@@ -301,10 +330,10 @@ namespace parking
     int EdgeIndex::side(const OrientedBox &box, double band) const
     {
         double smallest = INFINITE;
-        for (const Block &block : near(box.x, box.y).blocks)
-            if (block.gap(box) <= band)
+        for (const BlockInBox &each : near(box.x, box.y))
+            if (each.gap(box) <= band)
             {
-                smallest = std::min(smallest, block.separation(box));
+                smallest = std::min(smallest, each.block->separation(box));
                 if (smallest < -band)
                     return -1;
             }
@@ -324,10 +353,11 @@ namespace parking
         if (SweepFront::applies(sweep))
         {
             SweepFront front(box, sweep, middleCosine, middleSine);
-            for (const Block &block : list.blocks)
+            for (const auto &[x, y, ex, ey, pointer] : list)
             {
-                if (!front.mayMeet(block.x, block.y, block.ex, block.ey))
+                if (!front.mayMeet(x, y, ex, ey))
                     continue;
+                const Block &block = *pointer;
                 // Most edges of the block lie beside the way and are passed over, all eight at a time.
                 const Eight gaps = front.gap(block.ax, block.ay, block.bx, block.by);
                 for (std::size_t i = 0; i < block.edges; ++i)
@@ -353,10 +383,11 @@ namespace parking
         BoxSweep left = sweep;
         left.length += OVERRUN;
         const double c = box.cosine, s = box.sine;
-        for (const Block &block : list.blocks)
+        for (const BlockInBox &each : list)
         {
-            if (block.gap(enlarged) > 0.0)
+            if (each.gap(enlarged) > 0.0)
                 continue;
+            const Block &block = *each.block;
             for (std::size_t i = 0; i < block.edges; ++i)
             {
                 const auto k = static_cast<Eigen::Index>(i);
@@ -377,19 +408,20 @@ namespace parking
     double EdgeIndex::distance(double x, double y) const
     {
         double smallest = INFINITE;  // squared
-        for (const Block &block : near(x, y).blocks)
-            if (squaredDistanceToBox(x - block.x, y - block.y, block.ex, block.ey) < smallest)
-                smallest = std::min(smallest, block.squaredDistance(x, y));
+        for (const BlockInBox &each : near(x, y))
+            if (squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) < smallest)
+                smallest = std::min(smallest, each.block->squaredDistance(x, y));
         return std::sqrt(smallest);
     }
 
     double EdgeIndex::distance(const OrientedBox &box) const
     {
         double smallest = INFINITE;
-        for (const Block &block : near(box.x, box.y).blocks)
+        for (const BlockInBox &each : near(box.x, box.y))
         {
-            if (block.gap(box) >= smallest)
+            if (each.gap(box) >= smallest)
                 continue;
+            const Block &block = *each.block;
             for (std::size_t i = 0; i < block.edges; ++i)
             {
                 const auto k = static_cast<Eigen::Index>(i);

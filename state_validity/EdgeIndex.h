@@ -14,10 +14,11 @@ namespace parking
 {
     /** \brief The edges of all obstacles, found quickly near a point, and how far an oriented box is from them.
 
-        The world is cut into square buckets. The list of a bucket holds every edge within \e reach of any of its
-        points, so one list answers a query whole. Lists are gathered when first asked for: their cost grows with the
-        area that is searched, not with the map. Within a list, edges that lie together form blocks of eight with a box
-        round them: most blocks are passed over whole. Safe for const calls from several threads. */
+        The world is cut into square cells, and edges at the borders between cells; edges of a cell that lie together
+        form blocks of eight with a box round them, so that most blocks are passed over whole. Smaller squares, the
+        buckets, have lists of the blocks within \e reach of any of their points, so one list answers a query whole.
+        Blocks and lists are made when first asked for: their cost grows with the area that is searched, not with the
+        map. Safe for const calls from several threads. */
     class EdgeIndex
     {
     public:
@@ -34,9 +35,10 @@ namespace parking
 
         /** \brief The smallest separation of the box and the edges within reach of its centre.
 
-            Per edge this is the largest gap along the axes of the box and the edge's normal (separating axes): positive
-            when apart, and then never more than their distance (equal to it unless corner faces corner); negative when
-            they cross, by how much they would have to be moved along the best of those axes. Infinite without edges.
+            Per piece of an edge this is the largest gap along the axes of the box and the edge's normal (separating
+           axes): positive when apart, and then never more than their distance (equal to it unless corner faces corner);
+           negative when they cross, by how much they would have to be moved along the best of those axes. Infinite
+           without edges.
 
             \param ignored separations of at least this need not be told apart: when all are, the result is some number
             that is at least this */
@@ -72,21 +74,27 @@ namespace parking
 
     private:
         struct Block;
-        struct List;
+        struct BlockInBox;
+        struct Cell;
+        using List = std::vector<BlockInBox>;
 
+        template <class T, class Make>
+        static const T &once(std::atomic<T *> &place, const Make &make);
         const List &near(double x, double y) const;
         std::unique_ptr<List> gather(std::size_t column, std::size_t row) const;
+        std::unique_ptr<Cell> cut(std::size_t column, std::size_t row) const;
 
         double reach_;
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;
         std::vector<Edge> edges_;
-        /** Edges by the base cells that their boxes overlap, in one array: base cell k owns base_[first_[k]...]. */
-        std::size_t baseColumns_, baseRows_;
-        double baseSize_;
+        /** Edges by the cells that their boxes overlap, in one array: cell k has ofCells_[first_[k]...]. */
+        std::size_t cellColumns_, cellRows_;
+        double cellSize_;
         std::vector<std::size_t> first_;
-        std::vector<std::size_t> base_;
+        std::vector<std::size_t> ofCells_;
+        mutable std::vector<std::atomic<Cell *>> cells_;
         mutable std::vector<std::atomic<List *>> buckets_;
     };
 }  // namespace parking

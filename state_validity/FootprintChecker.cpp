@@ -189,6 +189,39 @@ namespace parking
         return separation <= 0.0 || isInsideObstacle(box) ? 0.0 : std::max(bound, separation);
     }
 
+    bool FootprintChecker::keeps(const Pose &pose, double clearance, CheckCounts &counts) const
+    {
+        ++counts.states;
+        if (!isFinite(pose))
+            return false;
+        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
+        if (field_.lowerBound(box.x, box.y) - circumradius_ >= clearance)
+        {
+            ++counts.byField;
+            return true;
+        }
+        bool covered = true;
+        for (std::size_t i = 0; i < covering_.size(); ++i)
+        {
+            const double x = box.x + box.cosine * covering_[i].offset, y = box.y + box.sine * covering_[i].offset;
+            if (field_.upperBound(x, y) < inscribed_[i].radius + clearance)
+            {
+                ++counts.byCircles;
+                return false;
+            }
+            covered = covered && field_.lowerBound(x, y) - covering_[i].radius >= clearance;
+        }
+        if (covered)
+        {
+            ++counts.byCircles;
+            return true;
+        }
+        ++counts.byEdges;
+        // What is farther away than is asked for need not be looked at.
+        return edges_.separation(box, std::min(clearance, CLEARANCE_REACH) + 2.0 * ROUNDING) - ROUNDING >= clearance &&
+               !isInsideObstacle(box);
+    }
+
     double FootprintChecker::exactClearance(const Pose &pose) const
     {
         if (!isFree(pose))

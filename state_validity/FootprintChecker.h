@@ -90,6 +90,9 @@ namespace parking
         /** \brief As clearance(), but content with less: stops at the first bound that is at least \e enough. */
         double clearance(const Pose &pose, double enough, CheckCounts &counts) const;
 
+        /** \brief Is clearance() at least so many metres? Cheaper than asking how large it is. */
+        bool keeps(const Pose &pose, double clearance, CheckCounts &counts) const;
+
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
            reports: dear where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;

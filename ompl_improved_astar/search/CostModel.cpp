@@ -6,11 +6,11 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
+        constexpr double SAMPLES_APART = 0.5;  // metres, of what is driven nearer than preferred
     }
 
     double CostModel::closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
-                                double clear) const
+                                double clear, double most) const
     {
         const double length = std::abs(segment.length);
         double cost = 0.0;
@@ -34,8 +34,9 @@ namespace parking::search
         if (clear >= length)
             return cost;
         const double rest = length - clear, samples = std::ceil(rest / SAMPLES_APART);
+        const double perSample = clearanceCost * rest / samples;
         double nearer = 0.0;
-        for (double i = 0.5; i < samples; i += 1.0)
+        for (double i = 0.5; i < samples && cost + perSample * nearer <= most; i += 1.0)
         {
             const double at = clear + rest * i / samples;
             const Pose pose = advance(from, segment.curvature, std::copysign(at, segment.length));
@@ -43,7 +44,7 @@ namespace parking::search
                 nearer += 1.0;
         }
         // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
-        return cost + clearanceCost * std::max(clear > 0.0 ? 1.0 : 0.0, nearer) * rest / samples;
+        return cost + perSample * std::max(clear > 0.0 ? 1.0 : 0.0, nearer);
     }
 
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve)
@@ -55,13 +56,13 @@ namespace parking::search
     }
 
     double curveCloseness(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
-                          MotionEnvironment &environment)
+                          MotionEnvironment &environment, double most)
     {
         double cost = 0.0;
         Pose pose = from;
-        for (std::size_t i = 0; i < curve.count && model.pricesCloseness(); ++i)
+        for (std::size_t i = 0; i < curve.count && cost <= most && model.pricesCloseness(); ++i)
         {
-            cost += model.closeness(pose, curve.pieces[i], environment);
+            cost += model.closeness(pose, curve.pieces[i], environment, -1.0, most - cost);
             pose = advance(pose, curve.pieces[i].curvature, curve.pieces[i].length);
         }
         return cost;

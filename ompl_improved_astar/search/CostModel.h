@@ -6,6 +6,7 @@
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cmath>
+#include <limits>
 
 namespace parking::search
 {
@@ -49,9 +50,10 @@ namespace parking::search
             What is driven nearer than preferredClearance is sampled, too, but for what the environment knows to be
             clear of obstacles by as much: a motion that does not cost anything keeps it everywhere.
 
-            \param clear metres at the beginning that are known to keep preferredClearance; negative: ask for them */
+            \param clear metres at the beginning that are known to keep preferredClearance; negative: ask for them
+            \param most what comes out above this may be too little: whoever asks has no use for it */
         double closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
-                         double clear = -1.0) const;
+                         double clear = -1.0, double most = std::numeric_limits<double>::infinity()) const;
 
         /** \brief Cost of what happens at standstill or in passing between two segments. */
         double join(const PathPiece &before, const PathPiece &after) const
@@ -68,9 +70,10 @@ namespace parking::search
     /** \brief Cost of an analytic curve, wherever it is. */
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve);
 
-    /** \brief Extra cost of an analytic curve that begins at \e from, because of the obstacles nearby. */
+    /** \brief Extra cost of an analytic curve that begins at \e from, because of the obstacles nearby; above \e most
+        it may be too little. */
     double curveCloseness(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
-                          MotionEnvironment &environment);
+                          MotionEnvironment &environment, double most = std::numeric_limits<double>::infinity());
 
     /** \brief Extra cost of a whole path because of the obstacles nearby. */
     double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment);

@@ -94,7 +94,8 @@ namespace parking::search
         static constexpr double FAR_SIDE{0.16};   ///< and farther away
         static constexpr int NEAR_HEADINGS{180};
         static constexpr int FAR_HEADINGS{60};
-        static constexpr double FARTHEST{2047.0};      ///< columns and rows; what lies beyond is not tabulated
-        static constexpr std::size_t SLOTS{1u << 15};  ///< lengths that are remembered
+        static constexpr double FARTHEST{2047.0};            ///< columns and rows; what lies beyond is not tabulated
+        static constexpr std::size_t SLOTS{1u << 15};        ///< lengths that are remembered
+        static constexpr std::size_t FIRST_SLOTS{1u << 10};  ///< of them in use until there is more to remember
     };
 }  // namespace parking::search

@@ -147,10 +147,12 @@ namespace
     TEST_F(PlannerReporting, AnytimeImprovesAndNeverGetsWorse)
     {
         PlanningProblem first(Space::ReedsShepp, gapsSite());
+        first.set("preferred_clearance", 0.0);
         first.from(LEFT).to({RIGHT});
         ASSERT_EQ(first.solve(), Status::EXACT_SOLUTION);
 
         PlanningProblem problem(Space::ReedsShepp, gapsSite());
+        problem.set("preferred_clearance", 0.0);
         problem.set("anytime", true);
         problem.from(LEFT).to({RIGHT});
         std::vector<double> costs;
@@ -178,6 +180,23 @@ namespace
             EXPECT_LT(costs[i], costs[i - 1]);
         EXPECT_NEAR(costs.back(), best, 1e-6);
         EXPECT_LE(best, first.path().length() + 1e-9);
+    }
+
+    // A path that keeps away from obstacles is better for it, and what is told of its cost says so, too.
+    TEST_F(PlannerReporting, CostsFallAlsoWhereRoomCountsForMoreThanLength)
+    {
+        PlanningProblem problem(Space::ReedsShepp, gapsSite());
+        problem.set("preferred_clearance", 0.2);
+        problem.set("anytime", true);
+        problem.from(LEFT).to({RIGHT});
+        std::vector<double> costs;
+        problem.pdef->setIntermediateSolutionCallback([&](const ob::Planner *, const std::vector<const ob::State *> &,
+                                                          const ob::Cost cost) { costs.push_back(cost.value()); });
+        ASSERT_EQ(problem.solveForQuestions(15000), Status::EXACT_SOLUTION);
+        ASSERT_GE(costs.size(), 2u);
+        for (std::size_t i = 1; i < costs.size(); ++i)
+            EXPECT_LT(costs[i], costs[i - 1]);
+        EXPECT_GE(costs.back(), problem.path().length() - 1e-6);
     }
 
     TEST_F(PlannerReporting, AThresholdEndsAnytime)

@@ -18,7 +18,10 @@ namespace parking::search
 
         /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
             bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
-            slot taken by another takes it over. */
+            slot taken by another takes it over.
+
+            Only as many slots are in use as there are lengths to remember, up to all of them: the first query of a
+            process would otherwise spend more on memory that was never touched than on the lengths. */
         class Table
         {
         public:
@@ -26,18 +29,39 @@ namespace parking::search
             template <class Length>
             float at(std::uint64_t key, const Length &length)
             {
-                std::atomic<std::uint64_t> &slot =
-                    slots_[((key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32) & (Cells::SLOTS - 1)];
-                const std::uint64_t known = slot.load(std::memory_order_relaxed);
+                const std::uint64_t hash = (key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32;
+                const std::uint64_t mask = mask_.load(std::memory_order_relaxed);
+                std::atomic<std::uint64_t> &slot = slots_[hash & mask];
+                std::uint64_t known = slot.load(std::memory_order_relaxed);
                 if (known >> 31 == key)
-                    return floatOf(static_cast<std::uint32_t>(known & 0x7fffffffu));
-                const auto value = static_cast<float>(length());
-                slot.store(key << 31 | bitsOf(value), std::memory_order_relaxed);
-                return value;
+                    return lengthOf(known);
+                // Where it was before the table grew.
+                known = slots_[hash & (mask >> 1)].load(std::memory_order_relaxed);
+                if (known >> 31 != key)
+                {
+                    known = key << 31 | bitsOf(static_cast<float>(length()));
+                    if (mask + 1 < slots_.size() && ++computed_ > mask / 2)
+                        grow(mask);
+                }
+                slot.store(known, std::memory_order_relaxed);
+                return lengthOf(known);
             }
 
         private:
+            static float lengthOf(std::uint64_t known)
+            {
+                return floatOf(static_cast<std::uint32_t>(known & 0x7fffffffu));
+            }
+
+            void grow(std::uint64_t mask)
+            {
+                if (mask_.compare_exchange_strong(mask, 2 * mask + 1, std::memory_order_relaxed))
+                    computed_ = 0;
+            }
+
             std::array<std::atomic<std::uint64_t>, Cells::SLOTS> slots_{};
+            std::atomic<std::uint64_t> mask_{Cells::FIRST_SLOTS - 1};  // of the slots in use
+            std::atomic<std::uint64_t> computed_{0};                   // lengths since it grew last
         };
 
         /** Reeds-Shepp curves are as long one way as the other; Dubins curves are not. */

@@ -26,8 +26,8 @@ namespace parking::search
             inverseCell_[level] = 1.0 / (cell * scale);
             headingScale_[level] = std::max(8.0, parameters.headingBins / scale) / (2.0 * PI);
         }
-        for (std::vector<float> &lengths : freeLengths_)
-            lengths.clear();
+        for (std::vector<Known> &each : known_)
+            each.clear();
     }
 
     ModelTraits CarModel::traits() const
@@ -120,14 +120,14 @@ namespace parking::search
     {
         collectMotions(side, node);
         const std::size_t count = motions_.size(), slots = 2 * parameters_->steeringAngles;
-        std::vector<float> &lengths = freeLengths_[static_cast<std::size_t>(side)];
-        if (lengths.size() < (index + 1) * slots)
-            lengths.resize((index + 1) * slots);
+        std::vector<Known> &ofNodes = known_[static_cast<std::size_t>(side)];
+        if (ofNodes.size() < (index + 1) * slots)
+            ofNodes.resize((index + 1) * slots);
         // How far each motion is free is found out once and serves the finer levels, too.
-        float *const known = &lengths[index * slots];
+        Known *const known = &ofNodes[index * slots];
         const double step = steps_[level];
         const bool priced = parameters_->cost.prefersClearance();
-        const auto add = [&](std::size_t i, double length, bool farthest)
+        const auto add = [&](std::size_t i, double length, bool farthest, double clear)
         {
             const Arc &motion = motions_[i];
             const double driven = std::copysign(length, motion.length);
@@ -135,29 +135,30 @@ namespace parking::search
             expansion.successors.push_back({{0.0, motion.curvature, driven, 0.0},
                                             {pose.x, pose.y, wrapAngle(pose.yaw)},
                                             farthest,
-                                            priced && first ? clear_[i] : -1.0});
+                                            priced ? clear : -1.0});
         };
         if (!first)
         {
             for (std::size_t i = 0; i < count; ++i)
-                if (static_cast<double>(known[i]) >= step)
-                    add(i, step, false);
+                if (static_cast<double>(known[i].free) >= step)
+                    add(i, step, false, static_cast<double>(known[i].clear));
             return;
         }
         measureMotions(node.pose);
         for (std::size_t i = 0; i < count; ++i)
         {
             const double free = free_[i];
-            known[i] = std::nextafter(static_cast<float>(free), 0.0f);
+            known[i] = {std::nextafter(static_cast<float>(free), 0.0f),
+                        std::nextafter(static_cast<float>(clear_[i]), 0.0f)};
             expansion.mobility = std::max(expansion.mobility, free);
             if (free < shortest_)
                 continue;
-            add(i, free, free >= reach_);
+            add(i, free, free >= reach_, clear_[i]);
             if (free > 1.1 * step)
-                add(i, step, false);
+                add(i, step, false, clear_[i]);
             // As far as it is preferred to go.
             if (priced && clear_[i] >= shortest_ && clear_[i] < free && std::abs(clear_[i] - step) > 0.1 * step)
-                add(i, clear_[i], false);
+                add(i, clear_[i], false, clear_[i]);
         }
     }
 

@@ -46,6 +46,12 @@ namespace parking::search
         static constexpr std::size_t LEVELS = 7;
 
     private:
+        /** Metres of a motion, signs left out, rounded down. */
+        struct Known
+        {
+            float free, clear;
+        };
+
         void collectMotions(Side side, const Node &node);
         void measureMotions(const Pose &from);
 
@@ -57,8 +63,8 @@ namespace parking::search
         std::array<double, LEVELS> steps_{};
         std::array<double, LEVELS> inverseCell_{};
         std::array<double, LEVELS> headingScale_{};
-        std::array<std::vector<float>, 2> freeLengths_;  // of the motions of each expanded node, signs left out
-        std::vector<Arc> motions_;                       // of the node that is expanded
+        std::array<std::vector<Known>, 2> known_;  // of the motions of each expanded node
+        std::vector<Arc> motions_;                 // of the node that is expanded
         std::vector<double> free_, clear_;
         std::vector<Arc> nearing_;  // those of the motions that come nearer to obstacles than preferred
         std::vector<double> freeOfNearing_;

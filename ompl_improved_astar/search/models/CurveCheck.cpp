@@ -7,6 +7,22 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        constexpr double FAR_APART = 6.0;  // metres, about a car's length: poses nearer to each other are swept only
+
+        /** Are some poses in the middle of a long motion free? Asking for these, those that halve it first, finds most
+            obstacles on it long before a sweep would get there. */
+        bool hasFreeMiddle(MotionEnvironment &environment, const Pose &from, const Arc &motion)
+        {
+            for (double parts = 2.0; std::abs(motion.length) > FAR_APART * parts; parts *= 2.0)
+                for (double i = 1.0; i < parts; i += 2.0)
+                    if (!environment.isPassable(advance(from, motion.curvature, motion.length * i / parts)))
+                        return false;
+            return true;
+        }
+    }  // namespace
+
     bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
                      CurveEnd first)
     {
@@ -16,6 +32,13 @@ namespace parking::search
             pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
             if (!environment.isPassable(pose))
                 return false;
+        }
+        pose = from;
+        for (std::size_t k = 0; k < curve.count; ++k)
+        {
+            if (!hasFreeMiddle(environment, pose, curve.pieces[k]))
+                return false;
+            pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
         }
         const bool forwards = first == CurveEnd::Start;
         pose = forwards ? from : to;
@@ -58,7 +81,7 @@ namespace parking::search
                 break;
             if (!isCurveFree(environment, from, *curve, to, first))
                 continue;
-            if (const double whole = sum + curveCloseness(cost, from, *curve, environment); whole < bound)
+            if (const double whole = sum + curveCloseness(cost, from, *curve, environment, bound - sum); whole < bound)
                 waiting.emplace_back(whole, curve);
         }
         return offerUpTo(bound);

@@ -65,7 +65,7 @@ namespace parking
 
     bool FootprintEnvironment::keeps(const Pose &pose, double clearance)
     {
-        return checker_.clearance(pose, clearance, counts_) >= clearance;
+        return checker_.keeps(pose, clearance, counts_);
     }
 
     void FootprintEnvironment::clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,

@@ -114,19 +114,19 @@ namespace parking::search
             return;
         }
         const double little = tuning.hardlyLonger * search_.shortestMotion();
-        const double close = closeness(search_.bestPath());
-        const bool isShort = search_.bestPath().length() < little && close <= 0.0 &&
-                             search_.bestCost() < little + parameters_.search.turningRadius;
+        const bool isShort = search_.bestPath().length() < little &&
+                             search_.bestCost() < little + parameters_.search.turningRadius &&
+                             closeness(search_.bestPath()) <= 0.0;
         const double expected = std::max(search_.shortestMotion(), search_.estimate());
         if (!isShort)
-            thinkAgain((search_.bestPath().length() + close) / expected - 1.0);
+            thinkAgain(search_.bestPath().length() / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
         if (parameters_.shorten)
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
-            if (best.length() > (1.0 + tuning.stillLong) * expected || closeness(best) > 0.0)
+            if (best.length() > (1.0 + tuning.stillLong) * expected)
                 shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                         tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking::search
 {
@@ -12,15 +13,43 @@ namespace parking::search
         constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
     }
 
+    void PathShortener::priceCloseness(const std::vector<Piece> &before)
+    {
+        // Most of the path is what it was before a part of it was replaced.
+        constexpr double ROUNDING = 1e-9;
+        const auto isSame = [](const Piece &a, const Piece &b)
+        {
+            return a.segment.curvature == b.segment.curvature &&
+                   std::abs(a.segment.length - b.segment.length) < ROUNDING &&
+                   positionDistance(a.from, b.from) < ROUNDING &&
+                   std::abs(wrapAngle(a.from.yaw - b.from.yaw)) < ROUNDING;
+        };
+        const std::size_t common = std::min(before.size(), pieces_.size());
+        for (std::size_t k = 0; k < common && isSame(pieces_[k], before[k]); ++k)
+            pieces_[k].closeness = before[k].closeness;
+        for (std::size_t k = 1; k <= common; ++k)
+        {
+            Piece &piece = pieces_[pieces_.size() - k];
+            const Piece &known = before[before.size() - k];
+            if (!isSame(piece, known))
+                break;
+            piece.closeness = known.closeness;
+        }
+        for (Piece &piece : pieces_)
+            if (piece.closeness < 0.0)
+                piece.closeness = cost_.closeness(piece.from, piece.segment, environment_);
+    }
+
     void PathShortener::cut(const Path &path, double spacing, double offset)
     {
+        std::swap(pieces_, cutBefore_);
         pieces_.clear();
         Pose pose = path.start;
         std::size_t arc = 0;
         bool isPlain = false;
         const auto add = [&](const Arc &segment)
         {
-            pieces_.push_back({segment, pose, arc, isPlain});
+            pieces_.push_back({segment, pose, arc, isPlain, -1.0});
             pose = advance(pose, segment.curvature, segment.length);
         };
         for (const PathPiece &segment : path.pieces)
@@ -41,17 +70,20 @@ namespace parking::search
             }
             ++arc;
         }
+        if (!cutBefore_.empty())
+            cutBefore_.pop_back();  // the end of the path
+        if (cost_.pricesCloseness())
+            priceCloseness(cutBefore_);
         costBefore_.assign(pieces_.size() + 1, 0.0);
         closenessBefore_.assign(pieces_.size() + 1, 0.0);
         for (std::size_t k = 0; k < pieces_.size(); ++k)
         {
-            const double closeness =
-                cost_.pricesCloseness() ? cost_.closeness(pieces_[k].from, pieces_[k].segment, environment_) : 0.0;
+            const double closeness = cost_.pricesCloseness() ? pieces_[k].closeness : 0.0;
             closenessBefore_[k + 1] = closenessBefore_[k] + closeness;
             costBefore_[k + 1] = costBefore_[k] + cost_.drive(pieces_[k].segment) + closeness +
                                  (k > 0 ? cost_.join(pieces_[k - 1].segment, pieces_[k].segment) : 0.0);
         }
-        pieces_.push_back({{0.0, 0.0}, pose, arc, false});
+        pieces_.push_back({{0.0, 0.0}, pose, arc, false, 0.0});
     }
 
     bool PathShortener::isShortest(std::size_t i, std::size_t j) const
@@ -86,9 +118,13 @@ namespace parking::search
             if (sum < now - LEAST_GAIN)
                 order_.emplace_back(sum, &curve);
         }
-        // Away from obstacles the cheapest is not the shortest.
-        if (choice == CurveChoice::Cheapest && order_.size() > 1 && closenessBefore_[j] <= closenessBefore_[i])
-            order_.assign(1, *std::min_element(order_.begin(), order_.end()));
+        // What is shortest may be dear for being near to obstacles.
+        const std::size_t most = closenessBefore_[j] > closenessBefore_[i] ? 2 : 1;
+        if (choice == CurveChoice::Cheapest && order_.size() > most)
+        {
+            std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(most), order_.end());
+            order_.resize(most);
+        }
         return offerFreeCurves(environment_, cost_, pieces_[i].from, pieces_[j].from, order_, CurveEnd::Start,
                                now - LEAST_GAIN,
                                [&](const ReedsSheppCurve &curve, double)
@@ -111,6 +147,7 @@ namespace parking::search
                              const StopFunction &stop)
     {
         bool improved = false;
+        pieces_.clear();
         cut(path, spacing, offset);
         for (std::size_t span = pieces_.size() - 1; span >= 2; --span)
             for (std::size_t i = 0; i + span < pieces_.size(); ++i)

@@ -15,7 +15,8 @@ namespace parking::search
     /** \brief Which curves between two knots are tried. */
     enum class CurveChoice
     {
-        Cheapest,  ///< the cheapest one: among the curves tried in vain most are the others
+        Cheapest,  ///< the cheapest one, or two where there are obstacles nearby: those tried in vain are most often
+                   ///< the others
         All        ///< every word, in the order of cost
     };
 
@@ -53,18 +54,20 @@ namespace parking::search
         {
             Arc segment;
             Pose from;
-            std::size_t arc;  ///< which one of the path it is a part of
-            bool isPlain;     ///< that arc is straight or at full lock for a quarter of a turn at most
+            std::size_t arc;         ///< which one of the path it is a part of
+            bool isPlain;            ///< that arc is straight or at full lock for a quarter of a turn at most
+            double closeness{-1.0};  ///< what it costs; negative: not known yet
         };
 
         void cut(const Path &path, double spacing, double offset);
+        void priceCloseness(const std::vector<Piece> &before);
         bool isShortest(std::size_t i, std::size_t j) const;
         bool replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;
         CostModel cost_;
-        std::vector<Piece> pieces_;
+        std::vector<Piece> pieces_, cutBefore_;
         std::vector<double> costBefore_, closenessBefore_;
         std::vector<ReedsSheppCurve> candidates_;
         std::vector<PricedCurve> order_;

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace
 {
     using namespace parking;
@@ -108,6 +110,33 @@ TEST(ReedsShepp, LongestIsABoundOnBothSides)
     EXPECT_TRUE(curves.empty());
     solver.candidates(from, to, curves, shortest * (1.0 + 1e-9));
     EXPECT_EQ(curves.size(), 1u);
+}
+
+TEST(ReedsShepp, NoWordIsLostToALimit)
+{
+    // What is left out before its angles are known must be longer than the limit, just above the length of each word.
+    parking_test::Random random(2);
+    std::vector<ReedsSheppCurve> all, limited;
+    for (const double extent : {0.3, 1.5, 4.0, 20.0})
+        for (int i = 0; i < 5000; ++i)
+        {
+            const ReedsShepp solver(1.0);
+            Pose from = random.poseIn(-extent, extent), to = random.poseIn(-extent, extent);
+            if (i % 4 == 0)
+                to.yaw = wrapAngle(from.yaw + 0.5 * PI * (i % 16 / 4));
+            solver.candidates(from, to, all);
+            for (const ReedsSheppCurve &word : all)
+            {
+                const double limit = word.length + 1e-8;
+                solver.candidates(from, to, limited, limit);
+                const auto within = [limit](const ReedsSheppCurve &each)
+                {
+                    return each.length <= limit;
+                };
+                ASSERT_EQ(static_cast<long>(limited.size()), std::count_if(all.begin(), all.end(), within))
+                    << extent << " " << i << " " << limit;
+            }
+        }
 }
 
 TEST(ReedsShepp, NoMotionBetweenEqualPoses)
