@@ -51,9 +51,14 @@ namespace ompl::geometric
             geometric->append(state.get());
         }
         // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
-        // stored in the problem definition, where it would change what other planners do with it.
+        // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
+        // would look for each piece's shortest curve to find out what is known here.
+        const auto length = [&]
+        {
+            return query_->isPlain() ? geometric->length() : path.length();
+        };
         const ob::Cost cost =
-            objective ? geometric->cost(objective) : ob::Cost(geometric->length() + query_->planner.closeness(found));
+            objective ? geometric->cost(objective) : ob::Cost(length() + query_->planner.closeness(found));
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
                                                : cost.value() < query_->bestCost.value()))
             return false;

@@ -122,7 +122,8 @@ namespace parking::search
             thinkAgain(search_.bestPath().length() / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
-        if (parameters_.shorten)
+        // A bare curve is shortened no more.
+        if (parameters_.shorten && !(isShort && best.length() <= search_.shortestMotion() * (1.0 + 1e-9)))
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
