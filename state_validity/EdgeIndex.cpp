@@ -438,10 +438,10 @@ namespace parking
         double smallest = INFINITE;
         const auto look = [&](std::size_t column, std::size_t row)
         {
-            const std::size_t cell = row * baseColumns_ + column;
+            const std::size_t cell = row * cellColumns_ + column;
             for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k)
             {
-                const Edge &edge = edges_[base_[k]];
+                const Edge &edge = edges_[ofCells_[k]];
                 const double square =
                     squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
                 const double ignored = smallest + circumradius;
@@ -451,16 +451,16 @@ namespace parking
                 smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
             }
         };
-        // Rings of base cells round the centre, until the next one is too far away to matter.
-        const std::size_t column = clampTo((box.x - origin_.x()) / baseSize_, baseColumns_);
-        const std::size_t row = clampTo((box.y - origin_.y()) / baseSize_, baseRows_);
-        const std::size_t rings = std::max(baseColumns_, baseRows_);
+        // Rings of cells round the centre, until the next one is too far away to matter.
+        const std::size_t column = clampTo((box.x - origin_.x()) / cellSize_, cellColumns_);
+        const std::size_t row = clampTo((box.y - origin_.y()) / cellSize_, cellRows_);
+        const std::size_t rings = std::max(cellColumns_, cellRows_);
         for (std::size_t ring = 0; ring < rings; ++ring)
         {
-            if (ring > 1 && static_cast<double>(ring - 1) * baseSize_ - circumradius > smallest)
+            if (ring > 1 && static_cast<double>(ring - 1) * cellSize_ - circumradius > smallest)
                 break;
-            const std::size_t left = column - std::min(column, ring), right = std::min(baseColumns_ - 1, column + ring);
-            const std::size_t low = row - std::min(row, ring), high = std::min(baseRows_ - 1, row + ring);
+            const std::size_t left = column - std::min(column, ring), right = std::min(cellColumns_ - 1, column + ring);
+            const std::size_t low = row - std::min(row, ring), high = std::min(cellRows_ - 1, row + ring);
             for (std::size_t r = low; r <= high; ++r)
             {
                 // Of the rows in between only the two ends belong to the ring.
@@ -469,7 +469,7 @@ namespace parking
                     look(c, r);
                 if (!whole && column >= ring)
                     look(column - ring, r);
-                if (!whole && ring > 0 && column + ring < baseColumns_)
+                if (!whole && ring > 0 && column + ring < cellColumns_)
                     look(column + ring, r);
             }
         }
