@@ -4,6 +4,7 @@
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/trajectory/MotionCheck.h"
+#include "state_validity/fcl/FclContactTest.h"
 
 #include <algorithm>
 #include <chrono>
@@ -64,7 +65,7 @@ namespace parking
             update_(update),
             solve_(solve),
             scenario_((scenario.vehicle.validate(), scenario)),
-            world_(scenario)
+            world_(scenario, fclContactTest())
         {
         }
 
@@ -284,7 +285,7 @@ namespace parking
             // Goals from perception jitter; the one under way counts as long as a car that stands there would do.
             const bool moved = std::none_of(changed.goals.begin(), changed.goals.end(),
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
-            world_ = ParkingWorld(changed);
+            world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
             if (moved)
                 cause_ = "the goal has changed";

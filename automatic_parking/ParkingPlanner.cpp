@@ -243,8 +243,9 @@ namespace parking
         };
     }  // namespace
 
-    ParkingPlanner::ParkingPlanner(const PlanningParameters &parameters)
-      : parameters_((parameters.validate(), parameters))
+    ParkingPlanner::ParkingPlanner(const PlanningParameters &parameters, ContactTestMaker contact)
+      : parameters_((parameters.validate(), parameters)),
+        contact_(std::move(contact))
     {
     }
 
@@ -252,7 +253,7 @@ namespace parking
     {
         scenario.vehicle.validate();
         const Stopwatch watch;
-        const ParkingWorld world(scenario);
+        const ParkingWorld world(scenario, contact_);
         const double loading = watch.seconds();
         ParkingPlan result = plan(scenario, world);
         result.loadingTime += loading;

@@ -54,8 +54,10 @@ namespace parking
     class ParkingPlanner
     {
     public:
-        /** \brief Throws parking::Error for parameters out of their range. */
-        explicit ParkingPlanner(const PlanningParameters &parameters = {});
+        /** \brief Throws parking::Error for parameters out of their range.
+
+            \param contact of the worlds that plan() makes, see ParkingWorld */
+        explicit ParkingPlanner(const PlanningParameters &parameters = {}, ContactTestMaker contact = {});
 
         const PlanningParameters &parameters() const
         {
@@ -79,5 +81,6 @@ namespace parking
 
     private:
         PlanningParameters parameters_;
+        ContactTestMaker contact_;
     };
 }  // namespace parking

@@ -2,11 +2,11 @@
 
 #include "parking_geometry/Error.h"
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking
 {
@@ -17,9 +17,10 @@ namespace parking
         constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
     }                                             // namespace
 
-    ParkingWorld::ParkingWorld(const Scenario &scenario)
-      : footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle, 0.0,
-                                                            fclContactTest()))
+    ParkingWorld::ParkingWorld(const Scenario &scenario, ContactTestMaker contact)
+      : contact_(std::move(contact)),
+        footprint_(std::make_shared<const FootprintChecker>(ObstacleSet::fromScenario(scenario), scenario.vehicle, 0.0,
+                                                            contact_))
     {
     }
 
@@ -30,7 +31,7 @@ namespace parking
         try
         {
             return std::make_shared<const FootprintChecker>(footprint_->obstacles(), footprint_->vehicle(), gap,
-                                                            fclContactTest());
+                                                            contact_);
         }
         catch (const Error &)
         {
@@ -43,9 +44,9 @@ namespace parking
         return isPathFree(*footprint_, path);
     }
 
-    double ParkingWorld::clearance(const Path &path) const
+    double leastClearance(const FootprintChecker &checker, const Path &path)
     {
-        double least = footprint_->exactClearance(path.start);
+        double least = checker.exactClearance(path.start);
         Pose from = path.start;
         // From a pose with clearance c the body cannot come nearer than the least so far before its fastest point has
         // moved by the difference.
@@ -53,14 +54,14 @@ namespace parking
         {
             const double bend = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
             const double moved =
-                piece.driven() * footprint_->speedFactor(bend) + std::abs(piece.turn) * footprint_->farthestPoint();
+                piece.driven() * checker.speedFactor(bend) + std::abs(piece.turn) * checker.farthestPoint();
             for (double share = 0.0; share <= 1.0 && least > 0.0;)
             {
                 const Pose pose = piece.turn != 0.0 ? Pose{from.x, from.y, from.yaw + share * piece.turn}
                                                     : advance(from, piece, share * piece.driven());
-                double here = footprint_->clearance(pose);
+                double here = checker.clearance(pose);
                 if (here < least)
-                    here = footprint_->exactClearance(pose);
+                    here = checker.exactClearance(pose);
                 least = std::min(least, here);
                 if (moved <= 0.0 || share >= 1.0)
                     break;
@@ -72,4 +73,8 @@ namespace parking
         return least;
     }
 
+    double ParkingWorld::clearance(const Path &path) const
+    {
+        return leastClearance(*footprint_, path);
+    }
 }  // namespace parking

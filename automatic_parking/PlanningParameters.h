@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -64,6 +65,9 @@ namespace parking
 
         /** Seconds for all tries together; infinite: searches end by expansions alone, on any machine alike. */
         double timeLimit{10.0};
+
+        /** Asked now and then while planning; once it says yes nothing more is tried. May be empty. */
+        std::function<bool()> interrupted;
 
         /** Gaps in metres kept all round the body, largest first. One that start or goal do not leave is not tried.
             \e InStretches: at least 4 mm, and a start that leaves less is left with the room it has. */

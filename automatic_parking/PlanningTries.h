@@ -79,13 +79,13 @@ namespace parking::planning
 
         bool isOver() const
         {
-            return watch_.seconds() > parameters_.timeLimit;
+            return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
         }
 
         /** \brief Is it time for the last resort? */
         bool isLate() const
         {
-            return watch_.seconds() > parameters_.tuning.shareForTries * parameters_.timeLimit;
+            return isInterrupted() || watch_.seconds() > parameters_.tuning.shareForTries * parameters_.timeLimit;
         }
 
         double seconds() const
@@ -132,6 +132,11 @@ namespace parking::planning
             bool bothSides;            ///< search from both ends; otherwise out of \e from
             std::uint64_t expansions;  ///< 0: as many as there is time for
         };
+
+        bool isInterrupted() const
+        {
+            return parameters_.interrupted && parameters_.interrupted();
+        }
 
         Checkers checkers(const Rung &rung);
 

@@ -30,6 +30,10 @@ endmacro()
 # All that the core needs.
 parking_find(libeigen3-dev Eigen3 3.3 NO_MODULE)
 if(PARKING_CORE_ONLY)
+  if(PARKING_READERS)
+    parking_find(yaml-cpp)
+    parking_find(PNG)
+  endif()
   return()
 endif()
 

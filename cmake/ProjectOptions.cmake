@@ -14,6 +14,12 @@ if(PARKING_CORE_ONLY AND (PARKING_BUILD_TESTS OR PARKING_BUILD_BENCHMARKS OR PAR
   message(FATAL_ERROR "PARKING_CORE_ONLY builds three libraries; the tests, benchmarks and examples need the others, too: "
     "set PARKING_BUILD_TESTS, PARKING_BUILD_BENCHMARKS and PARKING_BUILD_EXAMPLES to OFF")
 endif()
+set(PARKING_PYTHON AUTO CACHE STRING "Build the Python module: ON, OFF, or AUTO (when pybind11, Python and NumPy are found)")
+set_property(CACHE PARKING_PYTHON PROPERTY STRINGS AUTO ON OFF)
+# The Python module needs the readers and the drawings; with the core alone only when it is asked for.
+if(NOT PARKING_CORE_ONLY OR PARKING_PYTHON STREQUAL "ON")
+  set(PARKING_READERS ON)
+endif()
 option(PARKING_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PARKING_SANITIZER "" CACHE STRING "Sanitizers to build with, for example address,undefined or thread")
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/io/Yaml.h"
@@ -12,16 +13,8 @@ namespace parking
     /** \brief Most bytes of a text file (case, scenario, vehicle, map description) that are read. */
     constexpr std::size_t TEXT_FILE_LIMIT = std::size_t(16) << 20;
 
-    /** \brief How far from the start anything of a scenario may lie, in metres. Farther away coordinates are mixed up,
-        and a planner would drown in the empty space between. */
-    constexpr double WORLD_REACH = 1e5;
-
     /** \brief The last part of \e file without its extension: what a scenario is called that has no name. */
     std::string scenarioName(const std::string &file);
-
-    /** \brief What the readers have in common once a scenario's parts are local: checks the start and the reach of the
-        world, and sets the bounds. Throws parking::Error naming \e file. */
-    void completeScenario(Scenario &scenario, const std::string &file);
 
     /** \brief The keys of a vehicle in files: name and the fields of Vehicle in snake case. */
     Vehicle vehicleFromYaml(const YamlMap &map);

@@ -2,9 +2,45 @@
 
 #include <charconv>
 #include <cmath>
+#ifndef __cpp_lib_to_chars
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#endif
 
 namespace parking
 {
+#ifndef __cpp_lib_to_chars
+    // The C++ library of emscripten 3.1 reads and writes no floating-point numbers by <charconv>. Programs for browsers
+    // have no other locale than "C".
+    namespace
+    {
+        std::string shortest(double value, bool everyday)
+        {
+            char buffer[64];
+            for (int digits = 1; digits <= 17; ++digits)
+            {
+                std::snprintf(buffer, sizeof(buffer), "%.*g", digits, value);
+                if (std::strtod(buffer, nullptr) != value)
+                    continue;
+                // As many digits in the notation that is wanted.
+                if (everyday)
+                {
+                    const int exponent = value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+                    for (int decimals = std::max(0, digits - 2 - exponent); decimals < 40; ++decimals)
+                    {
+                        std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
+                        if (std::strtod(buffer, nullptr) == value)
+                            break;
+                    }
+                }
+                break;
+            }
+            return buffer;
+        }
+    }  // namespace
+#endif
+
     std::string oneLine(std::string_view text)
     {
         std::string result(text);
@@ -24,13 +60,17 @@ namespace parking
     {
         if (std::isnan(value))
             return "nan";
-        char buffer[64];
         // Of numbers that people write out in full, the shortest form would be 1e+05.
         const bool everyday = value == 0.0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
+#ifdef __cpp_lib_to_chars
+        char buffer[64];
         const std::to_chars_result end =
             everyday ? std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::fixed)
                      : std::to_chars(buffer, buffer + sizeof(buffer), value);
         return std::string(buffer, end.ptr);
+#else
+        return shortest(value, everyday);
+#endif
     }
 
     std::string_view trimmed(std::string_view text)
@@ -48,9 +88,20 @@ namespace parking
         if (text.size() > 1 && text[0] == '+' && text[1] != '-')
             text.remove_prefix(1);
         double number = 0.0;
+#ifdef __cpp_lib_to_chars
         const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), number);
         if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(number))
             return false;
+#else
+        // strtod reads more than decimal numbers.
+        if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string_view::npos || text[0] == '+')
+            return false;
+        const std::string copy(text);
+        char *end = nullptr;
+        number = std::strtod(copy.c_str(), &end);
+        if (end != copy.c_str() + copy.size() || !std::isfinite(number))
+            return false;
+#endif
         value = number;
         return true;
     }

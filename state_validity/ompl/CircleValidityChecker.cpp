@@ -2,7 +2,6 @@
 
 #include "state_validity/ompl/OmplPose.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,8 +12,6 @@ namespace parking
 {
     namespace
     {
-        constexpr double CLEARANCE_REACH = 1.0;  // metres beyond the circle within which distances are exact
-
         double checked(double radius)
         {
             if (!(radius > 0.0) || !std::isfinite(radius))
@@ -35,32 +32,10 @@ namespace parking
     CircleValidityChecker::CircleValidityChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles,
                                                  double radius)
       : ompl::base::StateValidityChecker(si),
-        obstacles_(std::move(obstacles)),
-        radius_(checked(radius)),
-        field_(obstacles_),
-        edges_(obstacles_.edges(), obstacles_.bounds(), radius + CLEARANCE_REACH)
+        circle_(std::move(obstacles), checked(radius))
     {
         requirePlanarSpace(*si->getStateSpace());
         specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::BOUNDED_APPROXIMATE;
-    }
-
-    double CircleValidityChecker::distance(double x, double y) const
-    {
-        const Pose local = obstacles_.toLocal({x, y, 0.0});
-        const double bound = field_.lowerBound(local.x, local.y);
-        if (bound >= radius_ + CLEARANCE_REACH)
-            return bound;
-        if (field_.upperBound(local.x, local.y) < radius_)
-            return 0.0;
-        if (!field_.isOutside(local.x, local.y) && obstacles_.covers(local.x, local.y))
-            return 0.0;
-        return std::max(bound, std::min(edges_.distance(local.x, local.y), edges_.reach()));
-    }
-
-    bool CircleValidityChecker::isFree(double x, double y) const
-    {
-        const Pose local = obstacles_.toLocal({x, y, 0.0});
-        return field_.lowerBound(local.x, local.y) > radius_ || distance(x, y) > radius_;
     }
 
     bool CircleValidityChecker::isValid(const ompl::base::State *state) const
@@ -72,6 +47,6 @@ namespace parking
     double CircleValidityChecker::clearance(const ompl::base::State *state) const
     {
         const Pose pose = poseOf(state);
-        return si_->satisfiesBounds(state) ? std::max(0.0, distance(pose.x, pose.y) - radius_) : 0.0;
+        return si_->satisfiesBounds(state) ? circle_.clearance(pose.x, pose.y) : 0.0;
     }
 }  // namespace parking

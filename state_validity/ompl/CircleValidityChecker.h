@@ -1,8 +1,7 @@
 #pragma once
 
 #include "parking_geometry/Vehicle.h"
-#include "state_validity/DistanceField.h"
-#include "state_validity/EdgeIndex.h"
+#include "state_validity/CircleChecker.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <ompl/base/SpaceInformation.h>
@@ -19,8 +18,7 @@ namespace parking
         heading that could tell the one from the other, and round the middle it is smallest. So paths found with this
         checker are paths of the car's middle.
 
-        Exact on occupancy grids and among polygons alike: the distance field decides where it can, the distance to the
-        obstacles' edges elsewhere. Const members may be called from several threads at once. */
+        A CircleChecker's answers. Const members may be called from several threads at once. */
     class CircleValidityChecker : public ompl::base::StateValidityChecker
     {
     public:
@@ -45,24 +43,22 @@ namespace parking
 
         double radius() const
         {
-            return radius_;
+            return circle_.radius();
         }
 
         const ObstacleSet &obstacles() const
         {
-            return obstacles_;
+            return circle_.obstacles();
         }
 
         /** \brief Is the circle round (x, y), in the coordinates of the obstacle set, free? False where x or y is not
             finite. */
-        bool isFree(double x, double y) const;
+        bool isFree(double x, double y) const
+        {
+            return circle_.isFree(x, y);
+        }
 
     private:
-        double distance(double x, double y) const;
-
-        ObstacleSet obstacles_;
-        double radius_;
-        DistanceField field_;
-        EdgeIndex edges_;
+        CircleChecker circle_;
     };
 }  // namespace parking

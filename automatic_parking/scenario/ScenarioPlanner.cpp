@@ -1,0 +1,148 @@
+#include "automatic_parking/scenario/ScenarioPlanner.h"
+
+#include "automatic_parking/ParkingWorld.h"
+#include "automatic_parking/scenario/CircleEnvironment.h"
+#include "ompl_improved_astar/search/MotionModel.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/GridSmoothing.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
+        constexpr double SAMPLING = 0.1;          // metres between states
+        constexpr double SAME = 1e-4;             // metres and radians: rounding of long paths
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+        using Clock = std::chrono::steady_clock;
+
+        double secondsSince(Clock::time_point begin)
+        {
+            return std::chrono::duration<double>(Clock::now() - begin).count();
+        }
+    }  // namespace
+
+    std::string statusName(search::PlanOutcome outcome)
+    {
+        switch (outcome)
+        {
+            case search::PlanOutcome::Solved:
+                return "exact";
+            case search::PlanOutcome::Approximate:
+                return "approximate";
+            case search::PlanOutcome::Infeasible:
+                return "infeasible";
+            case search::PlanOutcome::InvalidStart:
+                return "invalid_start";
+            case search::PlanOutcome::InvalidGoal:
+                return "invalid_goal";
+            case search::PlanOutcome::Timeout:
+                break;
+        }
+        return "timeout";
+    }
+
+    ScenarioPlanner::ScenarioPlanner(Scenario scenario, ContactTestMaker contact)
+      : scenario_(std::move(scenario)),
+        footprint_(ObstacleSet::fromScenario(scenario_), scenario_.vehicle, 0.0, std::move(contact))
+    {
+    }
+
+    const CircleChecker &ScenarioPlanner::circle() const
+    {
+        std::call_once(circleOnce_, [this]
+                       { circle_ = std::make_unique<const CircleChecker>(footprint_.obstacles(), circleRadius()); });
+        return *circle_;
+    }
+
+    search::PlanRequest ScenarioPlanner::request(const PlannerParameters &parameters) const
+    {
+        search::PlanRequest request;
+        request.starts = {scenario_.start};
+        request.goals = scenario_.goals;
+        request.car.turningRadius = scenario_.vehicle.minTurningRadius();
+        request.car.bounds = scenario_.bounds;
+        request.parameters = parameters;
+        if (!search::turnsOnTheSpot(parameters.motionModel))
+            request.car.inscribedRadius = scenario_.vehicle.inscribedRadius();
+        return request;
+    }
+
+    std::unique_ptr<search::MotionEnvironment> ScenarioPlanner::environment(const PlannerParameters &parameters) const
+    {
+        if (search::turnsOnTheSpot(parameters.motionModel))
+            return std::make_unique<CircleEnvironment>(circle(), scenario_.bounds);
+        return std::make_unique<FootprintEnvironment>(footprint_, scenario_.bounds, SWEEP_TOLERANCE);
+    }
+
+    ScenarioPlan ScenarioPlanner::plan(const PlannerParameters &parameters, const PlanLimits &limits) const
+    {
+        if (!(limits.time > 0.0))
+            Require("limits").positive("time_limit", limits.time, "seconds");
+        checkParameters(parameters);
+        search::PlanRequest request = this->request(parameters);
+        request.maxExpansions = limits.expansions;
+        request.improved = limits.improved;
+        const auto begin = Clock::now();
+        const bool endless = std::isinf(limits.time);
+        request.stop = [&limits, begin, endless]
+        {
+            return (!endless && secondsSince(begin) > limits.time) || (limits.interrupted && limits.interrupted());
+        };
+
+        const std::unique_ptr<search::MotionEnvironment> environment = this->environment(parameters);
+        ScenarioPlan result;
+        static_cast<search::PlanResult &>(result) = search::plan(*environment, request);
+        result.isDisc = search::turnsOnTheSpot(parameters.motionModel);
+        if (result.isDisc && result.hasPath() && parameters.smoothing == "bspline")
+            search::smoothGridPath(result.path, *environment, request.car.turningRadius, request.stop);
+        if (const auto *footprint = dynamic_cast<const FootprintEnvironment *>(environment.get()))
+            result.checks = footprint->counts();
+        result.planningTime = std::max(0.0, secondsSince(begin) - result.loadingTime);
+        return result;
+    }
+
+    SampledPath ScenarioPlanner::states(const ScenarioPlan &plan) const
+    {
+        if (!plan.hasPath())
+            return {};
+        SampledPath states = plan.path.sample(SAMPLING);
+        states.front().pose.yaw = wrapAngle(states.front().pose.yaw);
+        const Pose &goal = scenario_.goals.at(plan.goal);
+        Pose &end = states.back().pose;
+        if (plan.outcome == search::PlanOutcome::Solved && isSamePose(goal, end, SAME))
+            end = {goal.x, goal.y, wrapAngle(goal.yaw)};
+        return states;
+    }
+
+    double ScenarioPlanner::clearance(const ScenarioPlan &plan) const
+    {
+        if (!plan.hasPath())
+            return INFINITE;
+        if (!plan.isDisc)
+            return leastClearance(footprint_, plan.path);
+        double least = INFINITE;
+        for (const PathState &state : plan.path.sample(SAMPLING))
+            least = std::min(least, circle().clearance(state.pose.x, state.pose.y));
+        return least;
+    }
+
+    QuickestTrajectory ScenarioPlanner::trajectory(const ScenarioPlan &plan, const QuickestTrajectoryOptions &options,
+                                                   const std::function<bool()> &interrupted) const
+    {
+        if (!plan.hasPath() || plan.path.pieces.empty())
+            throw Error("there is no path that a trajectory could be made from");
+        QuickestTrajectoryOptions own = options;
+        own.alternatives = options.alternatives && plan.outcome == search::PlanOutcome::Solved && !plan.isDisc;
+        return quickestTrajectory(footprint_, scenario_.bounds, plan.path, own, interrupted);
+    }
+}  // namespace parking

@@ -1,0 +1,163 @@
+#include "parking_geometry/MakeScenario.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
+#include "parking_geometry/text/Text.h"
+
+#include <string>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        /** A growing box that refuses points too far from the start. */
+        class Extent
+        {
+        public:
+            Extent(const std::string &file, const Eigen::Vector2d &start) : file_(file), start_(start)
+            {
+                box_.min = box_.max = start;
+            }
+
+            void add(const Eigen::Vector2d &point, const std::string &what)
+            {
+                const double distance = (point - start_).lpNorm<Eigen::Infinity>();
+                if (!(distance <= WORLD_REACH))  // also for what overflowed to NaN
+                    throw Error(file_ + ": " + what + " lies " + formatNumber(distance) +
+                                " m from the start; at most " + formatNumber(WORLD_REACH) + " m are supported");
+                box_.include(point);
+            }
+
+            const Box &box() const
+            {
+                return box_;
+            }
+
+        private:
+            const std::string &file_;
+            Eigen::Vector2d start_;
+            Box box_;
+        };
+
+        Box boundsOfMap(const Scenario &scenario, const std::string &file)
+        {
+            Extent extent(file, {scenario.start.x, scenario.start.y});
+            const std::vector<Eigen::Vector2d> outline = scenario.grid->outline();
+            Box box{outline.front(), outline.front()};
+            for (const Eigen::Vector2d &corner : outline)
+            {
+                extent.add(corner, "a corner of the map");
+                box.include(corner);
+            }
+            return box;
+        }
+
+        Box boundsOfPolygons(const Scenario &scenario, const std::string &file)
+        {
+            Extent extent(file, {scenario.start.x, scenario.start.y});
+            for (const Pose &goal : scenario.goals)
+                extent.add({goal.x, goal.y}, "the goal");
+            for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
+                for (const Eigen::Vector2d &corner : scenario.polygons[i])
+                    extent.add(corner, "a corner of obstacle " + std::to_string(i + 1));
+
+            const Eigen::Vector2d margin(POLYGON_WORLD_MARGIN, POLYGON_WORLD_MARGIN);
+            Box box{extent.box().min - margin, extent.box().max + margin};
+            // A vehicle longer than the margin must still fit into the world where it starts and ends.
+            std::vector<Pose> poses = scenario.goals;
+            poses.push_back(scenario.start);
+            for (const Pose &pose : poses)
+                for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(pose))
+                    box.include(corner);
+            return box;
+        }
+
+        void requireStartOnMap(const Scenario &scenario, const std::string &file)
+        {
+            const OccupancyGrid &grid = *scenario.grid;
+            const Pose onMap = relativeTo(grid.origin(), scenario.start);
+            const double width = static_cast<double>(grid.width()) * grid.resolution();
+            const double height = static_cast<double>(grid.height()) * grid.resolution();
+            if (onMap.x >= 0.0 && onMap.y >= 0.0 && onMap.x <= width && onMap.y <= height)
+                return;
+            throw Error(file + ": start outside the map: it lies at " + formatNumber(onMap.x) + ", " +
+                        formatNumber(onMap.y) + " m from the map's lower left corner, and the map is " +
+                        formatNumber(width) + " x " + formatNumber(height) + " m");
+        }
+
+        /** Checks a pose, and brings its yaw into [-pi, pi]. */
+        Pose checked(Pose pose, const std::string &source, const std::string &what)
+        {
+            const Require require(source + ": " + what);
+            require.finite("x", pose.x, "metres");
+            require.finite("y", pose.y, "metres");
+            require.finite("yaw", pose.yaw, "radians");
+            pose.yaw = wrapAngle(pose.yaw);
+            return pose;
+        }
+
+        void requireSimple(const Polygon &polygon, std::size_t number, const std::string &source)
+        {
+            const std::string which = source + ": polygon " + std::to_string(number);
+            if (polygon.size() < 3)
+                throw Error(which + " has " + std::to_string(polygon.size()) + " corners; a polygon needs at least 3");
+            for (std::size_t i = 0; i < polygon.size(); ++i)
+                if (!polygon[i].allFinite())
+                    throw Error(which + ": corner " + std::to_string(i + 1) + " is " + formatNumber(polygon[i].x()) +
+                                ", " + formatNumber(polygon[i].y()) + "; both must be finite numbers of metres");
+        }
+
+        Pose shifted(const Pose &pose, const Eigen::Vector2d &by)
+        {
+            return {pose.x - by.x(), pose.y - by.y(), pose.yaw};
+        }
+    }  // namespace
+
+    void completeScenario(Scenario &scenario, const std::string &file)
+    {
+        if (scenario.grid)
+            requireStartOnMap(scenario, file);
+        scenario.bounds = scenario.grid ? boundsOfMap(scenario, file) : boundsOfPolygons(scenario, file);
+    }
+
+    Scenario makeScenario(Scenario scenario, const std::string &source)
+    {
+        scenario.vehicle.validate();
+        scenario.start = checked(scenario.start, source, "start");
+        if (scenario.grid && !scenario.polygons.empty())
+            throw Error(source + ": both a map and polygons are given; give one of them");
+        if (scenario.slot)
+        {
+            if (!scenario.goals.empty())
+                throw Error(source + ": both goal and slot are given; give one of them");
+            scenario.slot->pose = checked(scenario.slot->pose, source, "slot");
+            scenario.goals = scenario.slot->goals(scenario.vehicle);
+        }
+        if (scenario.goals.empty())
+            throw Error(source + ": neither goal nor slot is given; one of them must be");
+        const Eigen::Vector2d offset(scenario.start.x, scenario.start.y);
+        scenario.worldOffset = offset;
+        scenario.start = shifted(scenario.start, offset);
+        for (Pose &goal : scenario.goals)
+            goal = shifted(checked(goal, source, "goal"), offset);
+        if (scenario.slot)
+            scenario.slot->pose = shifted(scenario.slot->pose, offset);
+        for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
+        {
+            requireSimple(scenario.polygons[i], i + 1, source);
+            for (Eigen::Vector2d &corner : scenario.polygons[i])
+                corner -= offset;
+            if (crossesItself(scenario.polygons[i]))
+                throw Error(source + ": the outline of polygon " + std::to_string(i + 1) +
+                            " crosses itself; list the corners in their order round it");
+        }
+        if (scenario.grid)
+        {
+            checked(scenario.grid->origin(), source, "origin");
+            scenario.grid->setOrigin(shifted(scenario.grid->origin(), offset));
+        }
+        completeScenario(scenario, source);
+        return scenario;
+    }
+}  // namespace parking

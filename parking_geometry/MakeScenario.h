@@ -1,0 +1,23 @@
+#pragma once
+
+#include "parking_geometry/Scenario.h"
+
+#include <string>
+
+namespace parking
+{
+    /** \brief How far from the start anything of a scenario may lie, in metres. Farther away coordinates are mixed up,
+        and a planner would drown in the empty space between. */
+    constexpr double WORLD_REACH = 1e5;
+
+    /** \brief What all scenarios have in common once their parts are local: checks the start and the reach of the
+       world, and sets the bounds. Throws parking::Error naming \e source. */
+    void completeScenario(Scenario &scenario, const std::string &source);
+
+    /** \brief A scenario from parts in world coordinates, without a file: what the readers do with theirs.
+
+        \param scenario vehicle, start, either goals or a slot, either polygons or a grid; worldOffset and bounds are
+       set here, goals too where a slot is given \param source what messages call it, a file for example Throws
+       parking::Error naming the part and the value that is wrong. */
+    Scenario makeScenario(Scenario scenario, const std::string &source);
+}  // namespace parking

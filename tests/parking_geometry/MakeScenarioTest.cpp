@@ -1,0 +1,82 @@
+#include "parking_geometry/MakeScenario.h"
+
+#include "tests/parking_geometry/ExpectError.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using namespace parking_test;
+
+    Scenario somePlace(double x, double y)
+    {
+        Scenario scenario;
+        scenario.start = {x, y, 7.0};
+        scenario.goals = {{x + 10.0, y, 0.5}};
+        scenario.polygons = {{{x + 3.0, y + 4.0}, {x + 5.0, y + 4.0}, {x + 5.0, y + 6.0}}};
+        return scenario;
+    }
+
+    TEST(MakeScenario, BecomesLocalWhereverItLies)
+    {
+        for (const double far : {0.0, 1000.0, -4e9})
+        {
+            const Scenario scenario = makeScenario(somePlace(far, -far), "here");
+            EXPECT_EQ(scenario.start.x, 0.0);
+            EXPECT_EQ(scenario.start.y, 0.0);
+            EXPECT_NEAR(scenario.start.yaw, 7.0 - 2.0 * PI, 1e-12);
+            EXPECT_NEAR(scenario.goals.front().x, 10.0, 1e-6);
+            EXPECT_NEAR(scenario.polygons.front().front().y(), 4.0, 1e-6);
+            EXPECT_NEAR(scenario.toWorld(scenario.goals.front()).x, far + 10.0, 1e-6);
+            EXPECT_NEAR(scenario.bounds.max.x(), 10.0 + POLYGON_WORLD_MARGIN, 1e-6);
+        }
+    }
+
+    TEST(MakeScenario, ASlotGivesTheGoals)
+    {
+        Scenario scenario = somePlace(100.0, 50.0);
+        scenario.goals.clear();
+        scenario.slot = ParkingSlot();
+        scenario.slot->pose = {105.0, 47.0, 0.5 * PI};
+        scenario.slot->entry = SlotEntry::Either;
+        const Scenario made = makeScenario(scenario, "here");
+        ASSERT_EQ(made.goals.size(), 2u);
+        EXPECT_NEAR(made.slot->pose.x, 5.0, 1e-9);
+        EXPECT_NEAR(made.goals.front().x, 5.0, 1e-9);
+    }
+
+    TEST(MakeScenario, AMapIsMovedToo)
+    {
+        Scenario scenario = somePlace(5.0, 5.0);
+        scenario.polygons.clear();
+        scenario.grid = OccupancyGrid(100, 100, 0.5, {-10.0, -20.0, 0.0});
+        const Scenario made = makeScenario(scenario, "here");
+        EXPECT_EQ(made.grid->origin().x, -15.0);
+        EXPECT_EQ(made.bounds.min.y(), -25.0);
+    }
+
+    TEST(MakeScenario, NamesWhatIsWrong)
+    {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const auto expect = [](const auto &change, const std::string &words)
+        {
+            Scenario scenario = somePlace(0.0, 0.0);
+            change(scenario);
+            expectError([&] { makeScenario(scenario, "here"); }, {words});
+        };
+        expect([nan](Scenario &s) { s.start.yaw = nan; }, "here: start: yaw is nan");
+        expect([nan](Scenario &s) { s.goals.front().x = nan; }, "here: goal: x is nan");
+        expect([](Scenario &s) { s.goals.clear(); }, "neither goal nor slot");
+        expect([](Scenario &s) { s.slot = ParkingSlot(); }, "both goal and slot");
+        expect([](Scenario &s) { s.grid = OccupancyGrid(10, 10, 1.0); }, "both a map and polygons");
+        expect([](Scenario &s) { s.goals.front().x = 2e5; }, "the goal lies 200000 m from the start");
+        expect([](Scenario &s) { s.polygons.front().pop_back(); }, "polygon 1 has 2 corners");
+        expect([nan](Scenario &s) { s.polygons.front()[1].y() = nan; }, "polygon 1: corner 2");
+        expect([](Scenario &s) { s.polygons.push_back({{0, 5}, {1, 6}, {1, 5}, {0, 6}}); }, "polygon 2 crosses itself");
+        expect([](Scenario &s) { s.vehicle.width = -1.0; }, "width");
+    }
+}  // namespace
