@@ -33,6 +33,12 @@ git                          | test  | names the files that the style tests look
 clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
 doxygen                      | test  | builds the documentation, which must not make it warn
+python3-dev                  | test  | the Python module
+pybind11-dev                 | test  | pybind11: the Python module
+python3-numpy                | test  | arrays of the Python module
+python3-matplotlib           | test  | pictures of the Python module
+python3-pandas               | test  | tables of the Python module
+python3-pytest               | test  | runs the tests of the Python module
 LIST
 }
 

@@ -24,6 +24,8 @@ MAY_INCLUDE = {
     TRACKING: [GEOMETRY],
     f'{TRACKING}/trajectory': [VALIDITY, GEOMETRY],
     PIPELINE: LIBRARIES,
+    f'{PIPELINE}/scenario': LIBRARIES,
+    'python': LIBRARIES,
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
     'tests': LIBRARIES + ['benchmarks', 'examples'],
@@ -50,6 +52,8 @@ NEVER = {
     f'{PLANNER}/search': OUTSIDE + ADAPTERS,
     TRACKING: ['ompl/', 'fcl/'] + READERS,
     f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
+    f'{PIPELINE}/scenario': OUTSIDE + ADAPTERS,
+    'python': ['ompl/', 'fcl/', 'ceres/', f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/'],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

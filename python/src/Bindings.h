@@ -1,0 +1,20 @@
+#pragma once
+
+#include "python/src/Handles.h"
+
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+// The parts of the module, in the order in which they must be added.
+namespace parking::python
+{
+    void addVehicles(pybind11::module_ &module);
+    void addScenarios(pybind11::module_ &module);
+    void addPlans(pybind11::module_ &module);
+    void addParking(pybind11::module_ &module);
+    void addReferee(pybind11::module_ &module);
+
+    /** \brief The scenario that a Python object is; throws parking::Error naming \e field otherwise. */
+    ScenarioPointer scenarioFrom(const pybind11::handle &value, const std::string &field);
+}  // namespace parking::python

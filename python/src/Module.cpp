@@ -1,0 +1,25 @@
+// The extension module improved_astar._core.
+#include "parking_geometry/Error.h"
+#include "python/src/Bindings.h"
+
+#include <pybind11/pybind11.h>
+
+#ifndef PARKING_VERSION
+#define PARKING_VERSION "unknown"
+#endif
+
+PYBIND11_MODULE(_core, module)
+{
+    namespace py = pybind11;
+    py::options options;
+    options.disable_function_signatures();  // the stubs have them
+    module.doc() = "The planner's core. Use the package improved_astar.";
+    module.attr("__version__") = PARKING_VERSION;
+    py::register_exception<parking::Error>(module, "Error", PyExc_ValueError).doc() =
+        "A bad value or file: one line that names the field or the file and says what would be right.";
+    parking::python::addVehicles(module);
+    parking::python::addScenarios(module);
+    parking::python::addPlans(module);
+    parking::python::addParking(module);
+    parking::python::addReferee(module);
+}

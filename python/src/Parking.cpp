@@ -1,0 +1,155 @@
+// ParkingPlanner and ParkingPlan.
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
+#include "python/src/Bindings.h"
+#include "python/src/Handles.h"
+#include "python/src/Signals.h"
+#include "python/src/Values.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace parking::python
+{
+    namespace
+    {
+        const std::vector<std::string> WAYS{"searched", "one_sweep", "in_stretches"};
+
+        PlanningParameters planningParameters(bool tight, const py::kwargs &values)
+        {
+            using P = PlanningParameters;
+            static const std::array<std::pair<const char *, double P::*>, 6> NUMBERS{
+                {{"time_limit", &P::timeLimit},
+                 {"gap_worth", &P::gapWorth},
+                 {"radius_factor", &P::radiusFactor},
+                 {"gear_change_penalty", &P::gearChangePenalty},
+                 {"steering_change_penalty", &P::steeringChangePenalty},
+                 {"clearance_weight", &P::clearanceWeight}}};
+            constexpr double INFINITE = std::numeric_limits<double>::infinity();
+            const double aisle =
+                values.contains("aisle_width") ? numberFrom(values["aisle_width"], "aisle_width") : INFINITE;
+            P parameters = tight ? P::intoTightSlots(aisle) : P();
+            parameters.sweep.aisleWidth = aisle;
+            for (const auto &[key, value] : values)
+            {
+                const auto name = py::cast<std::string>(key);
+                const auto *const number =
+                    std::find_if(NUMBERS.begin(), NUMBERS.end(), [&](const auto &each) { return each.first == name; });
+                if (number != NUMBERS.end())
+                    parameters.*number->second = numberFrom(value, name);
+                else if (name == "smooth")
+                    parameters.smooth = flagFrom(value, name);
+                else if (name == "gaps")
+                {
+                    if (!py::isinstance<py::iterable>(value))
+                        failFor(value, name, "a list of metres");
+                    parameters.gaps.clear();
+                    for (const py::handle gap : value)
+                        parameters.gaps.push_back(numberFrom(gap, "gaps"));
+                }
+                else if (name == "expansions_per_gap")
+                    parameters.expansionsPerGap = countFrom(value, name);
+                else if (name == "way_in")
+                {
+                    const auto way = std::find(WAYS.begin(), WAYS.end(), py::cast<std::string>(py::str(value)));
+                    if (way == WAYS.end())
+                        throw Error(unknownName("value for way_in", py::cast<std::string>(py::str(value)), WAYS));
+                    parameters.wayIn = static_cast<WayIn>(way - WAYS.begin());
+                }
+                else if (name != "aisle_width")
+                {
+                    std::vector<std::string> names{"aisle_width", "smooth", "gaps", "expansions_per_gap", "way_in"};
+                    for (const auto &each : NUMBERS)
+                        names.emplace_back(each.first);
+                    throw Error(unknownName("parameter", name, names));
+                }
+            }
+            parameters.validate();
+            return parameters;
+        }
+
+        std::shared_ptr<const ParkingHandle> plan(const ParkingPlanner &self, const py::object &problem)
+        {
+            const ScenarioPointer scenario = scenarioFrom(problem, "scenario");
+            PlanningParameters parameters = self.parameters();
+            Signals signals;
+            parameters.interrupted = [&signals]
+            {
+                return signals.arrived();
+            };
+            std::shared_ptr<const ParkingHandle> result;
+            {
+                const py::gil_scoped_release release;
+                result = std::make_shared<const ParkingHandle>(scenario,
+                                                               ParkingPlanner(parameters).plan(scenario->scenario()));
+            }
+            signals.raise();
+            return result;
+        }
+
+        py::dict statisticsOf(const ParkingHandle &self)
+        {
+            const ParkingPlan &plan = self.plan();
+            py::dict result;
+            result["tries"] = plan.tries;
+            result["expanded"] = plan.search.expanded;
+            result["generated"] = plan.search.generated;
+            result["planning_time"] = plan.planningTime;
+            result["smoothing_time"] = plan.smoothingTime;
+            result["map_loading_time"] = plan.loadingTime;
+            return result;
+        }
+    }  // namespace
+
+    void addParking(py::module_ &module)
+    {
+        py::class_<ParkingHandle, PathHandle, std::shared_ptr<ParkingHandle>>(
+            module, "ParkingPlan",
+            "What a ParkingPlanner came to. True when "
+            "a way was found.")
+            .def_property_readonly("found", &ParkingHandle::hasPath)
+            .def_property_readonly(
+                "status",
+                [](const ParkingHandle &self)
+                { return self.hasPath() ? std::string("found") : toString(self.plan().failure); },
+                "found, or why not: no_path, invalid_start, invalid_goal")
+            .def_property_readonly(
+                "message", [](const ParkingHandle &self) { return self.plan().message; },
+                "One line: what was planned, or why nothing was.")
+            .def_property_readonly(
+                "goal",
+                [](const ParkingHandle &self)
+                { return toPython(self.scenario().scenario().toWorld(self.plan().goal)); },
+                "The one that was chosen.")
+            .def_property_readonly(
+                "gap", [](const ParkingHandle &self) { return self.plan().gap; },
+                "Metres kept all round the car while planning.")
+            .def_property_readonly(
+                "turning_radius", [](const ParkingHandle &self) { return self.plan().turningRadius; },
+                "Metres, planned with.")
+            .def_property_readonly("cost", [](const ParkingHandle &self) { return self.plan().cost; })
+            .def_property_readonly(
+                "is_smooth", [](const ParkingHandle &self) { return !self.plan().smooth.path.pieces.empty(); },
+                "Is the curvature of the path continuous between its cusps?")
+            .def_property_readonly("statistics", &statisticsOf,
+                                   "A dict: tries, expanded, generated; planning_time, smoothing_time and "
+                                   "map_loading_time in seconds.")
+            .def("__bool__", &ParkingHandle::hasPath)
+            .def("__repr__", [](const ParkingHandle &self) { return "ParkingPlan(" + self.plan().message + ")"; });
+
+        py::class_<ParkingPlanner>(module, "ParkingPlanner", R"(Plans ways into slots: a constructed manoeuvre where one
+fits, the search for the rest, as much room round the car as there is, and curvature without jumps.
+
+ParkingPlanner(tight=True) is for slots that leave centimetres. Other parameters: time_limit (seconds), gaps (metres kept
+round the car, tried in turn), gap_worth, expansions_per_gap, radius_factor, gear_change_penalty, steering_change_penalty,
+clearance_weight, way_in (searched, one_sweep, in_stretches), aisle_width (metres), smooth (bool).)")
+            .def(py::init([](bool tight, const py::kwargs &values)
+                          { return ParkingPlanner(planningParameters(tight, values)); }),
+                 py::arg("tight") = false)
+            .def("plan", &plan, py::arg("scenario"), "Plans from the start of a scenario to its goal or slot.");
+    }
+}  // namespace parking::python

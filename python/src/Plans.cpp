@@ -1,0 +1,280 @@
+// plan(), plan_batch() and Result.
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+#include "python/src/Bindings.h"
+#include "python/src/Handles.h"
+#include "python/src/Paths.h"
+#include "python/src/Signals.h"
+#include "python/src/Values.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <ctime>
+#include <exception>
+#include <thread>
+
+namespace parking::python
+{
+    namespace
+    {
+        using PlanPointer = std::shared_ptr<const PlanHandle>;
+
+        struct Question
+        {
+            PlannerParameters parameters;
+            PlanLimits limits;
+        };
+
+        Question questionFrom(const py::object &timeLimit, const py::object &anytime, const py::object &maxExpansions,
+                              const py::kwargs &parameters)
+        {
+            Question question;
+            question.parameters = parametersFrom(parameters);
+            question.parameters.anytime = flagFrom(anytime, "anytime");
+            question.limits.expansions = countFrom(maxExpansions, "max_expansions");
+            question.limits.time = numberFrom(timeLimit, "time_limit");
+            if (!(question.limits.time > 0.0))
+                throw Error("time_limit must be a positive number of seconds, not " +
+                            formatNumber(question.limits.time));
+            if (question.parameters.anytime && std::isinf(question.limits.time) && question.limits.expansions == 0)
+                throw Error("anytime needs an end: a finite time_limit, or max_expansions");
+            return question;
+        }
+
+        PlanPointer plan(const py::object &problem, const py::object &timeLimit, const py::object &anytime,
+                         const py::object &maxExpansions, const py::kwargs &parameters)
+        {
+            const auto scenario = scenarioFrom(problem, "scenario");
+            Question question = questionFrom(timeLimit, anytime, maxExpansions, parameters);
+            Signals signals;
+            question.limits.interrupted = [&signals]
+            {
+                return signals.arrived();
+            };
+            PlanPointer result;
+            {
+                const py::gil_scoped_release release;
+                result = std::make_shared<const PlanHandle>(
+                    scenario, scenario->planner().plan(question.parameters, question.limits), question.parameters);
+            }
+            signals.raise();
+            return result;
+        }
+
+        /** Plans many scenarios by threads of its own, while the calling one listens for signals. */
+        class Batch
+        {
+        public:
+            Batch(std::vector<ScenarioPointer> scenarios, Question question)
+              : scenarios_(std::move(scenarios)),
+                question_(std::move(question)),
+                results_(scenarios_.size()),
+                errors_(scenarios_.size())
+            {
+                question_.limits.interrupted = [this]
+                {
+                    return stop_.load(std::memory_order_relaxed);
+                };
+            }
+
+            /** Without the interpreter's lock. */
+            void run(std::size_t threads, Signals &signals)
+            {
+                working_ = std::max<std::size_t>(1, std::min(threads, scenarios_.size()));
+                std::vector<std::thread> workers;
+                const std::size_t count = working_;
+                for (std::size_t i = 0; i < count; ++i)
+                    workers.emplace_back([this] { work(); });
+                {
+                    std::unique_lock<std::mutex> lock(mutex_);
+                    while (!done_.wait_for(lock, std::chrono::milliseconds(3), [this] { return working_ == 0; }))
+                    {
+                        lock.unlock();
+                        if (signals.ask())
+                            stop_ = true;
+                        lock.lock();
+                    }
+                }
+                for (std::thread &worker : workers)
+                    worker.join();
+            }
+
+            std::vector<PlanPointer> results() const
+            {
+                for (std::size_t i = 0; i < errors_.size(); ++i)
+                    if (!errors_[i].empty())
+                        throw Error("scenarios[" + std::to_string(i) + "]: " + errors_[i]);
+                return results_;
+            }
+
+        private:
+            void work()
+            {
+                for (std::size_t i = next_++; i < scenarios_.size() && !stop_; i = next_++)
+                    try
+                    {
+                        results_[i] = std::make_shared<const PlanHandle>(
+                            scenarios_[i], scenarios_[i]->planner().plan(question_.parameters, question_.limits),
+                            question_.parameters);
+                    }
+                    catch (const std::exception &error)
+                    {
+                        errors_[i] = error.what();
+                    }
+                const std::lock_guard<std::mutex> lock(mutex_);
+                --working_;
+                done_.notify_one();
+            }
+
+            std::vector<ScenarioPointer> scenarios_;
+            Question question_;
+            std::vector<PlanPointer> results_;
+            std::vector<std::string> errors_;
+            std::atomic<std::size_t> next_{0};
+            std::atomic<bool> stop_{false};
+            std::size_t working_{0};
+            std::mutex mutex_;
+            std::condition_variable done_;
+        };
+
+        std::vector<PlanPointer> planBatch(const py::object &scenarios, const py::object &threads,
+                                           const py::object &timeLimit, const py::object &anytime,
+                                           const py::object &maxExpansions, const py::kwargs &parameters)
+        {
+            std::vector<ScenarioPointer> list;
+            if (!py::isinstance<py::iterable>(scenarios) || py::isinstance<py::str>(scenarios))
+                throw Error("scenarios must be a list of Scenario");
+            for (const py::handle each : scenarios)
+                list.push_back(scenarioFrom(each, "scenarios[" + std::to_string(list.size()) + "]"));
+            const std::size_t wanted = countFrom(threads, "threads");
+            Batch batch(std::move(list), questionFrom(timeLimit, anytime, maxExpansions, parameters));
+            Signals signals;
+            {
+                const std::size_t count = wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
+                const py::gil_scoped_release release;
+                batch.run(count, signals);
+            }
+            signals.raise();
+            return batch.results();
+        }
+
+        py::dict statisticsOf(const PlanHandle &self)
+        {
+            const ScenarioPlan &plan = self.plan();
+            py::dict result;
+            result["expanded"] = plan.statistics.expanded;
+            result["generated"] = plan.statistics.generated;
+            result["connections"] = plan.statistics.connections;
+            result["heuristic_cells"] = plan.statistics.heuristicCells;
+            result["state_checks"] = plan.checks.states;
+            result["exact_checks"] = plan.checks.byContactTest;
+            result["planning_time"] = plan.planningTime;
+            result["map_loading_time"] = self.scenario().loadingTime() + plan.loadingTime;
+            return result;
+        }
+
+        /** Seconds of this thread's processor time. */
+        double processorTime()
+        {
+            timespec time{};
+            clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+            return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+        }
+
+        /** Seconds of processor time that the same plans take in C++, for measuring what Python adds. */
+        std::vector<double> timesInCpp(const ScenarioPointer &scenario, std::size_t runs, const py::kwargs &parameters)
+        {
+            const PlannerParameters wanted = parametersFrom(parameters);
+            std::vector<double> times;
+            const py::gil_scoped_release release;
+            for (std::size_t i = 0; i < runs; ++i)
+            {
+                const double begin = processorTime();
+                const ScenarioPlan plan = scenario->planner().plan(wanted);
+                times.push_back(processorTime() - begin);
+            }
+            return times;
+        }
+    }  // namespace
+
+    void addPlans(py::module_ &module)
+    {
+        py::class_<PathHandle, std::shared_ptr<PathHandle>> path(module, "Drive",
+                                                                 "A path in a scenario: what Result and ParkingPlan "
+                                                                 "have in common.");
+        addPathProperties(path);
+
+        py::class_<PlanHandle, PathHandle, std::shared_ptr<PlanHandle>>(module, "Result", R"(What plan() came to.
+
+True when the path reaches a goal exactly. Arrays are made when they are first asked for, and then kept.)")
+            .def_property_readonly(
+                "status", [](const PlanHandle &self) { return statusName(self.plan().outcome); },
+                "exact, approximate, timeout, infeasible, invalid_start or invalid_goal")
+            .def_property_readonly(
+                "reason", [](const PlanHandle &self) { return self.plan().reason; },
+                "Why there is no exact solution, in words; empty otherwise.")
+            .def_property_readonly(
+                "cost", [](const PlanHandle &self) { return self.plan().cost; },
+                "Metres and penalties; infinite without a solution.")
+            .def_property_readonly(
+                "bound", [](const PlanHandle &self) { return self.plan().suboptimalityBound; },
+                "cost over what no path stays below (docs/planner.md says for which paths it holds); "
+                "infinite if unknown.")
+            .def_property_readonly(
+                "goal",
+                [](const PlanHandle &self) -> py::object
+                {
+                    if (!self.hasPath())
+                        return py::none();
+                    const Scenario &scenario = self.scenario().scenario();
+                    return toPython(scenario.toWorld(scenario.goals.at(self.plan().goal)));
+                },
+                "The goal that is reached, or was aimed at; None without a path.")
+            .def_property_readonly(
+                "statistics", &statisticsOf,
+                "A dict: expanded, generated, connections, heuristic_cells, state_checks, exact_checks, "
+                "planning_time and map_loading_time in seconds.")
+            .def_property_readonly(
+                "parameters", [](const PlanHandle &self) { return toPython(self.parameters()); },
+                "All parameters of the planner, as a dict.")
+            .def("__bool__", [](const PlanHandle &self) { return self.plan().outcome == search::PlanOutcome::Solved; })
+            .def("__repr__",
+                 [](const PlanHandle &self)
+                 {
+                     const std::string status = statusName(self.plan().outcome);
+                     if (!self.hasPath())
+                         return "Result(" + status + ")";
+                     return "Result(" + status + ", " + formatNumber(std::round(100.0 * self.path().length()) / 100.0) +
+                            " m, " + std::to_string(self.path().cusps()) + " cusps)";
+                 });
+
+        static const std::string ABOUT_PLAN =
+            "Plans a path from the start of a scenario to its goal, or to the nearest of several.\n\n"
+            "time_limit : seconds; anytime : go on improving until it is up\n"
+            "max_expansions : ends the search after so many, which depends on no clock; 0: no limit\n\n"
+            "Other Python threads run meanwhile, and Ctrl-C ends it. Parameters:\n\n" +
+            parameterLines() + "\nReturns a Result. Raises Error for a value that is not allowed.";
+        module.def("plan", &plan, py::arg("scenario"), py::arg("time_limit") = 1.0, py::arg("anytime") = false,
+                   py::arg("max_expansions") = 0, ABOUT_PLAN.c_str());
+        module.def(
+            "plan_batch", &planBatch, py::arg("scenarios"), py::arg("threads") = 0, py::arg("time_limit") = 1.0,
+            py::arg("anytime") = false, py::arg("max_expansions") = 0,
+            "Plans many scenarios at once and returns their Results in the same order.\n\nthreads : 0 for one per "
+            "core; the others as for plan().");
+        module.def("_times_in_cpp", &timesInCpp, py::arg("scenario"), py::arg("runs"));
+        module.def("_parameter_table",
+                   []
+                   {
+                       py::list table;
+                       const py::dict defaults = toPython(PlannerParameters());
+                       for (const Parameter &row : parameterTable())
+                           table.append(py::make_tuple(row.name, defaults[py::str(row.name)], row.allowed(), row.unit,
+                                                       row.meaning));
+                       return table;
+                   });
+    }
+}  // namespace parking::python

@@ -1,0 +1,289 @@
+#include "python/src/Values.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace parking::python
+{
+    namespace
+    {
+        /** How a value looks in a message. */
+        std::string shown(const py::handle &value)
+        {
+            constexpr std::size_t LONGEST = 60;
+            const std::string text = oneLine(py::cast<std::string>(py::repr(value)));
+            return text.size() > LONGEST ? text.substr(0, LONGEST) + "..." : text;
+        }
+
+        std::string shapeOf(const py::array &array)
+        {
+            std::string text;
+            for (py::ssize_t i = 0; i < array.ndim(); ++i)
+                text += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
+            return "(" + text + (array.ndim() == 1 ? ",)" : ")");
+        }
+
+        Doubles doublesFrom(const py::handle &value, const std::string &field, const std::string &right)
+        {
+            // Text is no number, although NumPy would read it.
+            const py::array any = py::array::ensure(value);
+            if (any && (any.dtype().kind() == 'f' || any.dtype().kind() == 'i' || any.dtype().kind() == 'u'))
+                if (Doubles array = Doubles::ensure(any))
+                    return array;
+            failFor(value, field, right);
+        }
+
+        bool isNumber(const py::handle &value)
+        {
+            return !py::isinstance<py::bool_>(value) && !py::isinstance<py::str>(value) &&
+                   PyNumber_Check(value.ptr()) != 0 && !py::isinstance<py::array>(value);
+        }
+
+        std::optional<Cell> cellFrom(std::int64_t value)
+        {
+            switch (value)
+            {
+                case 0:
+                    return Cell::Free;
+                case 1:
+                    return Cell::Occupied;
+                case -1:
+                case 2:
+                    return Cell::Unknown;
+                default:
+                    return std::nullopt;
+            }
+        }
+    }  // namespace
+
+    void failFor(const py::handle &value, const std::string &field, const std::string &right)
+    {
+        PyErr_Clear();
+        throw Error(field + " must be " + right + ", not " + shown(value));
+    }
+
+    bool flagFrom(const py::handle &value, const std::string &field)
+    {
+        if (!py::isinstance<py::bool_>(value))
+            failFor(value, field, "True or False");
+        return py::cast<bool>(value);
+    }
+
+    std::size_t countFrom(const py::handle &value, const std::string &field)
+    {
+        if (!py::isinstance<py::int_>(value) || py::isinstance<py::bool_>(value))
+            failFor(value, field, "a whole number");
+        const std::size_t count = PyLong_AsSize_t(value.ptr());
+        if (PyErr_Occurred() != nullptr)
+            failFor(value, field, "a whole number that is not negative");
+        return count;
+    }
+
+    std::string textFrom(const py::handle &value, const std::string &field)
+    {
+        if (!py::isinstance<py::str>(value))
+            failFor(value, field, "a str");
+        return py::cast<std::string>(value);
+    }
+
+    double numberFrom(const py::handle &value, const std::string &field)
+    {
+        if (isNumber(value))
+        {
+            const double number = PyFloat_AsDouble(value.ptr());
+            if (PyErr_Occurred() == nullptr)
+                return number;
+        }
+        failFor(value, field, "a number");
+    }
+
+    Pose poseFrom(const py::handle &value, const std::string &field)
+    {
+        const std::string right = "three numbers (x, y, yaw)";
+        const Doubles array = doublesFrom(value, field, right);
+        if (array.ndim() != 1 || array.shape(0) != 3)
+            throw Error(field + " must be " + right + "; its shape is " + shapeOf(array));
+        return {array.at(0), array.at(1), array.at(2)};
+    }
+
+    Doubles posesFrom(const py::handle &value, const std::string &field)
+    {
+        const std::string right = "an array of n rows (x, y, yaw)";
+        Doubles array = doublesFrom(value, field, right);
+        if (array.ndim() != 2 || array.shape(1) != 3)
+            throw Error(field + " must be " + right + "; its shape is " + shapeOf(array));
+        return array;
+    }
+
+    Polygon polygonFrom(const py::handle &value, const std::string &field)
+    {
+        const std::string right = "an array of n rows (x, y)";
+        const Doubles array = doublesFrom(value, field, right);
+        if (array.ndim() != 2 || array.shape(1) != 2)
+            throw Error(field + " must be " + right + "; its shape is " + shapeOf(array));
+        Polygon polygon;
+        polygon.reserve(static_cast<std::size_t>(array.shape(0)));
+        for (py::ssize_t i = 0; i < array.shape(0); ++i)
+            polygon.emplace_back(array.at(i, 0), array.at(i, 1));
+        return polygon;
+    }
+
+    OccupancyGrid gridFrom(const py::handle &cells, double resolution, const Pose &origin)
+    {
+        const std::string right = "a 2-D array of whole numbers or bool: 0 free, 1 occupied, -1 or 2 unknown";
+        const py::array array = py::array::ensure(cells);
+        if (!array || (array.dtype().kind() != 'b' && array.dtype().kind() != 'i' && array.dtype().kind() != 'u'))
+        {
+            PyErr_Clear();
+            throw Error(
+                "grid must be " + right +
+                (array ? "; its dtype is " + py::cast<std::string>(py::str(array.dtype())) : ", not " + shown(cells)));
+        }
+        if (array.ndim() != 2)
+            throw Error("grid must be " + right + "; its shape is " + shapeOf(array));
+        OccupancyGrid grid(static_cast<std::size_t>(array.shape(1)), static_cast<std::size_t>(array.shape(0)),
+                           resolution, origin);
+        const auto fill = [&grid](const auto &rows)
+        {
+            const auto values = rows.template unchecked<2>();
+            for (py::ssize_t row = 0; row < values.shape(0); ++row)
+                for (py::ssize_t column = 0; column < values.shape(1); ++column)
+                {
+                    const auto value = static_cast<std::int64_t>(values(row, column));
+                    const std::optional<Cell> cell = cellFrom(value);
+                    if (!cell)
+                        throw Error("grid: cell [" + std::to_string(row) + ", " + std::to_string(column) + "] is " +
+                                    std::to_string(value) + "; a cell is 0 (free), 1 (occupied), -1 or 2 (unknown)");
+                    grid.set(static_cast<std::size_t>(column), static_cast<std::size_t>(row), *cell);
+                }
+        };
+        // The usual ones are read where they lie; any other is converted first.
+        if (array.dtype().kind() == 'b')
+            fill(py::array_t<bool>(array));
+        else if (array.itemsize() == 1 && array.dtype().kind() == 'u')
+            fill(py::array_t<std::uint8_t>(array));
+        else if (array.itemsize() == 1)
+            fill(py::array_t<std::int8_t>(array));
+        else
+            fill(py::array_t<std::int64_t, py::array::forcecast>(array));
+        return grid;
+    }
+
+    Path pathFrom(const py::handle &value, const Scenario &scenario)
+    {
+        constexpr double JOINT = 1e-3;  // metres by which the end of an arc may miss the next state
+        constexpr double SAME = 1e-9;   // metres: the same place
+        const std::string right = "a result, or an array of n rows (x, y, yaw, ...)";
+        const Doubles array = doublesFrom(value, "path", right);
+        if (array.ndim() != 2 || array.shape(1) < 3)
+            throw Error("path must be " + right + "; its shape is " + shapeOf(array));
+        if (array.shape(0) == 0)
+            throw Error("path must have at least one row");
+        const auto state = [&](py::ssize_t i)
+        {
+            return Pose{array.at(i, 0) - scenario.worldOffset.x(), array.at(i, 1) - scenario.worldOffset.y(),
+                        array.at(i, 2)};
+        };
+        Path path{state(0), {}};
+        for (py::ssize_t i = 1; i < array.shape(0); ++i)
+        {
+            const Pose from = state(i - 1), to = state(i);
+            if (!isFinite(from) || !isFinite(to))
+                throw Error("path: row " + std::to_string(isFinite(from) ? i : i - 1) + " is not finite");
+            const double turn = wrapAngle(to.yaw - from.yaw), half = 0.5 * turn, middle = from.yaw + half;
+            const double dx = to.x - from.x, dy = to.y - from.y, chord = std::hypot(dx, dy);
+            if (chord < SAME)
+            {
+                if (std::abs(turn) > SAME)
+                    path.pieces.push_back(PathPiece::turnOnTheSpot(turn));
+                continue;
+            }
+            const double aside = dy * std::cos(middle) - dx * std::sin(middle);
+            if (std::abs(aside) > JOINT)
+                throw Error("path: no arc joins rows " + std::to_string(i - 1) + " and " + std::to_string(i) +
+                            ": one that leaves as the first of them heads misses the other by " +
+                            formatNumber(std::round(1e4 * std::abs(aside)) / 1e4) + " m");
+            const double ahead = dx * std::cos(middle) + dy * std::sin(middle);
+            const double length = std::copysign(chord * (std::abs(half) < 1e-6 ? 1.0 : half / std::sin(half)), ahead);
+            path.pieces.emplace_back(turn / length, length);
+        }
+        return path;
+    }
+
+    py::tuple toPython(const Pose &pose)
+    {
+        return py::make_tuple(pose.x, pose.y, pose.yaw);
+    }
+
+    PlannerParameters parametersFrom(const py::dict &values)
+    {
+        PlannerParameters parameters;
+        if (values.contains("parameter_set"))
+            parameters = parameterSet(textFrom(values["parameter_set"], "parameter_set"), parameters);
+        for (const auto &[key, value] : values)
+        {
+            const auto name = py::cast<std::string>(key);
+            const auto &table = parameterTable();
+            const auto row =
+                std::find_if(table.begin(), table.end(), [&](const Parameter &each) { return each.name == name; });
+            if (row == table.end())
+            {
+                std::vector<std::string> names;
+                for (const Parameter &each : table)
+                    names.push_back(each.name);
+                throw Error(unknownName("parameter", name, names));
+            }
+            std::visit(
+                [&, &given = value](auto member)
+                {
+                    using Value = std::decay_t<decltype(parameters.*member)>;
+                    if constexpr (std::is_same_v<Value, bool>)
+                        parameters.*member = flagFrom(given, name);
+                    else if constexpr (std::is_same_v<Value, std::string>)
+                        parameters.*member = textFrom(given, name);
+                    else if constexpr (std::is_same_v<Value, double>)
+                        parameters.*member = numberFrom(given, name);
+                    else
+                    {
+                        const double number = numberFrom(given, name);
+                        if (number != std::floor(number) || number < 0.0 || number > 4e9)
+                            throw Error(name + " must be " + row->allowed() + ", not " + formatNumber(number));
+                        parameters.*member = static_cast<unsigned int>(number);
+                    }
+                },
+                row->member);
+        }
+        checkParameters(parameters);
+        return parameters;
+    }
+
+    py::dict toPython(const PlannerParameters &parameters)
+    {
+        py::dict result;
+        for (const Parameter &row : parameterTable())
+            std::visit([&](auto member) { result[py::str(row.name)] = parameters.*member; }, row.member);
+        return result;
+    }
+
+    std::string parameterLines()
+    {
+        const py::dict defaults = toPython(PlannerParameters());
+        std::string text;
+        for (const Parameter &row : parameterTable())
+        {
+            std::string meaning = row.meaning;
+            meaning.erase(std::remove(meaning.begin(), meaning.end(), '`'), meaning.end());
+            text += row.name + " : " + row.allowed() + "\n    " + meaning + " (default " +
+                    py::cast<std::string>(py::repr(defaults[py::str(row.name)])) + ")\n";
+        }
+        return text;
+    }
+}  // namespace parking::python

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "ompl_improved_astar/search/planning/Parameters.h"
+#include "parking_geometry/OccupancyGrid.h"
+#include "parking_geometry/Polygon.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/Scenario.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+// From Python's values to the project's and back. Whatever does not fit is a parking::Error that names the field.
+namespace parking::python
+{
+    namespace py = pybind11;
+
+    /** \brief An array of doubles whose data is used where it lies if it is such an array already. */
+    using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+    /** \brief Throws "FIELD must be RIGHT, not VALUE". */
+    [[noreturn]] void failFor(const py::handle &value, const std::string &field, const std::string &right);
+
+    double numberFrom(const py::handle &value, const std::string &field);
+    bool flagFrom(const py::handle &value, const std::string &field);
+    std::size_t countFrom(const py::handle &value, const std::string &field);
+    std::string textFrom(const py::handle &value, const std::string &field);
+    Pose poseFrom(const py::handle &value, const std::string &field);
+    Polygon polygonFrom(const py::handle &value, const std::string &field);
+    OccupancyGrid gridFrom(const py::handle &cells, double resolution, const Pose &origin);
+
+    /** \brief An array of n rows of x, y, yaw. */
+    Doubles posesFrom(const py::handle &value, const std::string &field);
+
+    /** \brief A path from what a user has: rows x, y, yaw, more columns being passed over. Between two states lies one
+        arc. Throws parking::Error for rows that no arc joins. */
+    Path pathFrom(const py::handle &value, const Scenario &scenario);
+
+    /** \brief The object that a Python object of the module's own holds. \param right what it must be, "a Scenario" */
+    template <class Held>
+    Held heldBy(const py::handle &value, const std::string &field, const std::string &right)
+    {
+        // None would be cast to a null pointer.
+        if (value.is_none())
+            failFor(value, field, right);
+        try
+        {
+            return value.cast<Held>();
+        }
+        catch (const py::cast_error &)
+        {
+            failFor(value, field, right);
+        }
+    }
+
+    py::tuple toPython(const Pose &pose);
+
+    /** \brief An array that shows memory of \e owner, without copying; read only. */
+    template <class Value>
+    py::array view(const Value *data, std::vector<py::ssize_t> shape, const py::handle &owner)
+    {
+        py::array_t<Value> array(std::move(shape), data, owner);
+        py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+        return std::move(array);
+    }
+
+    /** \brief Values by the names of parameterTable(). */
+    PlannerParameters parametersFrom(const py::dict &values);
+    py::dict toPython(const PlannerParameters &parameters);
+
+    /** \brief The parameters as lines of a docstring. */
+    std::string parameterLines();
+}  // namespace parking::python

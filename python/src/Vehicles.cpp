@@ -1,0 +1,168 @@
+// Vehicle and Slot.
+#include "parking_geometry/Error.h"
+#include "parking_geometry/ParkingSlot.h"
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/NearestName.h"
+#include "python/src/Bindings.h"
+#include "python/src/Values.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace parking::python
+{
+    namespace
+    {
+        constexpr std::array<std::pair<const char *, double Vehicle::*>, 8> FIELDS{
+            {{"wheelbase", &Vehicle::wheelbase},
+             {"front_overhang", &Vehicle::frontOverhang},
+             {"rear_overhang", &Vehicle::rearOverhang},
+             {"width", &Vehicle::width},
+             {"max_steering_angle", &Vehicle::maxSteeringAngle},
+             {"max_speed", &Vehicle::maxSpeed},
+             {"max_acceleration", &Vehicle::maxAcceleration},
+             {"max_steering_rate", &Vehicle::maxSteeringRate}}};
+
+        Vehicle makeVehicle(const std::string &base, const py::kwargs &fields)
+        {
+            Vehicle vehicle = readVehicle(base);
+            if (!fields.empty())
+                vehicle.name = "custom";
+            for (const auto &[key, value] : fields)
+            {
+                const auto name = py::cast<std::string>(key);
+                if (name == "name")
+                {
+                    vehicle.name = py::cast<std::string>(py::str(value));
+                    continue;
+                }
+                const auto *const field =
+                    std::find_if(FIELDS.begin(), FIELDS.end(), [&](const auto &each) { return each.first == name; });
+                if (field == FIELDS.end())
+                {
+                    std::vector<std::string> names{"name"};
+                    for (const auto &each : FIELDS)
+                        names.emplace_back(each.first);
+                    throw Error(unknownName("field of a vehicle", name, names));
+                }
+                vehicle.*field->second = numberFrom(value, "vehicle: " + name);
+            }
+            vehicle.validate();
+            return vehicle;
+        }
+
+        const std::vector<std::string> KINDS{"perpendicular", "parallel", "angled"},
+            ENTRIES{"reverse", "forward", "either"}, SIDES{"right", "left", "either"};
+
+        template <class Enum>
+        Enum named(const std::string &name, const std::vector<std::string> &names, const std::string &field)
+        {
+            const auto found = std::find(names.begin(), names.end(), name);
+            if (found == names.end())
+                throw Error("slot: " + unknownName(field, name, names));
+            return static_cast<Enum>(found - names.begin());
+        }
+
+        template <class Enum>
+        std::string nameOf(Enum value, const std::vector<std::string> &names)
+        {
+            return names.at(static_cast<std::size_t>(value));
+        }
+
+        ParkingSlot makeSlot(const std::string &kind, const py::object &pose, const py::object &length,
+                             const py::object &width, const std::string &entry, const py::object &angle,
+                             const std::string &side, const py::object &depth, const py::object &lateralOffset)
+        {
+            ParkingSlot slot;
+            slot.kind = named<SlotKind>(kind, KINDS, "kind");
+            slot.pose = poseFrom(pose, "slot: pose");
+            slot.length = numberFrom(length, "slot: length");
+            slot.width = numberFrom(width, "slot: width");
+            slot.entry = named<SlotEntry>(entry, ENTRIES, "entry");
+            slot.angle = numberFrom(angle, "slot: angle");
+            slot.side = named<SlotSide>(side, SIDES, "side");
+            if (!depth.is_none())
+                slot.depth = numberFrom(depth, "slot: depth");
+            slot.lateralOffset = numberFrom(lateralOffset, "slot: lateral_offset");
+            slot.validate();
+            return slot;
+        }
+
+        py::array rowsOf(const std::vector<Eigen::Vector2d> &points)
+        {
+            py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+            auto rows = array.mutable_unchecked<2>();
+            for (std::size_t i = 0; i < points.size(); ++i)
+                for (int k = 0; k < 2; ++k)
+                    rows(static_cast<py::ssize_t>(i), k) = points[i][k];
+            return std::move(array);
+        }
+    }  // namespace
+
+    void addVehicles(py::module_ &module)
+    {
+        module.def("vehicles", &vehicleNames, "The names of the cars that Vehicle() knows.");
+
+        py::class_<Vehicle> vehicle(module, "Vehicle", R"(A car: its rectangle round the rear axle, and its limits.
+
+Vehicle("vw_golf8")                     a car known by name, see vehicles()
+Vehicle("van.yaml")                     or from a file
+Vehicle("vw_golf8", width=1.9)          changed
+Vehicle(wheelbase=2.9, width=1.9)       the car of TPCAP, changed
+
+Fields in metres, radians and SI units: wheelbase, front_overhang, rear_overhang, width, max_steering_angle (mean of the
+front wheels), max_speed, max_acceleration, max_steering_rate.)");
+        vehicle.def(py::init(&makeVehicle), py::arg("name_or_file") = "tpcap");
+        vehicle.def_readonly("name", &Vehicle::name);
+        for (const auto &field : FIELDS)
+            vehicle.def_readonly(field.first, field.second);
+        vehicle.def_property_readonly("turning_radius", &Vehicle::minTurningRadius,
+                                      "Smallest turning radius of the rear axle's middle, metres.");
+        vehicle.def_property_readonly("length", &Vehicle::length, "Bumper to bumper, metres.");
+        vehicle.def(
+            "footprint",
+            [](const Vehicle &self, const py::object &pose)
+            {
+                const auto corners = self.footprint(poseFrom(pose, "pose"));
+                return rowsOf({corners.begin(), corners.end()});
+            },
+            py::arg("pose"), "The corners of the body at a pose, counter-clockwise from rear right: a 4 x 2 array.");
+        vehicle.def("__repr__", [](const Vehicle &self) { return "Vehicle('" + self.name + "')"; });
+
+        py::class_<ParkingSlot>(module, "Slot", R"(A parking slot: a rectangle with a pose at its centre.
+
+Perpendicular and angled slots: +x of the pose points out of the slot towards the aisle. Parallel slots: +x is the direction
+of travel in the lane beside it. docs/scenario-format.md says what each field means.)")
+            .def(py::init(&makeSlot), py::arg("kind"), py::arg("pose"), py::arg("length"), py::arg("width"),
+                 py::arg("entry") = "reverse", py::arg("angle") = 0.25 * PI, py::arg("side") = "either",
+                 py::arg("depth") = py::none(), py::arg("lateral_offset") = 0.0)
+            .def_property_readonly("kind", [](const ParkingSlot &self) { return nameOf(self.kind, KINDS); })
+            .def_property_readonly("entry", [](const ParkingSlot &self) { return nameOf(self.entry, ENTRIES); })
+            .def_property_readonly("side", [](const ParkingSlot &self) { return nameOf(self.side, SIDES); })
+            .def_property_readonly("pose", [](const ParkingSlot &self) { return toPython(self.pose); })
+            .def_readonly("length", &ParkingSlot::length)
+            .def_readonly("width", &ParkingSlot::width)
+            .def_readonly("angle", &ParkingSlot::angle)
+            .def_readonly("depth", &ParkingSlot::depth)
+            .def_readonly("lateral_offset", &ParkingSlot::lateralOffset)
+            .def_property_readonly(
+                "outline", [](const ParkingSlot &self) { return rowsOf(self.outline()); },
+                "Its corners: a 4 x 2 array.")
+            .def(
+                "goals",
+                [](const ParkingSlot &self, const Vehicle &car)
+                {
+                    py::list goals;
+                    for (const Pose &pose : self.goals(car))
+                        goals.append(toPython(pose));
+                    return goals;
+                },
+                py::arg("vehicle"),
+                "Where the rear axle of a car parked in it stands: a list of poses, preferred first.")
+            .def("__repr__", [](const ParkingSlot &self) { return "Slot('" + nameOf(self.kind, KINDS) + "')"; });
+    }
+}  // namespace parking::python

@@ -1,0 +1,267 @@
+"""Planning from Python: the same answers as in C++, arrays of the right shape, Ctrl-C, threads."""
+import json
+import math
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pytest
+
+import improved_astar as ia
+
+SCENARIOS = os.path.join(os.environ['PARKING_SOURCE_DIR'], 'benchmarks', 'scenarios')
+BUNDLED = sorted(name for name in os.listdir(SCENARIOS) if name.endswith('.yaml') and not name.endswith('_map.yaml'))
+WALL = [[[-0.5, -15], [0.5, -15], [0.5, 2], [-0.5, 2]], [[-0.5, 6], [0.5, 6], [0.5, 15], [-0.5, 15]]]
+
+
+def scenario(name):
+    return ia.Scenario.read(os.path.join(SCENARIOS, name + '.yaml'))
+
+
+def behind_the_wall():
+    return ia.Scenario.from_polygons(WALL, (-10, -5, 0), (10, -5, 0))
+
+
+def test_neither_ompl_nor_fcl_are_in_the_process():
+    with open('/proc/self/maps', encoding='utf-8') as maps:
+        text = maps.read()
+    assert '_core' in text
+    assert 'libompl' not in text and 'libfcl' not in text and 'libceres' not in text
+
+
+@pytest.mark.parametrize('name', BUNDLED)
+def test_plans_as_parking_plan_does(name):
+    program = os.environ.get('PARKING_PLAN')
+    if not program or not os.path.exists(program):
+        pytest.skip('parking_plan is not built')
+    file = os.path.join(SCENARIOS, name)
+    done = subprocess.run([program, file, '--time-limit', '60', '--json', '-'], capture_output=True, text=True,
+                          check=False, timeout=120)
+    wanted = json.loads(done.stdout)
+    result = ia.plan(ia.Scenario.read(file), time_limit=60)
+    assert result.status == wanted['status']
+    assert result.statistics['expanded'] == wanted['search']['expanded']
+    assert result.length == pytest.approx(wanted['length_m'], abs=1e-6)
+    assert result.cusps == wanted['cusps']
+    assert result.clearance == pytest.approx(wanted['min_clearance_m'], abs=2e-3)
+    path = numpy.array([[s['x'], s['y'], s['yaw'], s['direction'], s['curvature']] for s in wanted['path']])
+    assert result.path[0] == pytest.approx(path[0], abs=1e-6)
+    assert result.path[-1][:3] == pytest.approx(path[-1][:3], abs=1e-6)
+
+
+def test_a_result_shows_its_path_without_copies():
+    result = ia.plan(scenario('parallel'))
+    assert result and result.status == 'exact' and result.reason == ''
+    assert result.path.shape[1] == 5 and result.path.dtype == numpy.float64
+    assert result.path.base is result and not result.path.flags.writeable
+    assert numpy.shares_memory(result.path, result.path) and numpy.shares_memory(result.pieces, result.pieces)
+    assert tuple(result.path[0, :3]) == result.scenario.start
+    assert tuple(result.path[-1, :3]) == result.goal
+    steps = numpy.hypot(*numpy.diff(result.path[:, :2], axis=0).T)
+    assert steps.max() < 0.1 + 1e-9
+    assert set(result.path[:, 3]) == {1.0, -1.0}
+    assert result.pieces.shape[1] == 4
+    assert numpy.abs(result.pieces[:, 1]).sum() == pytest.approx(result.length)
+    radius = result.scenario.vehicle.turning_radius
+    assert numpy.abs(result.path[:, 4]).max() <= 1 / radius + 1e-9
+    assert result.bound >= 1.0 and result.cost >= result.length
+    # An array outlives the result that it belongs to.
+    path, copy = result.path, result.path.copy()
+    del result
+    assert (path == copy).all()
+
+
+def test_a_trajectory_keeps_the_limits_of_the_car():
+    result = ia.plan(scenario('perpendicular'))
+    rows, car = result.trajectory, result.scenario.vehicle
+    assert rows.shape[1] == 8
+    assert rows[0, 0] == 0.0 and rows[-1, 0] == pytest.approx(result.duration)
+    assert (numpy.diff(rows[:, 0]) >= 0).all()
+    assert rows[0, 1:4] == pytest.approx(result.path[0, :3], abs=1e-6)
+    assert rows[-1, 1:3] == pytest.approx(result.path[-1, :2], abs=0.01)
+    for column, limit in ((4, car.max_speed), (5, car.max_acceleration), (6, car.max_steering_angle),
+                          (7, car.max_steering_rate)):
+        assert numpy.abs(rows[:, column]).max() <= limit + 1e-6
+    assert not result.trajectory_info['fallback']
+
+
+def test_the_referee_accepts_results_and_refuses_others():
+    problem = behind_the_wall()
+    result = ia.plan(problem)
+    for path in (result, result.path, result.path[:, :3], result.path.tolist()):
+        verdict = ia.check(problem, path)
+        assert verdict and verdict.fault == 'none' and verdict.collisions == 0
+    line = [[x, -5.0, 0.0] for x in numpy.linspace(-10, 10, 50)]
+    assert ia.check(problem, line).fault == 'collision'
+    assert ia.check(problem, result.path[5:]).fault == 'wrong_start'
+    assert ia.check(problem, result.path[:-5]).fault == 'misses_goal'
+    assert ia.check(problem, result.path[:-5], exact=False)
+
+
+def test_polygons_and_grid_of_the_same_world():
+    cells = numpy.zeros((60, 80), dtype=bool)
+    cells[:34, 38:42] = cells[42:, 38:42] = True
+    for dtype in (bool, numpy.uint8, numpy.int8, numpy.int64):
+        problem = ia.Scenario.from_grid(cells.astype(dtype), (-10, -5, 0), (10, -5, 0), resolution=0.5,
+                                        origin=(-20, -15, 0))
+        result = ia.plan(problem)
+        assert result and ia.check(problem, result)
+        assert (problem.grid == cells).all() and problem.grid.base is problem
+    assert problem.bounds == (-20, -15, 20, 15)
+    assert list(problem.is_free([[-10, -5, 0], [0, -5, 0]])) == [True, False]
+    distances = problem.clearance_at(numpy.array([[-10, -5, 0], [0, -5, 0]]))
+    assert distances[0] > 1.0 and distances[1] == 0.0
+
+
+def test_unknown_cells_are_as_asked():
+    cells = numpy.full((40, 40), -1, dtype=numpy.int8)
+    cells[:, :10] = 0
+    poses = [[12.0, 10.0, math.pi / 2]]
+    for occupied in (True, False):
+        problem = ia.Scenario.from_grid(cells, (2.5, 10, math.pi / 2), (2.5, 11, math.pi / 2), resolution=0.5,
+                                        unknown_is_occupied=occupied)
+        assert problem.is_free(poses)[0] != occupied
+
+
+def test_coordinates_may_be_large():
+    far = numpy.array([4e9, -4e9])
+    problem = ia.Scenario.from_polygons([numpy.array(wall) + far for wall in WALL], (*(far + (-10, -5)), 0),
+                                        (*(far + (10, -5)), 0))
+    here = ia.plan(behind_the_wall())
+    there = ia.plan(problem)
+    assert there.length == pytest.approx(here.length, abs=1e-5)
+    assert there.path[0, :2] == pytest.approx(far + (-10, -5), abs=1e-6)
+
+
+def test_slots_and_vehicles():
+    slot = ia.Slot('perpendicular', (0, -2.5, math.pi / 2), 5, 2.5, entry='either')
+    walls = [[[-1.7, -5], [-1.7, -0.4], [-3.5, -0.4], [-3.5, -5]], [[1.7, -5], [1.7, -0.4], [3.5, -0.4], [3.5, -5]]]
+    car = ia.Vehicle('vw_golf8', width=1.85)
+    assert car.name == 'custom' and car.width == 1.85
+    assert car.footprint((1, 2, 0.5)).shape == (4, 2)
+    problem = ia.Scenario.from_polygons(walls, (-8, 1.7, 0), slot=slot, vehicle=car)
+    assert len(problem.goals) == 2 and numpy.array(problem.goals) == pytest.approx(numpy.array(slot.goals(car)))
+    result = ia.plan(problem)
+    assert result.goal in problem.goals
+    narrow = problem.replace(vehicle='smart_fortwo')
+    assert narrow.vehicle.name == 'smart_fortwo' and narrow.goals != problem.goals
+    moved = problem.replace(start=(-6, 2, 0.1), goal=(0, 5, 0))
+    assert moved.start == (-6, 2, 0.1) and moved.goals == [(0, 5, 0)] and moved.slot is None
+
+
+def test_the_parking_planner_plans_smooth_ways():
+    plan = ia.ParkingPlanner().plan(scenario('perpendicular'))
+    assert plan and plan.found and plan.is_smooth and plan.status == 'found'
+    assert plan.gap > 0.0 and plan.clearance >= plan.gap / 2
+    assert (plan.pieces[:, 2] != 0).any()
+    assert ia.check(plan.scenario, plan)
+    tight = ia.ParkingPlanner(tight=True, aisle_width=4.5).plan(scenario('narrow_perpendicular'))
+    assert tight and ia.check(tight.scenario, tight)
+    taken = ia.ParkingPlanner(time_limit=2.0).plan(scenario('unreachable'))
+    assert not taken and taken.status in ('no_path', 'invalid_goal') and taken.message
+
+
+def test_the_grid_models_plan_for_the_circle():
+    result = ia.plan(behind_the_wall(), motion_model='grid8')
+    assert result and ia.check(result.scenario, result)
+    assert result.length > 20.0
+
+
+def test_a_batch_gives_what_single_plans_give():
+    problems = [scenario(name) for name in ('parallel', 'angled45', 'unreachable', 'perpendicular')] * 3
+    single = [ia.plan(each, max_expansions=2000, time_limit=60) for each in problems]
+    batch = ia.plan_batch(problems, threads=4, max_expansions=2000, time_limit=60)
+    assert [each.status for each in batch] == [each.status for each in single]
+    for one, other in zip(single, batch):
+        assert (one.path == other.path).all()
+    assert ia.plan_batch([]) == []
+
+
+def test_other_threads_run_while_one_plans():
+    counted, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+    other = threading.Thread(target=count)
+    other.start()
+    before = counted[0]
+    ia.plan(scenario('narrow_parallel'), time_limit=0.3, anytime=True)
+    after = counted[0]
+    done.set()
+    other.join()
+    assert after - before > 20
+
+
+@pytest.mark.parametrize('call', ['plan', 'plan_batch', 'ParkingPlanner'])
+def test_ctrl_c_ends_planning(call):
+    program = '''if True:
+        import os, signal, sys, threading, time
+        import improved_astar as ia
+        problem = ia.Scenario.read(sys.argv[1])
+        sent = []
+        def send():
+            time.sleep(0.2)
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+        ia.plan(problem)
+        threading.Thread(target=send).start()
+        try:
+            if sys.argv[2] == 'plan':
+                ia.plan(problem, time_limit=60, anytime=True)
+            elif sys.argv[2] == 'plan_batch':
+                ia.plan_batch([problem] * 8, time_limit=60, anytime=True, threads=2)
+            else:
+                while True:
+                    ia.ParkingPlanner(time_limit=60, tight=True).plan(problem)
+        except KeyboardInterrupt:
+            print(time.perf_counter() - sent[0])
+    '''
+    done = subprocess.run([sys.executable, '-c', program, os.path.join(SCENARIOS, 'narrow_parallel.yaml'), call],
+                          capture_output=True, text=True, check=False, timeout=50)
+    assert done.returncode == 0, done.stderr
+    # A machine at its limit may let the process wait; the 10 ms that are meant stand in docs/python.md.
+    assert float(done.stdout) < 1.0
+
+
+def test_python_adds_little():
+    """Processor time between a plan in C++ and the same from Python, in one process and by turns."""
+    problem = behind_the_wall()
+    ia.plan(problem)
+    inside, outside = [], []
+    for _ in range(300):
+        inside += ia._core._times_in_cpp(problem, 1)
+        begin = time.thread_time()
+        ia.plan(problem)
+        outside.append(time.thread_time() - begin)
+    added = 1e6 * (statistics.median(outside) - statistics.median(inside))
+    print(f'C++ {1e6 * statistics.median(inside):.1f} us, from Python {added:.1f} us more')
+    assert added < 250.0  # 50 are promised; the machine may be shared
+
+
+def test_the_same_question_gets_the_same_answer():
+    one, other = (ia.plan(scenario('underground_garage')) for _ in range(2))
+    assert (one.path == other.path).all() and one.statistics['expanded'] == other.statistics['expanded']
+
+
+def test_parameters_are_those_of_the_table():
+    table = ia.parameters()
+    assert table['gear_change_penalty'][0] == 0.5 and table['motion_model'][0] == 'car'
+    for name, (default, allowed, _, _) in table.items():
+        assert f'{name} : {allowed}' in ia.plan.__doc__
+        assert ia.plan(behind_the_wall()).parameters[name] == default
+    few = ia.plan(scenario('parallel'), gear_change_penalty=50.0)
+    many = ia.plan(scenario('parallel'), gear_change_penalty=0.0)
+    assert few.parameters['gear_change_penalty'] == 50.0 and few.cusps <= many.cusps
+    assert ia.plan(behind_the_wall(), parameter_set='hybrid_astar').parameters['adaptive_resolution'] is False
+
+
+def test_signals_of_the_past_do_not_disturb():
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    assert ia.plan(behind_the_wall())
