@@ -118,13 +118,9 @@ namespace parking::search
             if (sum < now - LEAST_GAIN)
                 order_.emplace_back(sum, &curve);
         }
-        // What is shortest may be dear for being near to obstacles.
-        const std::size_t most = closenessBefore_[j] > closenessBefore_[i] ? 2 : 1;
-        if (choice == CurveChoice::Cheapest && order_.size() > most)
-        {
-            std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(most), order_.end());
-            order_.resize(most);
-        }
+        // Away from obstacles the cheapest is not the shortest.
+        if (choice == CurveChoice::Cheapest && order_.size() > 1 && closenessBefore_[j] <= closenessBefore_[i])
+            order_.assign(1, *std::min_element(order_.begin(), order_.end()));
         return offerFreeCurves(environment_, cost_, pieces_[i].from, pieces_[j].from, order_, CurveEnd::Start,
                                now - LEAST_GAIN,
                                [&](const ReedsSheppCurve &curve, double)

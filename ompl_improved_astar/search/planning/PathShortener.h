@@ -15,8 +15,7 @@ namespace parking::search
     /** \brief Which curves between two knots are tried. */
     enum class CurveChoice
     {
-        Cheapest,  ///< the cheapest one, or two where there are obstacles nearby: those tried in vain are most often
-                   ///< the others
+        Cheapest,  ///< the cheapest one: among the curves tried in vain most are the others
         All        ///< every word, in the order of cost
     };
 
