@@ -6,7 +6,7 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double SAMPLES_APART = 0.5;  // metres, of what is driven nearer than preferred
+        constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
     }
 
     double CostModel::closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,

@@ -196,7 +196,7 @@ def plan(scenario: Scenario, time_limit: float = 1.0, anytime: bool = False, max
          obstacle_heuristic: bool = True, detours: bool = True, obstacle_loading: str = 'lazy', adaptive_resolution:
          bool = True, analytic_expansion: bool = True, reverse_penalty: float = 0.0, gear_change_penalty: float = 0.5,
          steering_change_penalty: float = 0.1, clearance_weight: float = 0.0, preferred_clearance: float = 0.1,
-         clearance_cost: float = 5.0, smoothing: str = 'bspline', shortening: bool = True, approximate: bool = True,
+         clearance_cost: float = 10.0, smoothing: str = 'bspline', shortening: bool = True, approximate: bool = True,
          max_memory_mb: int = 512) -> Result: ...
 def plan_batch(scenarios: Iterable[Scenario], threads: int = 0, time_limit: float = 1.0, anytime: bool = False,
                max_expansions: int = 0, *, parameter_set: str = 'default', motion_model: str = 'car', turning_radius:
@@ -206,7 +206,7 @@ def plan_batch(scenarios: Iterable[Scenario], threads: int = 0, time_limit: floa
                tie_break: float = 0.001, heuristic: str = 'default', obstacle_heuristic: bool = True, detours: bool =
                True, obstacle_loading: str = 'lazy', adaptive_resolution: bool = True, analytic_expansion: bool =
                True, reverse_penalty: float = 0.0, gear_change_penalty: float = 0.5, steering_change_penalty: float =
-               0.1, clearance_weight: float = 0.0, preferred_clearance: float = 0.1, clearance_cost: float = 5.0,
+               0.1, clearance_weight: float = 0.0, preferred_clearance: float = 0.1, clearance_cost: float = 10.0,
                smoothing: str = 'bspline', shortening: bool = True, approximate: bool = True, max_memory_mb: int =
                512) -> List[Result]: ...
 # parameters:end

@@ -84,7 +84,7 @@ namespace
                                                           {"anytime", "0"},
                                                           {"approximate", "1"},
                                                           {"bidirectional", "1"},
-                                                          {"clearance_cost", "5"},
+                                                          {"clearance_cost", "10"},
                                                           {"clearance_weight", "0"},
                                                           {"detours", "1"},
                                                           {"gear_change_penalty", "0.5"},

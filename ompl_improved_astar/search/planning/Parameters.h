@@ -38,7 +38,7 @@ namespace parking
         double steeringChangePenalty{0.1};
         double clearanceWeight{0.0};
         double preferredClearance{0.1};
-        double clearanceCost{5.0};
+        double clearanceCost{10.0};
         std::string smoothing{"bspline"};
         bool shortening{true};
         bool approximate{true};

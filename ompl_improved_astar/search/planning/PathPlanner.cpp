@@ -127,7 +127,7 @@ namespace parking::search
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
-            if (best.length() > (1.0 + tuning.stillLong) * expected)
+            if (best.length() > (1.0 + tuning.stillLong) * expected || closeness(best) > 0.0)
                 shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                         tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
         }

@@ -309,12 +309,12 @@ TEST(CostModel, pricesWhatIsNearerThanPreferred)
     EXPECT_NEAR(besideTheWall(0.01), 2.0 * 4.0, 1e-9) << "near is near";
     // Towards the wall: the last 0.3 m of 1 m, up to a sample; the same backwards, and for what is known beforehand.
     const Pose from{10.0 - 0.95 - 2.6 - 1.0, 0.0, 0.0}, to = advance(from, 0.0, 1.0);
-    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world), 0.3 * 4.0, 0.5 * 4.0);
+    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world), 0.3 * 4.0, 0.25 * 4.0);
     EXPECT_NEAR(model.closeness(to, {0.0, -1.0}, world), model.closeness(from, {0.0, 1.0}, world), 1e-9);
-    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world, 0.69), 0.31 * 4.0, 0.5 * 4.0);
+    EXPECT_NEAR(model.closeness(from, {0.0, 1.0}, world, 0.69), 0.31 * 4.0, 0.25 * 4.0);
     EXPECT_EQ(model.closeness(from, {0.0, 0.69}, world, 0.69), 0.0);
     // What is known to come too near beyond a point does, whether a sample meets it or not.
-    EXPECT_NEAR(model.closeness({0.0, 0.0, 0.0}, {0.0, 1.0}, world, 0.6), 0.4 * 4.0, 1e-9);
+    EXPECT_NEAR(model.closeness({0.0, 0.0, 0.0}, {0.0, 1.0}, world, 0.6), 0.2 * 4.0, 1e-9);
     // A metre of it is worth so many of detour, in whole paths as in their pieces.
     const Path path{from, {{0.0, 1.0}, {0.0, -1.0}}};
     EXPECT_NEAR(pathCost(model, path, world), 2.0 + pathCloseness(model, path, world), 1e-9);
