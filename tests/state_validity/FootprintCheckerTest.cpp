@@ -57,6 +57,15 @@ TEST(FootprintChecker, ClearanceIsALowerBoundAndNearlyTheDistance)
             const double some = checker.clearance(pose, enough, counts);
             ASSERT_LE(some, distance + 1e-12);
             ASSERT_GE(some, std::min(enough, clearance) - 1e-9);
+            // So is the question without a number; both sides of the distance itself.
+            for (const double asked : {enough, distance - 1e-9, distance + 1e-9, clearance - 1e-9})
+            {
+                if (asked <= 0.0)
+                    continue;
+                const bool keeps = checker.keeps(pose, asked, counts);
+                ASSERT_TRUE(!keeps || asked <= distance + 1e-12) << asked << " of " << distance;
+                ASSERT_TRUE(keeps || asked > std::min(clearance, 0.9) - 1e-9) << asked << " of " << clearance;
+            }
         }
     }
     EXPECT_GT(exact, 5000);
@@ -78,6 +87,10 @@ TEST(FootprintChecker, ClearanceOnGridsIsALowerBound)
             const double exact = checker.exactClearance(pose);
             ASSERT_GE(exact, clearance - 1e-12);
             ASSERT_EQ(exact > 0.0, checker.isFree(pose));
+            CheckCounts counts;
+            const double asked = random.between(0.0, 0.9);
+            ASSERT_TRUE(std::abs(clearance - asked) < 1e-9 ||
+                        checker.keeps(pose, asked, counts) == (clearance > asked));
         }
     }
 }
