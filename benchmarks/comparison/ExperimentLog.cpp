@@ -1,6 +1,7 @@
 #include "benchmarks/comparison/ExperimentLog.h"
 
 #include "benchmarks/comparison/RunColumns.h"
+#include "benchmarks/system/OmplBenchmarkCompatibility.h"
 #include "parking_geometry/text/Text.h"
 
 #include <ompl/base/spaces/SE2StateSpace.h>
@@ -115,7 +116,7 @@ namespace parking
             planner.progressPropertyNames = {"best cost REAL", "time REAL"};
             for (const RunRecord *record : own)
             {
-                planner.runs.push_back(omplProperties(*record));
+                planner.runs.push_back(ompl_compatibility::runProperties(omplProperties(*record)));
                 planner.runsProgressData.push_back(progressOf(*record, config.timeLimit));
                 data.totalDuration += record->time.value_or(0.0);
             }

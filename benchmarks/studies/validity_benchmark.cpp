@@ -4,6 +4,7 @@
 // more than times: --benchmark_enable_random_interleaving=true puts both sides of a ratio into the same conditions.
 
 #include "benchmarks/studies/ValidityWorlds.h"
+#include "benchmarks/system/OmplBenchmarkCompatibility.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
@@ -118,7 +119,7 @@ namespace
             si->setup();
             swept = std::make_shared<SweptMotionValidator>(si);
             discrete = std::make_shared<ob::DiscreteMotionValidator>(si);
-            curveOnce = std::make_shared<ob::ReedsSheppMotionValidator>(si);
+            curveOnce = ompl_compatibility::reedsSheppValidator(si);
             plainSi = std::make_shared<ob::SpaceInformation>(space);
             plainSi->setStateValidityChecker([this, plain = std::make_shared<const PlainFclChecker>(
                                                         world.obstacles, vehicle)](const ob::State *state)

@@ -4,6 +4,12 @@
 #include <cstddef>
 #include <vector>
 
+#include <ompl/config.h>
+
+#if OMPL_VERSION_VALUE < 1005000
+#error "OMPL 1.5 or later is needed (the package libompl-dev of Debian 12 or Ubuntu 22.04, and later)"
+#endif
+
 namespace parking
 {
     /** \brief What differs between the releases 1.5 to 2.0 of OMPL, as far as this library meets it.

@@ -120,6 +120,27 @@ class ScriptsTest(unittest.TestCase):
             self.assertIn('310 MB of disk are free', done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1)
 
+    def test_bare_root_says_in_one_line_what_it_lacks(self):
+        for what, arguments, said in (
+                ('', ['trixie', 'bookworm'], 'more than one SUITE'), ('', [], 'no SUITE'), ('', ['--fast'], '--fast'),
+                ('', ['a b'], "'a b'"), ('', ['trixie', '--root'], '--root needs a value'),
+                ('id', ['trixie'], 'only be made by root'), ('apt-get', ['trixie'], 'names no mirror'),
+                ('df', ['trixie'], '310 MB'), ('debootstrap', ['nowhere'], 'could not make nowhere: E: no such release')):
+            self.replace('id', 'echo 0')
+            self.replace('df', 'printf "Avail\\n  9310\\n"')
+            self.replace('apt-get', 'echo "Debian|http://mirror.invalid"')
+            self.replace('debootstrap', 'echo "E: no such release"; exit 1')
+            self.replace('git', 'exit 1')
+            self.replace('unshare', 'exit 1')
+            if what in ('id', 'apt-get', 'df'):
+                self.replace(what, {'id': 'echo 1000', 'apt-get': 'exit 1', 'df': 'printf "Avail\\n  310\\n"'}[what])
+            with self.subTest(f'{what} {arguments}'):
+                done = self.run_script('try-in-bare-root', *arguments, TMPDIR=self.folder)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(said, done.stderr)
+                self.assertEqual([name for name in os.listdir(self.folder) if 'bare-root' in name], [])
+
     def test_wrong_options_end_with_status_2_and_one_line(self):
         for script, arguments in (('test', ['--release']), ('test', ['a', 'b']), ('compare', ['--fast']),
                                   ('compare', ['results'])):

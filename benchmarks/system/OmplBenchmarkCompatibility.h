@@ -1,0 +1,52 @@
+#pragma once
+
+#include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace ompl::base
+{
+    class ReedsSheppMotionValidator;  // where OMPL has one; from 2.0 on it stays a name
+}
+
+namespace parking
+{
+    /** \brief What differs between the releases 1.5 to 2.0 of OMPL, as far as the comparison meets it. What the
+        libraries meet is in state_validity/ompl/OmplCompatibility.h. */
+    namespace ompl_compatibility
+    {
+        /** \brief The figures of a run for OMPL's benchmark, whose type is a map up to 1.6, and later a struct derived
+            from one. */
+        inline ompl::tools::Benchmark::RunProperties runProperties(const std::map<std::string, std::string> &figures)
+        {
+            ompl::tools::Benchmark::RunProperties properties;
+            properties.insert(figures.begin(), figures.end());
+            return properties;
+        }
+
+        template <class Validator>
+        auto validatorOfCurves(const ompl::base::SpaceInformationPtr &si, int /*preferred*/)
+            -> decltype(sizeof(Validator), ompl::base::MotionValidatorPtr())
+        {
+            return std::make_shared<Validator>(si);
+        }
+
+        template <class Validator>
+        ompl::base::MotionValidatorPtr validatorOfCurves(const ompl::base::SpaceInformationPtr &si, long /*otherwise*/)
+        {
+            return std::make_shared<ompl::base::DiscreteMotionValidator>(si);
+        }
+
+        /** \brief The validator that a Reeds-Shepp space brings: ReedsSheppMotionValidator, and from 2.0 on
+            DiscreteMotionValidator. */
+        inline ompl::base::MotionValidatorPtr reedsSheppValidator(const ompl::base::SpaceInformationPtr &si)
+        {
+            return validatorOfCurves<ompl::base::ReedsSheppMotionValidator>(si, 0);
+        }
+    }  // namespace ompl_compatibility
+}  // namespace parking
