@@ -16,7 +16,7 @@ set_property(TARGET parking_core PROPERTY EXPORT_NAME core)
 target_link_libraries(parking_core INTERFACE ${parking_core_libraries})
 
 # Two sets of targets: that of the core can be read where OMPL, FCL and the others are not installed.
-install(TARGETS parking_core EXPORT ${PROJECT_NAME}CoreTargets)
+install(TARGETS parking_core EXPORT ${PROJECT_NAME}CoreTargets COMPONENT development)
 foreach(set IN ITEMS core other)
   if(set STREQUAL "core")
     set(export ${PROJECT_NAME}CoreTargets)
@@ -26,13 +26,13 @@ foreach(set IN ITEMS core other)
   if(parking_${set}_libraries)
     install(TARGETS ${parking_${set}_libraries}
       EXPORT ${export}
-      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT libraries
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
     install(EXPORT ${export}
       NAMESPACE ${PROJECT_NAME}::
-      DESTINATION ${parking_package_dir})
+      DESTINATION ${parking_package_dir} COMPONENT development)
   endif()
 endforeach()
 
@@ -58,18 +58,18 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/${PROJECT_NAME}Co
 install(FILES
   ${PROJECT_BINARY_DIR}/package/${PROJECT_NAME}Config.cmake
   ${PROJECT_BINARY_DIR}/package/${PROJECT_NAME}ConfigVersion.cmake
-  DESTINATION ${parking_package_dir})
+  DESTINATION ${parking_package_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
-  DESTINATION ${parking_package_dir} RENAME ${PROJECT_NAME}Dependencies.cmake)
+  DESTINATION ${parking_package_dir} COMPONENT development RENAME ${PROJECT_NAME}Dependencies.cmake)
 
 parking_install_pkg_config()
 
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 # The programs, where they are built, with the problems that they bring.
 foreach(program IN ITEMS parking_plan parking_benchmark)
   if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
     file(RELATIVE_PATH parking_bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
     set_property(TARGET ${program} PROPERTY INSTALL_RPATH "$ORIGIN/${parking_bin_to_lib}")
   endif()

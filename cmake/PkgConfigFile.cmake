@@ -39,7 +39,8 @@ function(parking_write_pkg_config name)
   list(TRANSFORM PC_LIBRARIES PREPEND "-l")
   list(JOIN PC_LIBRARIES " " PC_LIBRARIES)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/package.pc.in ${PROJECT_BINARY_DIR}/package/${name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endfunction()
 
 function(parking_install_pkg_config)

@@ -1,5 +1,6 @@
-// The program of the README, as it is compiled and run by the tests: a car parks in reverse between two others.
-// readme:begin
+// The program of docs/using.md and, in part, of the README, as it is compiled and run by the tests: a car parks in reverse
+// between two others.
+// program:begin
 #include <iostream>
 #include <memory>
 
@@ -21,6 +22,7 @@ int main()
     auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(car.minTurningRadius());
     space->setBounds(bounds);
 
+    // readme:begin
     ompl::geometric::SimpleSetup setup(space);
     const auto &si = setup.getSpaceInformation();
     const auto world = parking::ObstacleSet::fromPolygons(obstacles, {{-15, -15}, {15, 15}});
@@ -37,5 +39,6 @@ int main()
     if (setup.solve(1.0) != ompl::base::PlannerStatus::EXACT_SOLUTION)
         return 1;
     setup.getSolutionPath().printAsMatrix(std::cout);
+    // readme:end
 }
-// readme:end
+// program:end

@@ -5,7 +5,7 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing, test: for the tests only | what for
+# package | build: for building and comparing; test, docs, package: only for tests, reference, packages | what for
 packages()
 {
     cat <<'LIST'
@@ -32,7 +32,9 @@ pkg-config                   | test  | the consumer that finds the installed pac
 git                          | test  | names the files that the style tests look at
 clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
-doxygen                      | test  | builds the documentation, which must not make it warn
+doxygen                      | test docs | builds the reference, which must not make it warn
+dpkg-dev                     | test package | finds out what packages a library needs
+file                         | test package | tells programs from other files
 python3-dev                  | test  | the Python module
 pybind11-dev                 | test  | pybind11: the Python module
 python3-numpy                | test  | arrays of the Python module
@@ -42,10 +44,17 @@ python3-pytest               | test  | runs the tests of the Python module
 LIST
 }
 
-# packages_for build|test: name and purpose, one per line. The tests need what the build needs, too.
+# packages_for PART...: name and purpose, one per line.
 packages_for()
 {
-    packages | awk -F ' *[|] *' -v part="$1" '$2 == "build" || $2 == part { print $1 "\t" $3 }'
+    packages | awk -F ' *[|] *' -v wanted=" $* " '{
+        count = split($2, parts, " ")
+        for (i = 1; i <= count; ++i)
+            if (index(wanted, " " parts[i] " ")) {
+                print $1 "\t" $3
+                next
+            }
+    }'
 }
 
 is_installed()
@@ -68,14 +77,14 @@ can_be_root()
     [[ $(id -u) == 0 ]] || sudo --non-interactive true 2>/dev/null
 }
 
-# require_packages build|test: installs what is missing, and touches neither apt nor the network when nothing is.
+# require_packages PART...: installs what is missing, and touches neither apt nor the network when nothing is.
 require_packages()
 {
     local package purpose total=0
     local -a missing=() reasons=()
     if ! command -v dpkg-query >/dev/null; then
         say "This is no Debian or Ubuntu: the packages cannot be checked. What is needed, by Debian's names:"
-        packages_for "$1" | while IFS=$'\t' read -r package purpose; do
+        packages_for "$@" | while IFS=$'\t' read -r package purpose; do
             printf '    %-28s  %s\n' "$package" "$purpose"
         done
         return 0
@@ -86,7 +95,7 @@ require_packages()
             missing+=("$package")
             reasons+=("$(printf '    %-28s  %s' "$package" "$purpose")")
         fi
-    done < <(packages_for "$1")
+    done < <(packages_for "$@")
     if ((${#missing[@]} == 0)); then
         say "All $total packages are installed."
         return 0

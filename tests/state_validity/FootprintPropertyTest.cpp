@@ -5,6 +5,8 @@
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/fcl/FclContactTest.h"
 
+#include <iomanip>
+
 #include <gtest/gtest.h>
 
 using namespace parking;

@@ -22,7 +22,7 @@ def main(root):
             continue
         for link in LINK.finditer(CODE_BLOCK.sub('', text_of(root, name))):
             target = (link.group(1) or link.group(2)).split('#')[0]
-            if not target or ':' in target:
+            if not target or ':' in target or target.startswith('../../actions/'):  # pages of the host of the project
                 continue
             path = os.path.normpath(os.path.join(os.path.dirname(name), target))
             if path not in files and not any(folder == path or folder.startswith(path + '/') for folder in folders):

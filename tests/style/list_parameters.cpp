@@ -1,4 +1,4 @@
-// Prints the README's table of the planner's parameters, in Markdown.
+// Prints the table of the planner's parameters for docs/parameters.md, in Markdown.
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/text/Text.h"
 

@@ -64,8 +64,8 @@ class PerformanceTableTest(unittest.TestCase):
                 self.assertNotEqual(script.faults(file, bad), [], bad)
 
     def test_a_missing_marker_or_benchmark_is_named(self):
-        with self.assertRaisesRegex(script.Failure, 'README.md: 0 places between'):
-            script.replaced('README.md', 'nothing here', 'text')
+        with self.assertRaisesRegex(script.Failure, 'docs/performance.md: 0 places between'):
+            script.replaced('docs/performance.md', 'nothing here', 'text')
         with self.assertRaisesRegex(script.Failure, 'no benchmark stateCheck'):
             script.readme_table(script.Results())
 

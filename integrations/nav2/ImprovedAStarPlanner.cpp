@@ -1,0 +1,211 @@
+#include "integrations/nav2/ImprovedAStarPlanner.h"
+
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include <nav2_costmap_2d/cost_values.hpp>
+#include <pluginlib/class_list_macros.hpp>
+
+namespace parking
+{
+    namespace compatibility = nav2_compatibility;
+    using Clock = std::chrono::steady_clock;
+
+    namespace
+    {
+        constexpr double TOLERANCE = 1e-3;  // metres kept from obstacles along motions
+
+        std::string textOf(const Pose &pose)
+        {
+            return "(" + formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw) + ")";
+        }
+
+        Box boundsOf(const OccupancyGrid &grid)
+        {
+            const Pose &origin = grid.origin();
+            return {{origin.x, origin.y},
+                    {origin.x + static_cast<double>(grid.width()) * grid.resolution(),
+                     origin.y + static_cast<double>(grid.height()) * grid.resolution()}};
+        }
+
+        bool isWithin(const Box &box, const Pose &pose)
+        {
+            return pose.x >= box.min.x() && pose.x <= box.max.x() && pose.y >= box.min.y() && pose.y <= box.max.y();
+        }
+    }  // namespace
+
+    struct ImprovedAStarPlanner::Query
+    {
+        const PlannerSettings &settings;
+        const FootprintChecker &checker;
+        Box bounds;
+        Clock::time_point end;
+        const std::function<bool()> &cancelled;
+    };
+
+    void ImprovedAStarPlanner::configure(const compatibility::Node::WeakPtr &parent, std::string name,
+                                         std::shared_ptr<tf2_ros::Buffer> /*tf*/,
+                                         std::shared_ptr<nav2_costmap_2d::Costmap2DROS> costmap)
+    {
+        const auto node = parent.lock();
+        if (!node)
+            throw compatibility::PlannerException("the node of the planner is gone");
+        node_ = parent;
+        name_ = std::move(name);
+        costmap_ = std::move(costmap);
+        declareSettings(*node, name_);
+        readSettings(*node, name_);
+    }
+
+    void ImprovedAStarPlanner::cleanup()
+    {
+        costmap_.reset();
+    }
+
+    void ImprovedAStarPlanner::activate()
+    {
+    }
+
+    void ImprovedAStarPlanner::deactivate()
+    {
+    }
+
+    nav_msgs::msg::Path ImprovedAStarPlanner::createPlan(const PoseStamped &start, const PoseStamped &goal)
+    {
+        return createPlan(start, goal, {}, [] { return false; });
+    }
+
+    nav_msgs::msg::Path ImprovedAStarPlanner::createPlan(const PoseStamped &start, const PoseStamped &goal,
+                                                         std::function<bool()> cancelled)
+    {
+        return createPlan(start, goal, {}, std::move(cancelled));
+    }
+
+    nav_msgs::msg::Path ImprovedAStarPlanner::createPlan(const PoseStamped &start, const PoseStamped &goal,
+                                                         const std::vector<PoseStamped> &viaPoints,
+                                                         std::function<bool()> cancelled)
+    {
+        const auto node = node_.lock();
+        if (!node || !costmap_)
+            throw compatibility::PlannerException("the planner is not configured");
+        std::vector<Pose> stops{poseOf(start)};
+        for (const PoseStamped &each : viaPoints)
+            stops.push_back(poseOf(each));
+        stops.push_back(poseOf(goal));
+
+        Path path;
+        PlannerSettings settings;
+        try
+        {
+            settings = readSettings(*node, name_);
+            const OccupancyGrid grid = copyOfCostmap(settings);
+            const Box bounds = boundsOf(grid);
+            if (!isWithin(bounds, stops.front()))
+                throw compatibility::StartOutsideMapBounds("the start " + textOf(stops.front()) + " is not on the map");
+            for (std::size_t i = 1; i < stops.size(); ++i)
+                if (!isWithin(bounds, stops[i]))
+                    throw compatibility::GoalOutsideMapBounds("the goal " + textOf(stops[i]) + " is not on the map");
+            const FootprintChecker checker(ObstacleSet::fromGrid(grid, settings.unknownIsOccupied), settings.vehicle,
+                                           settings.margin);
+            const auto time = std::chrono::duration<double>(settings.maxPlanningTime);
+            const Query query{settings, checker, bounds,
+                              Clock::now() + std::chrono::duration_cast<Clock::duration>(time), cancelled};
+            path.start = stops.front();
+            for (std::size_t i = 1; i < stops.size(); ++i)
+                path.extend(planLeg(query, stops[i - 1], stops[i], i + 1 == stops.size()));
+        }
+        catch (const Error &error)
+        {
+            throw compatibility::PlannerException(error.what());
+        }
+
+        nav_msgs::msg::Path plan;
+        plan.header.frame_id = costmap_->getGlobalFrameID();
+        plan.header.stamp = node->now();
+        for (const PathState &state : path.sample(settings.pathResolution))
+        {
+            PoseStamped stamped;
+            stamped.header = plan.header;
+            stamped.pose.position.x = state.pose.x;
+            stamped.pose.position.y = state.pose.y;
+            stamped.pose.orientation.z = std::sin(0.5 * state.pose.yaw);
+            stamped.pose.orientation.w = std::cos(0.5 * state.pose.yaw);
+            plan.poses.push_back(stamped);
+        }
+        return plan;
+    }
+
+    OccupancyGrid ImprovedAStarPlanner::copyOfCostmap(const PlannerSettings &settings) const
+    {
+        nav2_costmap_2d::Costmap2D &costmap = *costmap_->getCostmap();
+        // Layers go on writing to it as soon as the lock is gone.
+        const std::lock_guard<nav2_costmap_2d::Costmap2D::mutex_t> lock(*costmap.getMutex());
+        const std::size_t width = costmap.getSizeInCellsX(), height = costmap.getSizeInCellsY();
+        OccupancyGrid grid(width, height, costmap.getResolution(), {costmap.getOriginX(), costmap.getOriginY(), 0.0});
+        const unsigned char *costs = costmap.getCharMap();
+        for (std::size_t row = 0; row < height; ++row)
+            for (std::size_t column = 0; column < width; ++column)
+            {
+                const unsigned char cost = costs[row * width + column];
+                if (cost == nav2_costmap_2d::NO_INFORMATION)
+                    grid.set(column, row, Cell::Unknown);
+                else if (cost >= settings.lethalCost)
+                    grid.set(column, row, Cell::Occupied);
+            }
+        return grid;
+    }
+
+    Path ImprovedAStarPlanner::planLeg(const Query &query, const Pose &from, const Pose &to, bool isLast) const
+    {
+        if (!query.checker.isFree(from))
+            throw compatibility::StartOccupied("the car touches an obstacle at its start " + textOf(from));
+        if (!query.checker.isFree(to))
+            throw compatibility::GoalOccupied("the car would touch an obstacle at the goal " + textOf(to));
+        search::PlanRequest request;
+        request.starts = {from};
+        request.goals = {to};
+        request.parameters = query.settings.parameters;
+        request.parameters.approximate = query.settings.allowApproximate && isLast;
+        request.car = {query.settings.vehicle.minTurningRadius(), false,
+                       query.settings.vehicle.inscribedRadius(query.settings.margin), query.bounds};
+        // Once here, since what is found at once is found without asking.
+        bool cancelled = query.cancelled && query.cancelled();
+        request.stop = [&]
+        {
+            cancelled = cancelled || (query.cancelled && query.cancelled());
+            return cancelled || Clock::now() >= query.end;
+        };
+        if (cancelled)
+            throw compatibility::PlannerCancelled("planning was cancelled");
+        FootprintEnvironment environment(query.checker, query.bounds, TOLERANCE);
+        const search::PlanResult result = search::plan(environment, request);
+        if (cancelled)
+            throw compatibility::PlannerCancelled("planning was cancelled");
+        if (result.outcome == search::PlanOutcome::Solved || result.outcome == search::PlanOutcome::Approximate)
+            return result.path;
+        if (result.outcome == search::PlanOutcome::Timeout)
+            throw compatibility::PlannerTimedOut("no path was found within " +
+                                                 formatNumber(query.settings.maxPlanningTime) + " s");
+        throw compatibility::NoValidPathCouldBeFound(result.reason.empty() ? "there is no path" : result.reason);
+    }
+
+    Pose ImprovedAStarPlanner::poseOf(const PoseStamped &stamped) const
+    {
+        const std::string frame = costmap_->getGlobalFrameID();
+        if (stamped.header.frame_id != frame)
+            throw compatibility::PlannerTFError("a pose is in the frame '" + stamped.header.frame_id +
+                                                "', the costmap in '" + frame + "'");
+        const auto &turn = stamped.pose.orientation;
+        return {stamped.pose.position.x, stamped.pose.position.y,
+                std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z))};
+    }
+}  // namespace parking
+
+PLUGINLIB_EXPORT_CLASS(parking::ImprovedAStarPlanner, nav2_core::GlobalPlanner)

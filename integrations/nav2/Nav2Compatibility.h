@@ -1,0 +1,49 @@
+#pragma once
+
+#include <geometry_msgs/msg/pose_stamped.hpp>
+#include <nav2_core/global_planner.hpp>
+#include <nav2_costmap_2d/costmap_2d_ros.hpp>
+#include <nav_msgs/msg/path.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
+#if __has_include(<nav2_ros_common/lifecycle_node.hpp>)
+#include <nav2_ros_common/lifecycle_node.hpp>
+#endif
+#if __has_include(<nav2_core/planner_exceptions.hpp>)
+#include <nav2_core/planner_exceptions.hpp>
+#else
+#include <nav2_core/exceptions.hpp>
+#endif
+
+/** \brief What differs between the releases of nav2, as far as the planner meets it. */
+namespace parking::nav2_compatibility
+{
+#if __has_include(<nav2_ros_common/lifecycle_node.hpp>)
+    using Node = nav2::LifecycleNode;  // after jazzy
+#else
+    using Node = rclcpp_lifecycle::LifecycleNode;
+#endif
+
+#if __has_include(<nav2_core/planner_exceptions.hpp>)
+    using nav2_core::GoalOccupied;
+    using nav2_core::GoalOutsideMapBounds;
+    using nav2_core::NoValidPathCouldBeFound;
+    using nav2_core::PlannerCancelled;
+    using nav2_core::PlannerException;
+    using nav2_core::PlannerTFError;
+    using nav2_core::PlannerTimedOut;
+    using nav2_core::StartOccupied;
+    using nav2_core::StartOutsideMapBounds;
+#else
+    // Humble has one for all, and tells them apart by their text alone.
+    using nav2_core::PlannerException;
+    using GoalOccupied = PlannerException;
+    using GoalOutsideMapBounds = PlannerException;
+    using NoValidPathCouldBeFound = PlannerException;
+    using PlannerCancelled = PlannerException;
+    using PlannerTFError = PlannerException;
+    using PlannerTimedOut = PlannerException;
+    using StartOccupied = PlannerException;
+    using StartOutsideMapBounds = PlannerException;
+#endif
+}  // namespace parking::nav2_compatibility

@@ -1,0 +1,84 @@
+#include "integrations/nav2/PlannerSettings.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+namespace parking
+{
+    namespace
+    {
+        using nav2_compatibility::Node;
+
+        /** What a parameter of ROS can hold; whole numbers are of 64 bits there. */
+        template <class Value>
+        using RosValue = std::conditional_t<std::is_integral_v<Value> && !std::is_same_v<Value, bool>, std::int64_t,
+                                            std::conditional_t<std::is_floating_point_v<Value>, double, Value>>;
+
+        /** Calls \e visit with the name and the member of every setting. */
+        template <class Visitor>
+        void forEachSetting(PlannerSettings &settings, const Visitor &visit)
+        {
+            visit("wheelbase", settings.vehicle.wheelbase);
+            visit("front_overhang", settings.vehicle.frontOverhang);
+            visit("rear_overhang", settings.vehicle.rearOverhang);
+            visit("width", settings.vehicle.width);
+            visit("max_steering_angle", settings.vehicle.maxSteeringAngle);
+            visit("margin", settings.margin);
+            visit("lethal_cost", settings.lethalCost);
+            visit("unknown_is_occupied", settings.unknownIsOccupied);
+            visit("max_planning_time", settings.maxPlanningTime);
+            visit("path_resolution", settings.pathResolution);
+            visit("allow_approximate", settings.allowApproximate);
+            for (const Parameter &row : parameterTable())
+                if (row.name != "turning_radius" && row.name != "parameter_set")  // the vehicle's; a name only
+                    std::visit([&](auto member) { visit(row.name, settings.parameters.*member); }, row.member);
+        }
+
+        void checkRange(const char *name, double value, double least, double most)
+        {
+            if (!(value >= least && value <= most))
+                throw Error(std::string(name) + " must be between " + formatNumber(least) + " and " +
+                            formatNumber(most) + ", not " + formatNumber(value));
+        }
+    }  // namespace
+
+    void declareSettings(Node &node, const std::string &name)
+    {
+        PlannerSettings defaults;
+        forEachSetting(defaults,
+                       [&](const std::string &setting, auto &value)
+                       {
+                           using Value = std::decay_t<decltype(value)>;
+                           if (!node.has_parameter(name + "." + setting))
+                               node.declare_parameter(name + "." + setting,
+                                                      rclcpp::ParameterValue(RosValue<Value>(value)));
+                       });
+    }
+
+    PlannerSettings readSettings(Node &node, const std::string &name)
+    {
+        PlannerSettings settings;
+        forEachSetting(settings,
+                       [&](const std::string &setting, auto &value)
+                       {
+                           using Value = std::decay_t<decltype(value)>;
+                           const rclcpp::Parameter parameter = node.get_parameter(name + "." + setting);
+                           const auto found = parameter.get_value<RosValue<Value>>();
+                           if constexpr (std::is_unsigned_v<Value> && !std::is_same_v<Value, bool>)
+                               if (found < 0)
+                                   throw Error(setting + " must not be negative");
+                           value = static_cast<Value>(found);
+                       });
+        settings.vehicle.validate();
+        checkParameters(settings.parameters);
+        checkRange("margin", settings.margin, 0.0, 10.0);
+        checkRange("lethal_cost", settings.lethalCost, 1.0, 254.0);
+        checkRange("max_planning_time", settings.maxPlanningTime, 1e-3, 3600.0);
+        checkRange("path_resolution", settings.pathResolution, 1e-3, 10.0);
+        return settings;
+    }
+}  // namespace parking

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "integrations/nav2/Nav2Compatibility.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
+#include "parking_geometry/Vehicle.h"
+
+#include <string>
+
+namespace parking
+{
+    /** \brief What the plugin goes by: ROS parameters below the plugin's name. */
+    struct PlannerSettings
+    {
+        Vehicle vehicle;  ///< `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
+        PlannerParameters parameters;  ///< by the names of parameterTable(); `turning_radius` is the vehicle's
+        double margin{0.05};           ///< `margin`: metres by which the body is enlarged on each side
+        int lethalCost{254};           ///< `lethal_cost`: cells of this cost and above are obstacles
+        bool unknownIsOccupied{true};  ///< `unknown_is_occupied`
+        double maxPlanningTime{2.0};   ///< `max_planning_time`: seconds
+        double pathResolution{0.05};   ///< `path_resolution`: metres between two poses of the plan
+        bool allowApproximate{false};  ///< `allow_approximate`: a plan may end near the goal
+    };
+
+    /** \brief Declares all parameters of the plugin \e name, with their defaults. */
+    void declareSettings(nav2_compatibility::Node &node, const std::string &name);
+
+    /** \brief The values that the parameters have now. Throws parking::Error naming one that is out of range. */
+    PlannerSettings readSettings(nav2_compatibility::Node &node, const std::string &name);
+}  // namespace parking
