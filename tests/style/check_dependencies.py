@@ -28,7 +28,8 @@ MAY_INCLUDE = {
     'python': LIBRARIES,
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
-    'tests': LIBRARIES + ['benchmarks', 'examples'],
+    'integrations': [PLANNER, VALIDITY, GEOMETRY],  # of the core, see NEVER
+    'tests': LIBRARIES + ['benchmarks', 'examples', 'integrations'],
 }
 # The rooms of the comparison, each of which may use those before it. The studies beside them use what they like.
 ROOMS = [f'benchmarks/{room}' for room in ('system', 'database', 'planners', 'problems', 'comparison', 'summary',
@@ -52,8 +53,12 @@ NEVER = {
     f'{PLANNER}/search': OUTSIDE + ADAPTERS,
     TRACKING: ['ompl/', 'fcl/'] + READERS,
     f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
+<<<<<<< HEAD
     f'{PIPELINE}/scenario': OUTSIDE + ADAPTERS,
     'python': ['ompl/', 'fcl/', 'ceres/', f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/'],
+=======
+    'integrations': OUTSIDE + ADAPTERS,
+>>>>>>> 87f39be (Read the reference offline, with a search, examples and colours for day and night)
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

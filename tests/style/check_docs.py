@@ -9,13 +9,12 @@ import subprocess
 import sys
 import tempfile
 
-from project_files import SKIPPED, report
+from project_files import report
 
 
 def main(root):
     if not shutil.which('doxygen'):
-        print('SKIPPED: doxygen is not installed; scripts/test installs it')
-        sys.exit(SKIPPED)
+        report(['doxygen is not installed'], 'Its Debian package is doxygen; scripts/test installs it.')
     with tempfile.TemporaryDirectory() as output:
         configuration = f'@INCLUDE = Doxyfile\nOUTPUT_DIRECTORY = "{output}"\n'
         built = subprocess.run(['doxygen', '-'], input=configuration, cwd=root, capture_output=True, text=True,
