@@ -1,5 +1,5 @@
-// The program of docs/using.md and, in part, of the README, as it is compiled and run by the tests: a car parks in reverse
-// between two others.
+// The program of docs/using.md and, in part, of the README, as the tests compile and run it: a car parks in reverse.
+
 // program:begin
 #include <iostream>
 #include <memory>

@@ -53,12 +53,9 @@ NEVER = {
     f'{PLANNER}/search': OUTSIDE + ADAPTERS,
     TRACKING: ['ompl/', 'fcl/'] + READERS,
     f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
-<<<<<<< HEAD
     f'{PIPELINE}/scenario': OUTSIDE + ADAPTERS,
     'python': ['ompl/', 'fcl/', 'ceres/', f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/'],
-=======
     'integrations': OUTSIDE + ADAPTERS,
->>>>>>> 87f39be (Read the reference offline, with a search, examples and colours for day and night)
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
