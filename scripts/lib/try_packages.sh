@@ -11,7 +11,8 @@ export DEBIAN_FRONTEND=noninteractive
 work=$(mktemp --directory)
 traces()
 {
-    find / -xdev '(' -path /project -o -path /proc -o -path /cache -o -path "$work" ')' -prune -o \
+    # In /var/cache are the pages that man has formatted.
+    find / -xdev '(' -path /project -o -path /proc -o -path /cache -o -path /var/cache -o -path "$work" ')' -prune -o \
         '(' -name '*improved*astar*' -o -name '*parking_*' -o -name 'libparking*' ')' -print | sort
 }
 
