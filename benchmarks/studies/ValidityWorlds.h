@@ -24,6 +24,7 @@ namespace parking
     /** \brief The random worlds of the tests, or the bundled parking problems, with poses in each. */
     struct ValidityWorlds
     {
+        /** \brief A world with both kinds of check, and the poses that are asked about there. */
         struct Place
         {
             std::unique_ptr<FootprintChecker> tiered;

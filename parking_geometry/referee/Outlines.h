@@ -41,6 +41,7 @@ namespace parking
     class Outlines
     {
     public:
+        /** \brief One of the straight lines of an outline. */
         struct Edge
         {
             Eigen::Vector2d from, to;

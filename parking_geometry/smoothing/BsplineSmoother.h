@@ -12,6 +12,7 @@
 
 namespace parking
 {
+    /** \brief How the paper's spline is laid through a grid path. */
     struct BsplineOptions
     {
         int degree{3};            ///< 2 to 5; less where there are too few points. 3 and more: continuous curvature
@@ -20,6 +21,7 @@ namespace parking
         double maxCurvature{std::numeric_limits<double>::infinity()};  ///< 1/m, re-checked with the collisions
     };
 
+    /** \brief The smoothed path, and how often the spline had to give way to obstacles. */
     struct BsplineResult
     {
         /** Forwards. Two arcs each join neighbouring poses of the curve, with its position and heading; spans that

@@ -26,6 +26,7 @@ namespace parking
     class CurvatureProgram
     {
     public:
+        /** \brief What the program goes by at all nodes. */
         struct Settings
         {
             double maxCurvature{0.3};  ///< kMax, 1/m
@@ -38,6 +39,7 @@ namespace parking
             std::optional<double> endCurvature;    ///< k at the last node, where it is given
         };
 
+        /** \brief The reference between two nodes, and how fast the curvature may change there. */
         struct Interval
         {
             double length{0.0};     ///< metres along the reference, positive

@@ -9,6 +9,7 @@
 
 namespace parking
 {
+    /** \brief How PathSmoother makes curvature continuous. */
     struct SmoothingOptions
     {
         /** Planned speed, m/s, at which the steering must keep up; the vehicle's maximum where that is lower. */

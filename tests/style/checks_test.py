@@ -146,6 +146,8 @@ class ChecksTest(unittest.TestCase):
         self.write('path_tracking/Drive.h', '/** \\brief A drive. */\nclass Drive\n{\npublic:\n'
                    '    /** \\param gone metres */\n    Drive(double length);\n};\n')
         self.expect_found('docs', 'path_tracking/Drive.h')
+        self.write('path_tracking/Drive.h', '/** \\file */\nclass Drive\n{\npublic:\n    void go();\n};\n')
+        self.expect_found('docs', 'Drive is not documented')
 
     def test_files_ignored_by_git_do_not_count(self):
         if not shutil.which('git'):

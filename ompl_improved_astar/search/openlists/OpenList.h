@@ -18,6 +18,7 @@ namespace parking::search
     class OpenList
     {
     public:
+        /** \brief A node that waits, with what it is ordered by. */
         struct Entry
         {
             double f;
