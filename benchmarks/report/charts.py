@@ -85,7 +85,7 @@ def time_range(times, limit):
     return max(low, 1e-6), max(high, 10.0 * max(low, 1e-6))
 
 
-def _axes(x, y, x_label, y_label, x_text, y_text, grid_y=True):
+def axes(x, y, x_label, y_label, x_text, y_text, grid_y=True):
     parts = []
     for value in x.ticks():
         at = px(x(value))
@@ -106,12 +106,12 @@ def _axes(x, y, x_label, y_label, x_text, y_text, grid_y=True):
     return ''.join(parts)
 
 
-def _frame(identifier, title, body, height=HEIGHT, width=WIDTH):
+def frame(identifier, title, body, height=HEIGHT, width=WIDTH):
     return (f'<svg class="chart" id="{identifier}" viewBox="0 0 {px(width)} {px(height)}" role="img" '
             f'aria-label="{text(title)}">{body}</svg>')
 
 
-def _step_path(points, x, y):
+def step_path(points, x, y):
     """A step curve through (value, height) points; it keeps a height until the next one, and to the end."""
     parts = []
     for value, height in points:
@@ -148,16 +148,16 @@ def success_chart(identifier, title, runs_of, limit):
     low, high = time_range([time for points in curves.values() for time, _ in points], limit)
     x = Axis(low, high, LEFT, WIDTH - RIGHT, True)
     y = Axis(0.0, 1.0, HEIGHT - BOTTOM, TOP, False)
-    body = [_axes(x, y, 'time (logarithmic)', 'runs solved', tick_time, lambda v: f'{100 * v:.0f} %')]
+    body = [axes(x, y, 'time (logarithmic)', 'runs solved', tick_time, lambda v: f'{100 * v:.0f} %')]
     series = []
     for index, points in curves.items():
         name, dash = style_of(index)
         whole = [(low, 0.0)] + points
-        body.append(f'<path class="curve {name}" data-p="{index}"{dash} d="{_step_path(whole, x, y)}"/>')
+        body.append(f'<path class="curve {name}" data-p="{index}"{dash} d="{step_path(whole, x, y)}"/>')
         series.append({'p': index, 't': [round(v, 7) for v, _ in whole], 'y': [round(v, 4) for _, v in whole]})
     data = {'kind': 'success', 'low': low, 'high': high, 'begin': x.begin, 'end': x.end, 'top': y.end,
             'bottom': y.begin, 'series': series}
-    return _frame(identifier, title, ''.join(body)), data
+    return frame(identifier, title, ''.join(body)), data
 
 
 def cost_at(runs, time):
@@ -191,11 +191,11 @@ def median_curve(runs, low, high):
     return points
 
 
-def _band(index, points, x, y):
+def band(index, points, x, y):
     """The interval over time, from where its upper end is finite."""
     if not points:
         return ''
-    upper = _step_path([(p[0], p[3]) for p in points], x, y)
+    upper = step_path([(p[0], p[3]) for p in points], x, y)
     lower = [f'V{px(y(points[-1][2]))}']
     for k in range(len(points) - 1, 0, -1):
         lower.append(f'H{px(x(points[k][0]))}V{px(y(points[k - 1][2]))}')
@@ -217,34 +217,47 @@ def cost_chart(identifier, title, runs_of, limit):
     x = Axis(low, high, LEFT, WIDTH - RIGHT, True)
     y = Axis(bottom / 1.05 if logarithmic else max(0.0, bottom - margin), top * 1.1 if logarithmic else top + margin,
              HEIGHT - BOTTOM, TOP, logarithmic)
-    body = [_axes(x, y, 'time (logarithmic)', 'length, m' + (' (logarithmic)' if logarithmic else ''), tick_time,
+    body = [axes(x, y, 'time (logarithmic)', 'length, m' + (' (logarithmic)' if logarithmic else ''), tick_time,
                   lambda v: f'{v:g}')]
     series, lines = [], []
     for index, points in curves.items():
         if not points:
             continue
         name, dash = style_of(index)
-        body.append(_band(index, [p for p in points if math.isfinite(p[3])], x, y))
+        body.append(band(index, [p for p in points if math.isfinite(p[3])], x, y))
         lines.append(f'<path class="curve {name}" data-p="{index}"{dash} '
-                     f'd="{_step_path([p[:2] for p in points], x, y)}"/>')
+                     f'd="{step_path([p[:2] for p in points], x, y)}"/>')
         series.append({'p': index, 't': [round(p[0], 7) for p in points], 'y': [round(p[1], 3) for p in points],
                        'l': [round(p[2], 3) for p in points],
                        'h': [round(p[3], 3) if math.isfinite(p[3]) else None for p in points]})
     data = {'kind': 'cost', 'low': low, 'high': high, 'begin': x.begin, 'end': x.end, 'top': y.end,
             'bottom': y.begin, 'series': series}
-    return _frame(identifier, title, ''.join(body + lines)), data
+    return frame(identifier, title, ''.join(body + lines)), data
 
 
-def strip_chart(identifier, title, rows, limit):
+def _offset(k):
+    """Dots that are near each other in time do not lie in one line."""
+    return (k * 5 % 7 - 3) * 1.7
+
+
+def _dots(runs, x, at, colour):
+    """All dots of a planner as one path, no two of them at the same place."""
+    places = dict.fromkeys(f'{x(run.time):.0f} {at + _offset(k):.0f}' for k, run in enumerate(runs)
+                           if math.isfinite(run.time))
+    return f'<path class="dots {colour}" d="{"".join(f"M{place}h0" for place in places)}"/>' if places else ''
+
+
+def strip_chart(identifier, title, rows, limit, each=True):
     """Every run's first solution on an axis of time, a line of dots for each planner, with the median and its interval.
 
-    rows: (index, name, runs, median, (low, high, certainty)) of each planner."""
+    rows: (index, name, runs, median, (low, high, certainty)) of each planner; each: dots can be pointed at one by one, or
+    all of a planner are one thing, which takes a tenth of the bytes."""
     pitch, names, missing, width = 24.0, 170.0, 70.0, 2.0 * WIDTH + 50.0
     height = TOP + pitch * len(rows) + BOTTOM
     low, high = time_range([run.time for row in rows for run in row[2]], limit)
     x = Axis(low, high, names, width - missing, True)
     y = Axis(0.0, 1.0, height - BOTTOM, TOP, False)
-    body = [_axes(x, y, 'time to the first solution (logarithmic)', '', tick_time, str, grid_y=False)]
+    body = [axes(x, y, 'time to the first solution (logarithmic)', '', tick_time, str, grid_y=False)]
     for line, (index, name, runs, middle, interval) in enumerate(rows):
         colour, _ = style_of(index)
         at = TOP + pitch * (line + 0.5)
@@ -254,10 +267,12 @@ def strip_chart(identifier, title, rows, limit):
         if math.isfinite(interval[0]) and math.isfinite(middle):
             end = x(interval[1])
             parts.append(f'<path class="interval {colour}" d="M{px(x(interval[0]))} {px(at)}H{px(end)}"/>')
-        for k, run in enumerate(runs):
+        if not each:
+            parts.append(_dots(runs, x, at, colour))
+        for k, run in enumerate(runs if each else ()):
             if not math.isfinite(run.time):
                 continue
-            offset = (k * 5 % 7 - 3) * 1.7
+            offset = _offset(k)
             tip = f'{name}: {shown_time(run.time)}, {shown(run.length, 4)} m · run {run.number}, seed {run.seed}'
             parts.append(f'<circle class="dot {colour}" cx="{px(x(run.time))}" cy="{px(at + offset)}" r="2.6" '
                          f'data-tip="{text(tip)}"/>')
@@ -269,4 +284,4 @@ def strip_chart(identifier, title, rows, limit):
             parts.append(f'<text class="missing" x="{px(width - missing + 12)}" y="{px(at + 4)}" data-tip="{text(name)}: '
                          f'{left} of {len(runs)} runs without a valid solution">∞ × {left}</text>')
         body.append(''.join(parts) + '</g>')
-    return _frame(identifier, title, ''.join(body), height, width)
+    return frame(identifier, title, ''.join(body), height, width)

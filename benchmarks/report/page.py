@@ -7,8 +7,27 @@ import os
 from charts import (cost_chart, shown, shown_time, strip_chart, style_of, success_chart, text)
 from gallery import card, read_picture
 from order_statistics import median, median_interval, quantile, share_interval
+from standings.section import standings_html
+from standings.tables import FILES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+DOTS = 20000  # runs up to which each has a dot of its own that can be pointed at
+
+
+class Room:
+    """So many bytes of the page for one of its parts: what comes when they are used up is left to the files beside it."""
+
+    def __init__(self, size):
+        self.left = size
+
+    def take(self, content):
+        """Is there room for this text? Then it is taken; and once something did not fit, nothing more does."""
+        size = len(content.encode())
+        self.left = self.left - size if size <= self.left else -1
+        return self.left >= 0
+
+
+SECTIONS, GALLERIES, MATRIX, SETUPS = 5_000_000, 2_000_000, 1_600_000, 400_000  # bytes, so that a page stays below 10 MB
 
 
 class Cell:
@@ -158,17 +177,19 @@ def overall_table(results, table):
     return ''.join(out) + '</tbody></table></div>' + note
 
 
-def matrix(results, table):
-    """Problems against planners: share solved as colour, median time as text."""
+def matrix(results, table, sections):
+    """Problems against planners: share solved as colour, median time as text. sections: problems that have one."""
+    room = Room(MATRIX)
     head = ''.join(f'<th data-p="{index}"><span>{text(name)}</span></th>'
                    for index, name in enumerate(results.planners))
     out = [f'<div class="scroll"><table class="matrix"><thead><tr><th class="name">problem</th>{head}</tr></thead><tbody>']
     for number, problem in enumerate(results.problems):
-        out.append(f'<tr><th class="name"><a href="#problem-{number}">{text(problem)}</a></th>')
+        link = f'<a href="#problem-{number}">{text(problem)}</a>' if number < sections else text(problem)
+        row = [f'<tr><th class="name">{link}</th>']
         for index, name in enumerate(results.planners):
             cell = table[problem].get(index)
             if cell is None:
-                out.append(f'<td class="absent" data-p="{index}"></td>')
+                row.append(f'<td class="absent" data-p="{index}"></td>')
                 continue
             share = cell.solved / cell.count
             tip = f'{name} on {problem}: {cell.solved} of {cell.count} runs solved'
@@ -178,10 +199,19 @@ def matrix(results, table):
                 tip += f'; first solution after {shown_time(cell.time)}, {shown(cell.length, 4)} m (medians)'
             label = shown_time(cell.time) if math.isfinite(cell.time) else f'{cell.solved}/{cell.count}'
             mark = '<em>▲</em>' if cell.invalid else ''
-            out.append(f'<td data-p="{index}" class="{"none" if share == 0 else "some"}" style="--share:'
+            row.append(f'<td data-p="{index}" class="{"none" if share == 0 else "some"}" style="--share:'
                        f'{100 * share:.0f}" data-tip="{text(tip)}">{label}{mark}</td>')
-        out.append('</tr>')
+        row = ''.join(row) + '</tr>'
+        if not room.take(row):
+            return ''.join(out) + '</tbody></table></div>' + left_out('rows', number, len(results.problems))
+        out.append(row)
     return ''.join(out) + '</tbody></table></div>'
+
+
+def left_out(what, count, all_of_them):
+    """What is said where the page would become too long."""
+    return (f'<p class="note">To keep this page short, {what} of {all_of_them - count} of the {all_of_them} problems are left '
+            'out here. They count in all figures about several problems; summary.csv has their own.</p>')
 
 
 def settings_html(results):
@@ -233,7 +263,8 @@ def tile(value, what, tip=''):
     return f'<div class="tile"{f" data-tip={chr(34)}{text(tip)}{chr(34)}" if tip else ""}><b>{value}</b><span>{what}</span></div>'
 
 
-def problem_section(results, number, problem, cells, extra, files, charts):
+def problem_section(results, number, problem, cells, extra, charts):
+    """Table and charts of a problem; the section is left open."""
     runs_of = {index: cell.runs for index, cell in cells.items()}
     out = [f'<section class="problem" id="problem-{number}"><h2>{text(problem)}</h2>']
     out.append(problem_table(results, cells, extra))
@@ -253,9 +284,16 @@ def problem_section(results, number, problem, cells, extra, files, charts):
             if cell.solved]
     if rows:
         out.append('<figure class="panel wide"><figcaption>First solution of every run; bar: median with its 95 % '
-                   f'interval</figcaption>{strip_chart(f"strip-{number}", problem, rows, results.time_limit)}</figure>')
+                   f'interval</figcaption>{strip_chart(f"strip-{number}", problem, rows, results.time_limit, len(results.runs) <= DOTS)}'
+                   '</figure>')
     out.append('</div>')
+    return ''.join(out)
+
+
+def gallery(results, number, problem, cells, files):
+    """Paths of all planners on a problem; empty without a picture to draw them on."""
     picture = read_picture(results.folder, problem)
+    out = []
     if picture is not None:
         out.append(f'<h3>Paths</h3><svg class="symbols" aria-hidden="true"><symbol id="map-{number}" viewBox="0 0 '
                    f'{picture.width:g} {picture.height:g}">{picture.content}</symbol></svg><p class="key"><span class="forward">forwards</span>, '
@@ -265,20 +303,47 @@ def problem_section(results, number, problem, cells, extra, files, charts):
             name = results.planners[index]
             out.append(card(problem, f'map-{number}', picture, index, name, cell.runs, files.get((problem, name))))
         out.append('</div>')
-    return ''.join(out) + '</section>'
+    return ''.join(out)
 
 
-def report_page(results):
-    """The whole page as text."""
+def problem_sections(results, table, charts):
+    """The sections, and how many there are: as many as the page has room for. The data of curves is added to charts."""
+    extra, files = extra_columns(results), path_links(results)
+    room, room_for_paths, out = Room(SECTIONS), Room(GALLERIES), []
+    for number, problem in enumerate(results.problems):
+        own = {}
+        section = problem_section(results, number, problem, table[problem], extra, own)
+        if not room.take(section + json.dumps(own)):
+            return ''.join(out) + left_out('sections', number, len(results.problems)), number
+        charts.update(own)
+        paths = gallery(results, number, problem, table[problem], files) if room_for_paths.left >= 0 else ''
+        out += [section, paths if room_for_paths.take(paths) else '<p class="note">To keep this page short, the paths are left '
+                'out here; the folder pictures has the best of each planner.</p>', '</section>']
+    return ''.join(out), len(results.problems)
+
+
+def setups_html(results, table):
+    room, out = Room(SETUPS), []
+    for name, setup in results.setups.items():
+        if name in table:
+            fold = f'<details><summary>{text(name)}</summary><pre>{text(setup.strip())}</pre></details>'
+            if not room.take(fold):
+                return ''.join(out) + left_out('setups', len(out), len(table))
+            out.append(fold)
+    return ''.join(out)
+
+
+def report_page(results, standing):
+    """The whole page as text; standing: the planners against each other."""
     table = {problem: {index: Cell(results.of(problem, planner)) for index, planner in enumerate(results.planners)
                        if results.of(problem, planner)} for problem in results.problems}
-    charts, extra, files = {}, extra_columns(results), path_links(results)
+    charts = {}
     everything = {index: [run for cells in table.values() if index in cells for run in cells[index].runs]
                   for index in range(len(results.planners))}
     overall, charts['success-all'] = success_chart('success-all', 'success over time, all problems', everything,
                                                    results.time_limit)
-    sections = ''.join(problem_section(results, number, problem, table[problem], extra, files, charts)
-                       for number, problem in enumerate(results.problems))
+    sections, shown_sections = problem_sections(results, table, charts)
+    standings = standings_html(results, standing, charts)
     when = ''
     if results.started:
         when = datetime.datetime.fromtimestamp(results.started, datetime.timezone.utc).strftime('%Y-%m-%d %H:%M UTC')
@@ -301,7 +366,8 @@ def report_page(results):
                          f'{text(name)}</button>' for index, name in enumerate(results.planners)),
         'OVERALL': overall_table(results, table),
         'OVERALL_CHART': overall,
-        'MATRIX': matrix(results, table),
+        'MATRIX': matrix(results, table, shown_sections),
+        'STANDINGS': standings,
         'SECTIONS': sections,
         'RECHECK': ('Every solution is checked again, at poses at most 5 mm apart and by code of its own; one that is '
                     'not valid counts as a failure.' if results.rechecked else
@@ -309,10 +375,9 @@ def report_page(results):
                     'planners\' word.'),
         'FACTS': ''.join(f'<dt>{text(key)}</dt><dd>{text(value)}</dd>' for key, value in facts if value),
         'SETTINGS': settings_html(results),
-        'SETUPS': ''.join(f'<details><summary>{text(name)}</summary><pre>{text(setup.strip())}</pre></details>'
-                          for name, setup in results.setups.items() if name in table),
+        'SETUPS': setups_html(results, table),
         'FILES': ''.join(f'<li><a href="{text(name)}">{text(name)}</a> {text(what)}</li>'
-                         for name, what in links(results)),
+                         for name, what in [*FILES.items(), *links(results)]),
         'DATA': json.dumps({'planners': results.planners, 'charts': charts},
                            separators=(',', ':')).replace('<', '\\u003c'),
     }

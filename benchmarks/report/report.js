@@ -56,19 +56,20 @@
                 if (k >= 0) rows.push({series, k, value: series.y[k]});
                 else if (chart.kind === 'cost') rows.push({series, k, value: Infinity});
             }
-            rows.sort((a, b) => chart.kind === 'success' ? b.value - a.value : a.value - b.value);
+            rows.sort((a, b) => chart.kind === 'cost' ? a.value - b.value : b.value - a.value);
             const table = document.createElement('table');
             const caption = document.createElement('b');
-            caption.textContent = 'by ' + time(at);
+            caption.textContent = chart.kind === 'profile' ? `at most ${at.toPrecision(3)} times the best` : 'by ' + time(at);
             for (const {series, k, value} of rows) {
                 const row = table.insertRow();
                 const swatch = document.querySelector(`.chip[data-p="${series.p}"] svg`);
                 const name = row.insertCell();
                 if (swatch) name.append(swatch.cloneNode(true));
                 name.append(data.planners[series.p]);
-                row.insertCell().textContent = chart.kind === 'success' ? (100 * value).toFixed(0) + ' %'
+                row.insertCell().textContent = chart.kind === 'expected' ? value.toFixed(1)
+                    : chart.kind !== 'cost' ? (100 * value).toFixed(0) + ' %'
                     : value === Infinity ? '∞' : metres(value) + ' m';
-                row.insertCell().textContent = chart.kind === 'cost' && k >= 0
+                row.insertCell().textContent = series.l && k >= 0
                     ? `${metres(series.l[k])} – ${metres(series.h[k])}` : '';
             }
             const content = document.createElement('div');
