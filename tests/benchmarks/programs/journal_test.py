@@ -101,8 +101,8 @@ class Killed(JournalTest):
                     killed['writing' if kept.count(b'\n') == 1 + 2 * runs else 'planning'] += 1
             self.assertEqual(self.records('out/runs.jsonl'), wanted)
             self.assertEqual(self.content().count(b'parking_benchmark'), 1)
-            self.assertEqual(self.results(), ['angled45.log', 'benchmark.db', 'pictures', 'report.html', 'summary.csv',
-                                              'summary.md'])
+            self.assertEqual(self.results(), ['angled45.log', 'benchmark.db', 'pairs.csv', 'pictures', 'report.html',
+                                              'standings.csv', 'statistics.json', 'summary.csv', 'summary.md'])
             self.assertEqual(os.listdir(self.path('out/pictures')), ['angled45.svg'])
         print('killed %s in %d rounds' % (killed, rounds))
         self.assertGreater(min(killed.values()), KILLS // 20)

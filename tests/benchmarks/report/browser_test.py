@@ -31,11 +31,15 @@ addEventListener('load', () => {
     lengths.dispatchEvent(new MouseEvent('mousemove', at(lengths, 0.97, 0.5)));
     note('length', tip.textContent);
     lengths.dispatchEvent(new MouseEvent('mouseleave', {}));
-    const dot = document.querySelector('circle.dot');
+    const profile = document.getElementById('profile-time-0');
+    profile.dispatchEvent(new MouseEvent('mousemove', at(profile, 0.97, 0.5)));
+    note('profile', tip.textContent);
+    profile.dispatchEvent(new MouseEvent('mouseleave', {}));
+    const dot = document.querySelector('#strip-0 circle.dot');
     dot.dispatchEvent(new MouseEvent('mouseover', at(dot, 0.5, 0.5)));
     note('dot', tip.hidden ? 'nothing' : tip.textContent);
     dot.dispatchEvent(new MouseEvent('mouseout', at(dot, 0.5, 0.5)));
-    const table = document.querySelectorAll('table.sortable')[1];
+    const table = document.querySelector('#problem-0 table.sortable');
     const names = () => Array.from(table.tBodies[0].rows).map(row => row.cells[0].textContent).join(',');
     table.tHead.rows[0].cells[2].click();
     note('fastest', names());
@@ -92,6 +96,7 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(self.seen('left'), 'true')
         self.assertRegex(self.seen('length'), r'slow10\.00 m10\.00 – 10\.00quick30\.00 m30\.00 – 30\.00never∞|'
                                               r'slow10\.00 m10\.00 – 10\.00quick30\.00 m30\.00 – 30\.00')
+        self.assertRegex(self.seen('profile'), r'^at most [\d.]+ times the best(slow100 %|quick100 %|never0 %){3}$')
         self.assertRegex(self.seen('dot'), r'^slow: 5\d\d ms, 10\.00 m · run \d, seed 100\d$')
         self.assertEqual(self.seen('fastest'), 'quick,slow,never')
         self.assertEqual(self.seen('slowest'), 'never,slow,quick')
