@@ -1,9 +1,10 @@
 """Pictures of how planners stand to each other, in the manner of charts.py."""
 import math
 
-from charts import (BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH, Axis, axes, band, frame, px, shown, step_path, style_of, text,
-                    tick_time, time_range)
+from charts import (BOTTOM, LEFT, RIGHT, TOP, WIDTH, Axis, axes, band, frame, px, shown, step_path, style_of, text, tick_time,
+                    time_range)
 
+ACROSS, DOWN = 440.0, 300.0  # of a chart with two others beside it
 FARTHEST = 1000.0  # ratio at which profiles end
 
 
@@ -22,16 +23,16 @@ def _curves(identifier, title, curves, x, y, kind, body, bands):
         series.append(made)
     data = {'kind': kind, 'low': x.low, 'high': x.high, 'begin': x.begin, 'end': x.end, 'top': y.end, 'bottom': y.begin,
             'series': series}
-    return frame(identifier, title, ''.join(body + lines)), data
+    return frame(identifier, title, ''.join(body + lines), DOWN, ACROSS), data
 
 
 def profile_chart(identifier, title, profiles, best):
     """Share of the problems on which each planner is at most so many times worse than the best one there."""
     last = max((points[-1][0] for points in profiles.values()), default=1.0)
     high = min(FARTHEST, max(1.1, 1.05 * last))
-    x = Axis(1.0, high, LEFT, WIDTH - RIGHT, True)
-    y = Axis(0.0, 1.0, HEIGHT - BOTTOM, TOP, False)
-    body = [axes(x, y, f'times the {best} on the problem (logarithmic)', 'problems', lambda v: f'{v:g}',
+    x = Axis(1.0, high, LEFT, ACROSS - RIGHT, True)
+    y = Axis(0.0, 1.0, DOWN - BOTTOM, TOP, False)
+    body = [axes(x, y, f'ratio to the {best} (logarithmic)', 'problems', lambda v: f'{v:g}',
                  lambda v: f'{100 * v:.0f} %')]
     shortened = {index: [point for point in points if point[0] <= high] for index, points in profiles.items()}
     return _curves(identifier, title, shortened, x, y, 'profile', body, False)
@@ -40,8 +41,8 @@ def profile_chart(identifier, title, profiles, best):
 def expected_chart(identifier, title, expected, count, limit):
     """Expected number of problems solved over time, with its interval as a band."""
     low, high = time_range([point[0] for points in expected.values() for point in points], limit)
-    x = Axis(low, high, LEFT, WIDTH - RIGHT, True)
-    y = Axis(0.0, float(count), HEIGHT - BOTTOM, TOP, False)
+    x = Axis(low, high, LEFT, ACROSS - RIGHT, True)
+    y = Axis(0.0, float(count), DOWN - BOTTOM, TOP, False)
     body = [axes(x, y, 'time (logarithmic)', f'problems solved, of {count}', tick_time, lambda v: f'{v:g}')]
     curves = {index: points or [(low, 0.0, 0.0, 0.0)] for index, points in expected.items()}
     return _curves(identifier, title, curves, x, y, 'expected', body, True)

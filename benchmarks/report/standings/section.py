@@ -6,7 +6,7 @@ from standings.pictures import expected_chart, profile_chart, rank_chart
 from standings.scores import LEVEL
 from standings.standing import WITHIN
 
-BEST = {'time': 'time of the planner that is quickest', 'length': 'length of the planner that is shortest'}
+BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
 WORDS = {'time': 'time to the first solution', 'length': 'length of the path'}
 
 
@@ -154,7 +154,7 @@ def standings_html(results, standing, charts):
     compared = [each for each in standing.fields if len(each.field.planners) > 1] or standing.fields[:1]
     alone = [results.planners[index] for each in standing.fields if each not in compared for index in each.field.planners]
     out = ['<section id="standings"><h2>Planners against each other</h2><p class="note">Each planner\'s score on a problem is '
-           'the median over all of its runs there; a problem that it solves in fewer than half of them has the score ∞, the last '
+           'the median over all of its runs there; a problem that it solves in half of them or fewer has the score ∞, the last '
            'rank, and is compared like all others. PAR-10 is the mean time in which a run without a solution counts as ten '
            'time limits.</p>']
     out += [_field(results, each, number, len(standing.fields) > 1, charts) for number, each in enumerate(compared)]
