@@ -5,14 +5,14 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing; test, docs, package: only for tests, reference, packages | what for
+# package | build: for building and comparing; test, docs, package, page: only for tests, reference, ... | what for
 packages()
 {
     cat <<'LIST'
 g++                          | build | the C++17 compiler
-make                         | build | runs the build
-cmake                        | build | configures the build (3.25 or later)
-libeigen3-dev                | build | Eigen: linear algebra, splines
+make                         | build page | runs the build
+cmake                        | build page | configures the build (3.25 or later)
+libeigen3-dev                | build page | Eigen: linear algebra, splines
 libompl-dev                  | build | OMPL, the Open Motion Planning Library
 libfcl-dev                   | build | FCL: collision queries
 libccd-dev                   | build | libccd: the collision solver under FCL
@@ -25,7 +25,7 @@ nlohmann-json3-dev           | build | writes results as JSON
 libpng-dev                   | build | reads maps in PNG
 libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
 libsqlite3-dev               | build | SQLite: the database of a comparison
-python3                      | build | reports from the database; checks of the tests
+python3                      | build page | reports from the database; checks of the tests
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
 pkg-config                   | test  | the consumer that finds the installed package by pkg-config
@@ -41,6 +41,7 @@ python3-numpy                | test  | arrays of the Python module
 python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
+emscripten                   | page  | compiles the core for browsers (800 MB)
 LIST
 }
 

@@ -26,10 +26,11 @@ MAY_INCLUDE = {
     PIPELINE: LIBRARIES,
     f'{PIPELINE}/scenario': LIBRARIES,
     'python': LIBRARIES,
+    'playground': LIBRARIES,
     'benchmarks': LIBRARIES,  # the random worlds that the tests use too are in benchmarks/worlds
     'examples': LIBRARIES,
     'integrations': [PLANNER, VALIDITY, GEOMETRY],  # of the core, see NEVER
-    'tests': LIBRARIES + ['benchmarks', 'examples', 'integrations'],
+    'tests': LIBRARIES + ['benchmarks', 'examples', 'playground', 'integrations'],
 }
 # The rooms of the comparison, each of which may use those before it. The studies beside them use what they like.
 ROOMS = [f'benchmarks/{room}' for room in ('system', 'database', 'planners', 'problems', 'comparison', 'summary',
@@ -54,6 +55,7 @@ NEVER = {
     TRACKING: ['ompl/', 'fcl/'] + READERS,
     f'{TRACKING}/trajectory': OUTSIDE + ADAPTERS,
     f'{PIPELINE}/scenario': OUTSIDE + ADAPTERS,
+    'playground': OUTSIDE + ADAPTERS,
     'python': ['ompl/', 'fcl/', 'ceres/', f'{VALIDITY}/fcl/', f'{VALIDITY}/ompl/'],
     'integrations': OUTSIDE + ADAPTERS,
 }

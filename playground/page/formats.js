@@ -1,0 +1,375 @@
+// Files that are opened and saved: scenarios, TPCAP cases, maps. Wrong ones end in an Error of one line.
+
+const Formats = (() => {
+  const short = text => { const line = String(text).replace(/\s+/g, ' ').trim(); return line.length > 60 ? line.slice(0, 60) + '...' : line; };
+  const fail = (file, line, what) => { throw new Error(`${file}${line ? ':' + line : ''}: ${what}`); };
+
+  // The YAML that scenarios are written in: mappings, lists, flow collections, comments, plain and quoted scalars.
+  function parseYaml(file, text) {
+    const lines = [];
+    let open = 0;
+    text.replace(/^\uFEFF/, '').split(/\r?\n/).forEach((raw, index) => {
+      if (raw.includes('\t') && /^\s*\t/.test(raw)) fail(file, index + 1, 'a tab indents this line; YAML wants blanks');
+      let clean = '', quote = '';
+      for (let i = 0; i < raw.length; ++i) {
+        const c = raw[i];
+        if (quote) { if (c === quote) quote = ''; }
+        else if ((c === '"' || c === "'") && (!clean.trim() || /[\s[{,:]$/.test(clean))) quote = c;
+        else if (c === '#' && (i === 0 || /\s/.test(raw[i - 1]))) break;
+        clean += c;
+      }
+      if (!clean.trim() || /^(---|\.\.\.)\s*$/.test(clean)) return;
+      if (open > 0) lines[lines.length - 1].text += ' ' + clean.trim();
+      else lines.push({ indent: clean.match(/^ */)[0].length, text: clean.trim(), line: index + 1 });
+      for (const c of clean.replace(/"[^"]*"|'[^']*'/g, '')) open += c === '[' || c === '{' ? 1 : c === ']' || c === '}' ? -1 : 0;
+      if (open < 0) fail(file, index + 1, 'a bracket is closed that was not opened');
+    });
+    if (open > 0) fail(file, lines[lines.length - 1].line, 'a bracket is not closed');
+    if (!lines.length) fail(file, 0, 'holds nothing but blanks');
+
+    function scalar(value, line) {
+      if (/^".*"$|^'.*'$/.test(value)) return value.slice(1, -1);
+      if (/^[&*!|>]/.test(value)) fail(file, line, `${short(value)} is YAML that is not read here`);
+      if (value === '' || value === '~' || value === 'null') return null;
+      if (/^(true|True|yes)$/.test(value)) return true;
+      if (/^(false|False|no)$/.test(value)) return false;
+      return /^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$/.test(value) ? Number(value) : value;
+    }
+    function flow(source, line) {
+      let at = 0;
+      const blank = () => { while (at < source.length && /\s/.test(source[at])) ++at; };
+      function word(ends) {
+        blank();
+        if (source[at] === '"' || source[at] === "'") {
+          const end = source.indexOf(source[at], at + 1);
+          if (end < 0) fail(file, line, 'a quote is not closed');
+          const found = source.slice(at, end + 1);
+          at = end + 1;
+          return found;
+        }
+        let found = '';
+        while (at < source.length && !ends.includes(source[at])) found += source[at++];
+        return found.trim();
+      }
+      function value(ends) {
+        blank();
+        if (source[at] === '[') {
+          const list = [];
+          for (++at, blank(); source[at] !== ']';) {
+            list.push(value(',]'));
+            blank();
+            if (source[at] === ',') { ++at; blank(); } else if (source[at] !== ']') fail(file, line, `expected , or ] before ${short(source.slice(at))}`);
+          }
+          ++at;
+          return list;
+        }
+        if (source[at] === '{') {
+          const map = {};
+          for (++at, blank(); source[at] !== '}';) {
+            const key = String(scalar(word(':}'), line));
+            if (source[at] !== ':') fail(file, line, `expected : after ${short(key)}`);
+            ++at;
+            map[key] = value(',}');
+            blank();
+            if (source[at] === ',') { ++at; blank(); } else if (source[at] !== '}') fail(file, line, `expected , or } before ${short(source.slice(at))}`);
+          }
+          ++at;
+          return map;
+        }
+        return scalar(word(ends), line);
+      }
+      const found = value('');
+      blank();
+      if (at < source.length) fail(file, line, `expected nothing more before ${short(source.slice(at))}`);
+      return found;
+    }
+    const read = (value, line) => /^[[{]/.test(value) ? flow(value, line) : scalar(value, line);
+    let next = 0;
+    function block(indent) {
+      const isList = lines[next].text.startsWith('- ') || lines[next].text === '-';
+      const found = isList ? [] : {};
+      while (next < lines.length && lines[next].indent === indent) {
+        const entry = lines[next];
+        if (isList) {
+          if (!entry.text.startsWith('-')) fail(file, entry.line, `expected - before ${short(entry.text)}`);
+          const rest = entry.text.slice(1).trim();
+          if (!rest) { ++next; found.push(next < lines.length && lines[next].indent > indent ? block(lines[next].indent) : null); continue; }
+          if (/^- /.test(rest) || (/^[\w.]+:(\s|$)/.test(rest))) {
+            entry.indent = indent + entry.text.indexOf(rest);
+            entry.text = rest;
+            found.push(block(entry.indent));
+          } else { ++next; found.push(read(rest, entry.line)); }
+          continue;
+        }
+        const pair = /^("[^"]*"|'[^']*'|[^:[\]{}]+):(?:\s+(.*))?$/.exec(entry.text);
+        if (!pair) fail(file, entry.line, `${short(entry.text)} is no 'key: value'`);
+        const key = String(scalar(pair[1].trim(), entry.line));
+        if (Object.prototype.hasOwnProperty.call(found, key)) fail(file, entry.line, `the key '${short(key)}' is given twice`);
+        ++next;
+        if (pair[2] !== undefined && pair[2] !== '') found[key] = read(pair[2], entry.line);
+        else if (next < lines.length && (lines[next].indent > indent || (lines[next].indent === indent && lines[next].text.startsWith('-')))) found[key] = block(lines[next].indent);
+        else found[key] = null;
+      }
+      if (next < lines.length && lines[next].indent > indent) fail(file, lines[next].line, 'is indented more than what it belongs to');
+      return found;
+    }
+    const found = block(lines[0].indent);
+    if (next < lines.length) fail(file, lines[next].line, 'is indented less than the first line');
+    return found;
+  }
+
+  const isNumber = value => typeof value === 'number' && Number.isFinite(value);
+  function numbers(file, what, value, count) {
+    if (!Array.isArray(value) || value.length !== count || !value.every(isNumber)) fail(file, 0, `${what} must be a list of ${count} numbers`);
+    return value.slice();
+  }
+
+  const VEHICLE_FIELDS = ['wheelbase', 'front_overhang', 'rear_overhang', 'width', 'max_steering_angle', 'max_speed', 'max_acceleration', 'max_steering_rate'];
+  const KINDS = ['perpendicular', 'parallel', 'angled'], ENTRIES = ['reverse', 'forward', 'either'], SIDES = ['right', 'left', 'either'];
+
+  function vehicle(file, value, known) {
+    if (value === undefined || value === null) return { ...known.find(each => each.name === 'tpcap') };
+    if (typeof value === 'string') {
+      const found = known.find(each => each.name === value);
+      if (!found) fail(file, 0, `unknown vehicle '${short(value)}'; known: ${known.map(each => each.name).join(', ')}`);
+      return { ...found };
+    }
+    const tpcap = known.find(each => each.name === 'tpcap'), made = { name: String(value.name || 'custom') };
+    for (const key of Object.keys(value)) if (key !== 'name' && !VEHICLE_FIELDS.includes(key)) fail(file, 0, `vehicle: unknown key '${short(key)}'`);
+    VEHICLE_FIELDS.forEach((field, index) => {
+      if (value[field] === undefined && index >= 5) made[field] = tpcap[field];
+      else if (!isNumber(value[field])) fail(file, 0, `vehicle: ${field} must be a number`);
+      else made[field] = value[field];
+    });
+    return made;
+  }
+
+  function slot(file, value) {
+    const known = ['kind', 'pose', 'length', 'width', 'entry', 'angle', 'side', 'depth', 'lateral_offset'];
+    for (const key of Object.keys(value)) if (!known.includes(key)) fail(file, 0, `slot: unknown key '${short(key)}'`);
+    const choice = (name, names, otherwise) => {
+      if (value[name] === undefined && otherwise) return otherwise;
+      if (!names.includes(value[name])) fail(file, 0, `slot: ${name} must be ${names.join(', ')}`);
+      return value[name];
+    };
+    const number = (name, otherwise) => {
+      if (value[name] === undefined && otherwise !== undefined) return otherwise;
+      if (!isNumber(value[name])) fail(file, 0, `slot: ${name} must be a number`);
+      return value[name];
+    };
+    return { kind: choice('kind', KINDS), pose: numbers(file, 'slot: pose', value.pose, 3), length: number('length'), width: number('width'),
+      entry: choice('entry', ENTRIES, 'reverse'), angle: number('angle', Math.PI / 4), side: choice('side', SIDES, 'either'),
+      depth: value.depth === undefined ? null : number('depth'), lateral_offset: number('lateral_offset', 0) };
+  }
+
+  function polygons(file, list) {
+    if (list === null) return [];
+    if (!Array.isArray(list)) fail(file, 0, 'polygons must be a list of polygons, each a list of [x, y]');
+    return list.map((polygon, index) => {
+      if (!Array.isArray(polygon) || polygon.length < 3) fail(file, 0, `polygon ${index + 1} must be a list of at least 3 corners [x, y]`);
+      return polygon.map(corner => numbers(file, `a corner of polygon ${index + 1}`, corner, 2));
+    });
+  }
+
+  const nameOf = file => file.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
+
+  // A scene from a scenario's text. `other(name)` gives another file's text or bytes, or undefined.
+  async function readScenario(file, text, known, other) {
+    const yaml = parseYaml(file, text);
+    if (Array.isArray(yaml)) fail(file, 0, "must be a mapping with lines such as 'key: value'");
+    if (yaml.image !== undefined) return mapScene(await readMap(file, text, other), nameOf(file), known);
+    const keys = ['name', 'map', 'polygons', 'vehicle', 'start', 'goal', 'slot', 'unknown_is_occupied'];
+    for (const key of Object.keys(yaml)) if (!keys.includes(key)) fail(file, 0, `unknown key '${short(key)}'; known: ${keys.join(', ')}`);
+    if ((yaml.map === undefined) === (yaml.polygons === undefined)) fail(file, 0, yaml.map === undefined ? 'neither map nor polygons is given; one of them must be' : 'both map and polygons are given; give one of them');
+    if ((yaml.goal === undefined) === (yaml.slot === undefined)) fail(file, 0, yaml.goal === undefined ? 'neither goal nor slot is given; one of them must be' : 'both goal and slot are given; give one of them');
+    const scene = { name: String(yaml.name || nameOf(file)), vehicle: vehicle(file, yaml.vehicle, known), start: numbers(file, 'start', yaml.start, 3),
+      goals: yaml.goal === undefined ? [] : [numbers(file, 'goal', yaml.goal, 3)], slot: yaml.slot === undefined ? null : slot(file, yaml.slot || {}),
+      polygons: [], map: null };
+    if (yaml.polygons !== undefined) scene.polygons = polygons(file, yaml.polygons);
+    else if (yaml.map && typeof yaml.map === 'object') scene.polygons = polygons(file, yaml.map.polygons === undefined ? null : yaml.map.polygons);
+    else {
+      const mapText = await other(String(yaml.map));
+      if (typeof mapText !== 'string') fail(file, 0, `its map '${short(yaml.map)}' is not here: drop it together with this file`);
+      scene.map = await readMap(String(yaml.map), mapText, other);
+      scene.map.unknownIsOccupied = yaml.unknown_is_occupied !== false;
+    }
+    return scene;
+  }
+
+  function readTpcap(file, text, known) {
+    const fields = text.replace(/^\uFEFF/, '').split(/[,\n]/).map(each => each.trim()).filter(each => each !== '');
+    const values = fields.map((each, index) => {
+      const value = Number(each);
+      if (each === '' || !Number.isFinite(value)) fail(file, 0, `number ${index + 1} is '${short(each)}'; it must be a finite decimal number`);
+      return value;
+    });
+    const wrap = angle => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+    if (values.length < 7) fail(file, 0, `too few numbers: the ${values.length} in the file end before the number of obstacles`);
+    const count = values[6];
+    if (!Number.isInteger(count) || count < 0 || 7 + count > values.length) fail(file, 0, `number 7 is ${count}; the number of obstacles must be a whole number that fits the file`);
+    const corners = values.slice(7, 7 + count);
+    if (corners.some(each => !Number.isInteger(each) || each < 3)) fail(file, 0, 'an obstacle needs at least 3 corners');
+    const total = corners.reduce((sum, each) => sum + each, 0);
+    if (values.length - 7 - count !== 2 * total) fail(file, 0, `the vertex counts ask for ${2 * total} coordinates and the file holds ${values.length - 7 - count}`);
+    let at = 7 + count;
+    return { name: nameOf(file), vehicle: vehicle(file, 'tpcap', known), start: [values[0], values[1], wrap(values[2])], goals: [[values[3], values[4], wrap(values[5])]], slot: null,
+      polygons: corners.map(n => Array.from({ length: n }, () => [values[at++], values[at++]])), map: null };
+  }
+
+  // Pixels: { width, height, white, at(index) } with the brightness, or -1 where a pixel is not opaque.
+  function readPgm(file, bytes) {
+    let at = 2;
+    const plain = String.fromCharCode(bytes[0], bytes[1]) === 'P2';
+    const number = () => {
+      for (;;) {
+        while (at < bytes.length && bytes[at] <= 32) ++at;
+        if (bytes[at] !== 35) break;
+        while (at < bytes.length && bytes[at] !== 10) ++at;
+      }
+      let value = 0, any = false;
+      while (at < bytes.length && bytes[at] >= 48 && bytes[at] <= 57) { value = 10 * value + bytes[at++] - 48; any = true; }
+      if (!any) fail(file, 0, 'the PGM image ends too early, or holds what is no number');
+      return value;
+    };
+    const width = number(), height = number(), white = number();
+    if (width < 1 || height < 1 || width * height > 1 << 24) fail(file, 0, `an image of ${width} x ${height} pixels is too small or too large`);
+    if (white < 1 || white > 65535) fail(file, 0, `the largest value is ${white}; it must be 1 to 65535`);
+    const pixels = new Int32Array(width * height);
+    if (plain) for (let i = 0; i < pixels.length; ++i) pixels[i] = number();
+    else {
+      ++at;
+      const size = white > 255 ? 2 : 1;
+      if (bytes.length - at < size * pixels.length) fail(file, 0, 'the PGM image is cut short');
+      for (let i = 0; i < pixels.length; ++i) pixels[i] = size === 2 ? 256 * bytes[at + 2 * i] + bytes[at + 2 * i + 1] : bytes[at + i];
+    }
+    return { width, height, white, pixels };
+  }
+
+  async function readPng(file, bytes) {
+    let bitmap;
+    try { bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }), { colorSpaceConversion: 'none' }); } catch (error) { fail(file, 0, 'is no PNG image'); }
+    const canvas = document.createElement('canvas');
+    canvas.width = bitmap.width; canvas.height = bitmap.height;
+    const context = canvas.getContext('2d', { willReadFrequently: true });
+    context.drawImage(bitmap, 0, 0);
+    const data = context.getImageData(0, 0, bitmap.width, bitmap.height).data, pixels = new Int32Array(bitmap.width * bitmap.height);
+    for (let i = 0; i < pixels.length; ++i) pixels[i] = data[4 * i + 3] < 255 ? -1 : Math.round((data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 3);
+    return { width: bitmap.width, height: bitmap.height, white: 255, pixels };
+  }
+
+  const isPgm = bytes => bytes[0] === 80 && (bytes[1] === 50 || bytes[1] === 53);
+  const isPng = bytes => bytes[0] === 137 && bytes[1] === 80 && bytes[2] === 78;
+
+  async function readMap(file, text, other) {
+    const yaml = parseYaml(file, text), image = String(yaml.image || '');
+    if (!isNumber(yaml.resolution) || yaml.resolution <= 0) fail(file, 0, 'resolution must be a positive number of metres per cell');
+    const origin = numbers(file, 'origin', yaml.origin, 3);
+    const bytes = await other(image);
+    if (!bytes || typeof bytes === 'string') fail(file, 0, `its image '${short(image)}' is not here: drop it together with this file`);
+    if (!isPgm(bytes) && !isPng(bytes)) fail(image, 0, 'is neither a PGM (P2, P5) nor a PNG image');
+    const picture = isPgm(bytes) ? readPgm(image, bytes) : await readPng(image, bytes);
+    const occupied = isNumber(yaml.occupied_thresh) ? yaml.occupied_thresh : 0.65, free = isNumber(yaml.free_thresh) ? yaml.free_thresh : 0.196;
+    return { ...cellsOf(picture, { negate: yaml.negate === 1 || yaml.negate === true, occupied, free, raw: yaml.mode === 'raw' }), resolution: yaml.resolution, origin, unknownIsOccupied: true, name: nameOf(file) };
+  }
+
+  function cellsOf(picture, rules) {
+    const { width, height, white, pixels } = picture, cells = new Uint8Array(width * height);
+    for (let row = 0; row < height; ++row)
+      for (let column = 0; column < width; ++column) {
+        const brightness = pixels[row * width + column];
+        let cell = 2;
+        if (brightness >= 0) {
+          const dark = rules.negate ? brightness : white - brightness;
+          let probability = dark / white;
+          if (rules.raw) { const percent = Math.round(255 * (white - dark) / white); probability = percent > 100 ? NaN : percent / 100; }
+          cell = probability > rules.occupied ? 1 : probability < rules.free ? 0 : 2;
+        }
+        cells[(height - 1 - row) * width + column] = cell;
+      }
+    return { columns: width, rows: height, cells };
+  }
+
+  // A map without a problem: the car starts where there is room.
+  function mapScene(map, name, known) {
+    const car = vehicle(name, 'vw_golf8', known), need = Math.ceil(3 / map.resolution), free = [];
+    const step = Math.max(1, Math.round(1 / map.resolution));
+    for (let row = need; row < map.rows - need; row += step)
+      for (let column = need; column < map.columns - need; column += step) {
+        let room = true;
+        for (let r = row - need; r <= row + need && room; r += 1) for (let c = column - need; c <= column + need; ++c) if (map.cells[r * map.columns + c] !== 0) { room = false; break; }
+        if (room) free.push([column, row]);
+      }
+    if (!free.length) fail(name, 0, 'the map has no free place for a car');
+    const [ox, oy, yaw] = map.origin, place = ([column, row]) => {
+      const x = (column + 0.5) * map.resolution, y = (row + 0.5) * map.resolution;
+      return [ox + x * Math.cos(yaw) - y * Math.sin(yaw), oy + x * Math.sin(yaw) + y * Math.cos(yaw), 0];
+    };
+    return { name, vehicle: car, start: place(free[0]), goals: [place(free[free.length - 1])], slot: null, polygons: [], map };
+  }
+
+  // Files that were dropped or chosen: the scene that they make.
+  async function open(files, known) {
+    const contents = new Map();
+    for (const file of files) {
+      if (file.size > 64 << 20) fail(file.name, 0, 'is larger than 64 MB');
+      contents.set(file.name, new Uint8Array(await file.arrayBuffer()));
+    }
+    const isText = bytes => !isPgm(bytes) && !isPng(bytes) && !bytes.subarray(0, 4096).includes(0);
+    const decode = bytes => new TextDecoder().decode(bytes);
+    const other = async name => {
+      const bytes = contents.get(name.replace(/^.*[\\/]/, ''));
+      return bytes === undefined ? undefined : isText(bytes) ? decode(bytes) : bytes;
+    };
+    const texts = [...contents].filter(([, bytes]) => isText(bytes)).map(([name, bytes]) => [name, decode(bytes)]);
+    const scenarios = texts.filter(([, text]) => /^(start|slot|goal)\s*:/m.test(text)), cases = texts.filter(([, text]) => Number.isFinite(parseFloat(text)) && text.trim().split(/[,\n]/)[0].trim() !== '' && Number.isFinite(Number(text.trim().split(/[,\n]/)[0])));
+    const maps = texts.filter(([, text]) => /^image\s*:/m.test(text));
+    if (scenarios.length) return readScenario(scenarios[0][0], scenarios[0][1], known, other);
+    if (cases.length) return readTpcap(cases[0][0], cases[0][1], known);
+    if (maps.length) return mapScene(await readMap(maps[0][0], maps[0][1], other), nameOf(maps[0][0]), known);
+    const images = [...contents].filter(([, bytes]) => isPgm(bytes) || isPng(bytes));
+    if (images.length) {
+      const [name, bytes] = images[0], picture = isPgm(bytes) ? readPgm(name, bytes) : await readPng(name, bytes);
+      return mapScene({ ...cellsOf(picture, { negate: false, occupied: 0.65, free: 0.196 }), resolution: 0.1, origin: [0, 0, 0], unknownIsOccupied: true, name: nameOf(name) }, nameOf(name), known);
+    }
+    fail(files[0] ? files[0].name : 'nothing', 0, 'is no scenario (YAML), TPCAP case (CSV) or map (YAML with PGM or PNG)');
+  }
+
+  const number = value => String(Math.round(value * 1e9) / 1e9);
+  const list = values => '[' + values.map(number).join(', ') + ']';
+
+  function toYaml(scene) {
+    const lines = [`# Written by the playground of Improved A* for automatic parking.`, `name: ${JSON.stringify(scene.name)}`, 'vehicle:', `  name: ${JSON.stringify(scene.vehicle.name)}`];
+    for (const field of VEHICLE_FIELDS) lines.push(`  ${field}: ${number(scene.vehicle[field])}`);
+    lines.push(`start: ${list(scene.start)}`);
+    if (scene.slot) {
+      const slot = scene.slot;
+      lines.push('slot:', `  kind: ${slot.kind}`, `  pose: ${list(slot.pose)}`, `  length: ${number(slot.length)}`, `  width: ${number(slot.width)}`, `  entry: ${slot.entry}`);
+      if (slot.kind === 'angled') lines.push(`  angle: ${number(slot.angle)}`);
+      if (slot.side !== 'either') lines.push(`  side: ${slot.side}`);
+      if (slot.depth !== null) lines.push(`  depth: ${number(slot.depth)}`);
+      if (slot.lateral_offset) lines.push(`  lateral_offset: ${number(slot.lateral_offset)}`);
+    } else lines.push(`goal: ${list(scene.goals[0])}`);
+    if (scene.map) {
+      lines.push(`map: ${scene.map.name}_map.yaml`);
+      if (!scene.map.unknownIsOccupied) lines.push('unknown_is_occupied: false');
+    } else {
+      lines.push('polygons:' + (scene.polygons.length ? '' : ' []'));
+      for (const polygon of scene.polygons) lines.push(`  - [${polygon.map(list).join(', ')}]`);
+    }
+    return lines.join('\n') + '\n';
+  }
+
+  // The two files that a scene with a map needs beside it.
+  function mapFiles(map) {
+    const header = new TextEncoder().encode(`P5\n${map.columns} ${map.rows}\n255\n`), bytes = new Uint8Array(header.length + map.cells.length);
+    bytes.set(header);
+    for (let row = 0; row < map.rows; ++row)
+      for (let column = 0; column < map.columns; ++column)
+        bytes[header.length + (map.rows - 1 - row) * map.columns + column] = [254, 0, 205][map.cells[row * map.columns + column]];
+    return [[`${map.name}_map.yaml`, `image: ${map.name}.pgm\nresolution: ${number(map.resolution)}\norigin: ${list(map.origin)}\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n`], [`${map.name}.pgm`, bytes]];
+  }
+
+  const table = (names, rows) => names.join(',') + '\n' + rows.map(row => row.join(',')).join('\n') + '\n';
+
+  return { parseYaml, readScenario, readTpcap, open, toYaml, mapFiles, table, VEHICLE_FIELDS, KINDS, ENTRIES, SIDES };
+})();

@@ -1,0 +1,324 @@
+// Puts the parts together: plans when something changes, draws when something is to be seen.
+
+(async () => {
+  const { byId, notice } = Panels, canvas = byId('view');
+  const show = { footprints: true, tree: false, heuristic: false, clearance: false, charts: true };
+  let answer = null, compareWith = '', optimising = false, soon = false, mode = 'drive', playing = false, stamp = 0, time = null, drawn = false, planning = 0, sentMap = null, settled = 0;
+
+  const bundled = JSON.parse(byId('scenes').textContent);
+  const fileOf = async name => {
+    const content = bundled.files[name];
+    if (content === undefined || !content.startsWith('base64:')) return content;
+    return Uint8Array.from(atob(content.slice(7)), each => each.charCodeAt(0));
+  };
+
+  // Drawing, at most once a frame.
+  function redraw() { if (!drawn) { drawn = true; requestAnimationFrame(() => { drawn = false; render(); }); } }
+
+  const plan = () => answer && answer.plans && answer.plans[0];
+  const drive = () => { const p = plan(); return p && p.trajectory && p.trajectory.length >= 16 ? p.trajectory : null; };
+  const steps = p => Draw.rows(p.steps || new Float64Array(0), 4);
+  const duration = () => { const d = drive(); return d ? d[d.length - 8] : 0; };
+
+  function momentOf(points, t) {
+    let low = 0, high = points.length / 8 - 1;
+    while (high - low > 1) { const middle = (low + high) >> 1; if (points[8 * middle] <= t) low = middle; else high = middle; }
+    const a = points.subarray(8 * low, 8 * low + 8), b = points.subarray(8 * high, 8 * high + 8), share = b[0] > a[0] ? Math.min(1, Math.max(0, (t - a[0]) / (b[0] - a[0]))) : 1, mix = i => a[i] + share * (b[i] - a[i]);
+    return { pose: [mix(1), mix(2), a[3] + share * Scene.wrap(b[3] - a[3])], v: mix(4), a: a[5], steering: mix(6), index: low };
+  }
+
+  function pane(painter, scene, p, main) {
+    Draw.metres(painter);
+    Draw.world(painter, scene, answer && answer.bounds, main ? Tools.selected : null);
+    const has = p && p.path && p.path.length;
+    if (p && p.steps && (show.tree || show.heuristic || mode === 'search')) {
+      const all = steps(p), at = mode === 'search' && time !== null ? Math.min(all.length - 1, Math.floor(time * all.length)) : all.length - 1, step = all[at];
+      if (step) {
+        const before = all[Math.max(0, at - 1)], ended = at >= all.length - 1;
+        Draw.tree(painter, p.startTree, step[1], Draw.palette['tree-start'], { heuristic: show.heuristic, fresh: ended ? 0 : step[1] - before[1] });
+        Draw.tree(painter, p.goalTree, step[2], Draw.palette['tree-goal'], { heuristic: show.heuristic, fresh: ended ? 0 : step[2] - before[2] });
+      }
+    }
+    const hidden = mode === 'search' && time !== null && time < 1;
+    const disc = p && p.summary && p.summary[13] ? p.summary[14] : 0;
+    if (has && !hidden) {
+      if (show.footprints) Draw.footprints(painter, scene.vehicle, p.path, disc);
+      Draw.path(painter, p.path);
+      if (show.clearance) Draw.clearance(painter, p.path);
+    }
+    const goals = answer && answer.goals && answer.goals.length ? Draw.rows(answer.goals, 3) : scene.goals, selected = main ? Tools.selected : null, used = has && p.summary ? p.summary[12] : 0;
+    goals.forEach((goal, i) => Draw.car(painter, scene.vehicle, goal, { edge: Draw.palette.goal, fill: 'rgba(16, 185, 129, 0.16)', opacity: i === used ? 0.95 : 0.5, chosen: selected && ((selected.kind === 'goal' && selected.index === i) || selected.kind === 'slot') }));
+    const moving = main && mode === 'drive' && time !== null && drive();
+    Draw.car(painter, scene.vehicle, scene.start, { opacity: moving ? 0.35 : 1, chosen: selected && selected.kind === 'start' });
+    if (moving) {
+      const now = momentOf(drive(), time), track = Draw.rows(drive(), 8).slice(0, now.index + 1).map(each => [each[1], each[2]]);
+      track.push([now.pose[0], now.pose[1]]);
+      painter.shape(track, { stroke: Draw.palette.drive, width: 2.5 }, false);
+      Draw.car(painter, scene.vehicle, now.pose, { steering: now.steering, brake: now.a * now.v < -0.02 || Math.abs(now.v) < 0.005, reverse: now.v < -0.005 });
+    } else {
+      painter.text([scene.start[0], scene.start[1]], 'Start', { fill: Draw.palette['car-edge'], halo: Draw.palette.ground, dy: -0.5 * scene.vehicle.width * painter.view.scale - 11 });
+      if (goals[used]) painter.text([goals[used][0], goals[used][1]], 'Goal', { fill: Draw.palette.goal, halo: Draw.palette.ground, dy: 0.5 * scene.vehicle.width * painter.view.scale + 11 });
+    }
+    if (main) {
+      if (Tools.selected && !playing) Draw.handles(painter, scene, Tools.selected);
+      if (Tools.outline) {
+        const corners = Tools.hover ? [...Tools.outline.corners, Tools.hover] : Tools.outline.corners;
+        painter.shape(corners, { fill: Draw.palette.slot, stroke: Draw.palette.accent, width: 2, dash: [5, 4] });
+        for (const corner of Tools.outline.corners) painter.disc(corner, 4.5, { fill: Draw.palette.ground, stroke: Draw.palette.accent, width: 2 });
+      }
+    }
+  }
+
+  function render() {
+    const scene = Scene.current;
+    if (!scene) return;
+    const ratio = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight, context = canvas.getContext('2d');
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) { canvas.width = Math.round(width * ratio); canvas.height = Math.round(height * ratio); }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.fillStyle = Draw.palette.ground;
+    context.fillRect(0, 0, width, height);
+    const halves = compareWith ? 2 : 1;
+    Tools.halves = halves;
+    byId('sides').hidden = halves < 2;
+    for (let k = 0; k < halves; ++k) {
+      context.save();
+      context.translate(k * width / halves, 0);
+      context.beginPath(); context.rect(0, 0, width / halves, height); context.clip();
+      pane(new CanvasPainter(context, width / halves, height, View.view), scene, answer && answer.plans ? answer.plans[k] : null, k === 0);
+      context.restore();
+    }
+    if (halves > 1) { context.fillStyle = Draw.palette.soft; context.fillRect(width / 2 - 1, 0, 2, height); }
+    const p = plan();
+    if (show.charts && p && p.path && p.path.length) {
+      if (mode === 'drive' && drive() && time !== null) Charts.drive(byId('chart-1'), byId('chart-2'), drive(), scene.vehicle, time);
+      else Charts.path(byId('chart-1'), byId('chart-2'), p.path, scene.vehicle);
+    }
+    clock();
+    byId('delete').disabled = !(Tools.selected && Tools.selected.kind === 'polygon');
+    byId('undo').disabled = !Scene.canUndo();
+    byId('redo').disabled = !Scene.canRedo();
+  }
+
+  function clock() {
+    const p = plan();
+    let text = '\u2013', share = 1;
+    if (mode === 'drive') { const all = duration(); if (all) { const t = time === null ? 0 : time; text = `${t.toFixed(1)} / ${all.toFixed(1)} s`; share = t / all; } }
+    else if (p && p.steps) { const all = steps(p), t = time === null ? 1 : time, at = Math.min(all.length - 1, Math.floor(t * all.length)); text = all.length ? `${all[at][0]} of ${all[all.length - 1][0]} expanded` : text; share = t; }
+    byId('clock').textContent = text;
+    byId('time').value = 1000 * share;
+    byId('play').innerHTML = playing ? '&#10074;&#10074; Pause' : '&#9654; Play';
+  }
+
+  // Planning. While something is dragged: quick plans, the rest when it comes to rest.
+  function question(whole) {
+    const scene = Scene.current, limit = Math.min(30, Math.max(0.05, Number(byId('limit').value) || 1));
+    const parameters = [{ ...Panels.parameters }];
+    if (compareWith) parameters.push({ parameter_set: compareWith });
+    return { kind: 'plan', numbers: Planner.numbersOf(scene), cells: scene.map ? scene.map.cells : null, parameters, seconds: limit, trace: show.tree || show.heuristic || mode === 'search' ? 20000 : 0, trajectory: whole ? 2 : 0 };
+  }
+  async function replan(whole) {
+    const mine = ++planning, scene = Scene.current;
+    document.body.dataset.busy = 'yes';
+    const asked = performance.now(), found = await Planner.ask(question(whole));
+    if (!found) return;
+    if (whole && mine === planning) delete document.body.dataset.busy;
+    document.body.dataset.planned = String(performance.now() - asked);
+    if (!found.ok) { answer = { message: found.message, goals: found.goals, bounds: found.bounds, plans: null }; Panels.wrong(found.message); redraw(); return; }
+    // A drive that is known stays until the path is another.
+    answer = found;
+    if (found.goals) Panels.goals = found.goals;
+    Panels.verdict(found.plans[0], Number(byId('limit').value));
+    Panels.figures(found.plans[0], found.plans[1], duration() || NaN);
+    byId('hint').textContent = Tools.dragging ? '' : scene === Scene.current ? 'Drag the car, the goal or an obstacle. The plan follows.' : '';
+    document.body.dataset.answers = String(Number(document.body.dataset.answers || 0) + 1);
+    if (whole) document.body.dataset.whole = String(mine);
+    if (whole && mine === planning) optimising = false;
+    if (soon && drive()) { soon = false; notice(''); actions.play(); }
+    if (mode === 'drive' && time !== null && !playing) time = Math.min(time, duration());
+    redraw();
+  }
+  function changed(what) {
+    const scene = Scene.current;
+    if (what !== 'changed') { Panels.showVehicle(); Panels.showSlot(); }
+    if (what === 'opened') { Tools.reset(); fit(); }
+    time = null; playing = false; soon = false; optimising = true;
+    replan(false);
+    clearTimeout(settled);
+    settled = setTimeout(() => replan(true), 160);
+    if (scene.slot === null && !scene.goals.length) scene.goals = [[...scene.start]];
+    redraw();
+  }
+
+  function fit() {
+    const scene = Scene.current, box = [Infinity, Infinity, -Infinity, -Infinity];
+    const include = ([x, y]) => { box[0] = Math.min(box[0], x); box[1] = Math.min(box[1], y); box[2] = Math.max(box[2], x); box[3] = Math.max(box[3], y); };
+    for (const corner of Scene.footprint(scene.vehicle, scene.start, 1)) include(corner);
+    for (const goal of scene.goals) for (const corner of Scene.footprint(scene.vehicle, goal, 1)) include(corner);
+    if (scene.slot) Scene.slotOutline(scene.slot).forEach(include);
+    // What lies round the problem, not the whole street.
+    const near = [box[0] - 6, box[1] - 6, box[2] + 6, box[3] + 6];
+    for (const [x, y] of scene.polygons.flat()) include([Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))]);
+    if (scene.map) { const [x, y] = scene.map.origin; include([x, y]); include([x + scene.map.columns * scene.map.resolution, y + scene.map.rows * scene.map.resolution]); }
+    View.fit(box, canvas.clientWidth / (compareWith ? 2 : 1), canvas.clientHeight);
+    redraw();
+  }
+
+  async function openBundled(name) {
+    Scene.replace(await Formats.readScenario(name + '.yaml', await fileOf(name + '.yaml'), Panels.vehicles, fileOf));
+    byId('scene').value = name;
+  }
+  async function openFiles(files) {
+    try {
+      if (Scene.current) Scene.remember();
+      Scene.replace(await Formats.open([...files], Panels.vehicles));
+      byId('scene').value = '';
+    } catch (error) { notice(error.message); Panels.say(error.message); }
+  }
+
+  // Links: the scene, what is changed of the parameters, the view; deflated where the browser can.
+  const toBase64 = bytes => { let text = ''; for (const each of bytes) text += String.fromCharCode(each); return btoa(text).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, ''); };
+  const fromBase64 = text => Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), each => each.charCodeAt(0));
+  const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+  async function link() {
+    const scene = Scene.current, shared = byId('scene').value && !Scene.canUndo() ? { bundled: byId('scene').value } : null;
+    if (scene.map && !shared) { notice('A map is too large for a link; save the scenario instead.'); return null; }
+    const round = value => JSON.parse(JSON.stringify(value, (key, each) => typeof each === 'number' ? Math.round(each * 1e6) / 1e6 : each));
+    const content = new TextEncoder().encode(JSON.stringify({ ...(shared || { scene: round({ ...scene, map: undefined }) }), parameters: Panels.parameters, compare: compareWith || undefined }));
+    const deflated = typeof CompressionStream === 'undefined' ? null : await through(content, new CompressionStream('deflate-raw'));
+    location.hash = deflated ? 'z' + toBase64(deflated) : 'j' + toBase64(content);
+    return location.href;
+  }
+  async function openLink(hash) {
+    const bytes = fromBase64(hash.slice(1)), content = hash[0] === 'z' ? await through(bytes, new DecompressionStream('deflate-raw')) : bytes;
+    const found = JSON.parse(new TextDecoder().decode(content));
+    if (found.parameters) Panels.parameters = Object.fromEntries(Object.entries(found.parameters).filter(([name]) => Panels.knows(name)).map(([name, value]) => [name, String(value)]));
+    if (Panels.sets.includes(found.compare)) { compareWith = found.compare; byId('compare').value = compareWith; byId('other-name').textContent = compareWith; }
+    if (found.bundled && bundled.order.includes(found.bundled)) return openBundled(found.bundled);
+    // Through the reader of files, which checks everything.
+    const scene = found.scene;
+    if (!scene || typeof scene !== 'object') throw new Error('the link holds no scene');
+    const text = Formats.toYaml({ name: String(scene.name || 'scene'), vehicle: scene.vehicle, start: scene.start, goals: scene.goals, slot: scene.slot, polygons: scene.polygons, map: null });
+    Scene.replace(await Formats.readScenario('link.yaml', text, Panels.vehicles, async () => undefined));
+    byId('scene').value = '';
+  }
+
+  function save(name, content, type) {
+    const address = URL.createObjectURL(new Blob([content], { type }));
+    const anchor = Panels.element('a', { href: address, download: name });
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(address), 10000);
+  }
+  function svg() {
+    const painter = new SvgPainter(canvas.clientWidth, canvas.clientHeight, View.view);
+    pane(painter, Scene.current, plan(), false);
+    return painter.toString(Draw.palette.ground);
+  }
+  const fileName = () => Scene.current.name.replace(/[^\w.-]+/g, '_') || 'scene';
+  const pathTable = () => Formats.table(['x', 'y', 'yaw', 'direction', 'curvature', 'driven', 'clearance'], Draw.rows(plan().path, 7).map(each => [...each]));
+
+  const actions = {
+    open: () => byId('files').click(), fit, undo: Scene.undo, redo: Scene.redo, delete: Tools.remove, help: () => byId('keys').showModal(),
+    share: async () => { const address = await link(); if (!address) return; try { await navigator.clipboard.writeText(address); notice('The link to this scene is in the address and copied.'); } catch (error) { notice('The link to this scene is in the address.'); } },
+    theme: () => { const dark = document.documentElement.classList.toggle('dark'); try { localStorage.setItem('theme', dark ? 'dark' : 'light'); } catch (error) { /* without storage the page forgets */ } Draw.refresh(); redraw(); },
+    'save-yaml': () => { save(fileName() + '.yaml', Formats.toYaml(Scene.current), 'text/yaml'); if (Scene.current.map) for (const [name, content] of Formats.mapFiles(Scene.current.map)) save(name, content, 'application/octet-stream'); },
+    'save-csv': () => { if (plan() && plan().path.length) save(fileName() + '_path.csv', pathTable(), 'text/csv'); else notice('There is no path to save.'); },
+    'save-trajectory': () => { if (drive()) save(fileName() + '_trajectory.csv', Formats.table(['t', 'x', 'y', 'yaw', 'v', 'a', 'steering', 'steering_rate'], Draw.rows(drive(), 8).map(each => [...each])), 'text/csv'); else notice('There is no trajectory to save.'); },
+    'save-svg': () => save(fileName() + '.svg', svg(), 'image/svg+xml'),
+    print: () => window.print(),
+    play: () => {
+      if (playing) { playing = false; redraw(); return; }
+      if (mode === 'drive' && !drive() && optimising) { soon = true; notice('The drive is being optimised.'); return; }
+      if (mode === 'drive' && !drive()) { notice(plan() && plan().trajectoryMessage ? plan().trajectoryMessage : 'There is nothing to drive.'); return; }
+      if (mode === 'search' && !(plan() && plan().steps)) return;
+      const end = mode === 'drive' ? duration() : 1;
+      if (time === null || time >= end) time = 0;
+      playing = true;
+      stamp = performance.now();
+      requestAnimationFrame(frame);
+    },
+    ablation: async () => {
+      const rows = [];
+      for (const name of Panels.sets) {
+        const found = await Planner.ask({ ...question(false), parameters: [{ parameter_set: name }], trace: 0 });
+        if (found && found.ok) { rows.push([name, found.plans[0].summary]); Panels.ablation(rows); }
+      }
+      replan(true);
+    }
+  };
+  for (const name in actions) byId(name).addEventListener('click', () => { actions[name](); const menu = byId(name).closest('details.menu'); if (menu) menu.open = false; });
+
+  function frame(now) {
+    if (!playing) return;
+    const rate = Number(byId('rate').value), all = mode === 'drive' ? duration() : 1;
+    // A search plays in about six seconds, whatever its size.
+    time += (now - stamp) / 1000 * rate * (mode === 'drive' ? 1 : 1 / 12);
+    stamp = now;
+    if (time >= all) { time = all; playing = false; }
+    render();
+    if (playing) requestAnimationFrame(frame);
+  }
+  function setMode(name) {
+    mode = name; playing = false; time = null;
+    for (const each of ['drive', 'search']) byId('tab-' + each).setAttribute('aria-selected', String(each === name));
+    legend();
+    if (name === 'search' && !(plan() && plan().steps)) replan(true); else redraw();
+  }
+  byId('tab-drive').addEventListener('click', () => setMode('drive'));
+  byId('tab-search').addEventListener('click', () => setMode('search'));
+  byId('time').addEventListener('input', () => { playing = false; time = Number(byId('time').value) / 1000 * (mode === 'drive' ? duration() : 1); redraw(); });
+
+  function legend() {
+    const entries = [['forward', 'forwards'], ['reverse', 'reverse']];
+    if (show.tree || show.heuristic || mode === 'search') entries.push(['tree-start', "the start's tree"], ['tree-goal', "the goal's tree"]);
+    if (mode === 'drive') entries.push(['drive', 'driven']);
+    byId('legend').replaceChildren(...entries.map(([colour, name]) => Panels.element('li', {}, Panels.element('i', { style: `background:var(--${colour})` }), name)));
+  }
+  for (const box of document.querySelectorAll('[data-show]')) box.addEventListener('change', () => {
+    show[box.dataset.show] = box.checked;
+    byId('charts').hidden = !show.charts;
+    legend();
+    if ((show.tree || show.heuristic) && !(plan() && plan().steps)) replan(true); else redraw();
+  });
+
+  byId('compare').addEventListener('change', () => { compareWith = byId('compare').value; byId('other-name').textContent = compareWith; fit(); replan(true); });
+  byId('limit').addEventListener('change', () => replan(true));
+  byId('vehicle').addEventListener('change', () => { Scene.remember(); const car = Panels.vehicles.find(each => each.name === byId('vehicle').value); if (car) Scene.current.vehicle = { ...car }; Scene.changed(); Panels.showVehicle(); });
+  byId('scene').addEventListener('change', () => { if (byId('scene').value) { Scene.remember(); openBundled(byId('scene').value).catch(error => notice(error.message)); } });
+  byId('files').addEventListener('change', () => { openFiles(byId('files').files); });
+  addEventListener('dragover', event => { event.preventDefault(); document.body.classList.add('dropping'); });
+  addEventListener('dragleave', event => { if (!event.relatedTarget) document.body.classList.remove('dropping'); });
+  addEventListener('drop', event => { event.preventDefault(); document.body.classList.remove('dropping'); if (event.dataTransfer.files.length) openFiles(event.dataTransfer.files); });
+  addEventListener('paste', event => { const text = event.clipboardData && event.clipboardData.getData('text'); if (text && !/^(INPUT|TEXTAREA)$/.test(event.target.tagName)) openFiles([new File([text], 'pasted')]); });
+  addEventListener('resize', redraw);
+  addEventListener('hashchange', () => { if (/^#[zj]/.test(location.hash) && !document.body.dataset.ownLink) openLink(location.hash.slice(1)).catch(error => notice('The link cannot be read: ' + error.message)); });
+  addEventListener('beforeprint', () => { document.body.dataset.dark = document.documentElement.classList.contains('dark') ? 'yes' : ''; document.documentElement.classList.remove('dark'); Draw.refresh(); render(); });
+  addEventListener('afterprint', () => { if (document.body.dataset.dark) document.documentElement.classList.add('dark'); Draw.refresh(); redraw(); });
+  addEventListener('keydown', event => {
+    if (/^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) || byId('keys').open) return;
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') { event.preventDefault(); if (event.shiftKey) Scene.redo(); else Scene.undo(); return; }
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const tool = { v: 'select', c: 'car', p: 'polygon', s: 'slot' }[event.key.toLowerCase()], box = { t: 'tree', h: 'heuristic', r: 'clearance' }[event.key.toLowerCase()], action = { f: 'fit', o: 'open', l: 'share', d: 'theme', '?': 'help' }[event.key.toLowerCase()];
+    if (tool) Tools.use(tool);
+    else if (box) { const input = document.querySelector(`[data-show="${box}"]`); input.checked = !input.checked; input.dispatchEvent(new Event('change')); }
+    else if (action) actions[action]();
+    else if (event.key === ' ' && !/^(BUTTON|SUMMARY)$/.test(event.target.tagName)) { event.preventDefault(); actions.play(); }
+  });
+
+  // Begin.
+  let theme = null;
+  try { theme = localStorage.getItem('theme'); } catch (error) { /* no storage: as the system says */ }
+  if (theme === 'dark' || (theme === null && matchMedia('(prefers-color-scheme: dark)').matches)) document.documentElement.classList.add('dark');
+  Draw.refresh();
+  legend();
+  const about = await Planner.about;
+  if (about.broken) { byId('status').textContent = 'This browser cannot run the planner'; Panels.say(about.broken); return; }
+  Panels.begin(about, () => replan(true));
+  byId('scene').append(...bundled.order.map(name => Panels.element('option', { value: name }, name.replace(/_/g, ' '))));
+  Scene.listen(changed);
+  Tools.listen(() => { clearTimeout(settled); replan(true); }, redraw);
+  try {
+    if (/^#[zj]/.test(location.hash)) await openLink(location.hash.slice(1)); else await openBundled('perpendicular');
+  } catch (error) { notice('The link cannot be read: ' + error.message); await openBundled('perpendicular'); }
+  // For tests and the curious.
+  window.playground = { Scene, View, Planner, Formats, Panels, Tools, Draw, svg, pathTable, link, get answer() { return answer; }, show, setMode, openBundled, openFiles, openLink, get time() { return time; } };
+})();

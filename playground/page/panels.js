@@ -1,0 +1,128 @@
+// The panel beside the scene: figures, car, slot, parameters, comparison; messages.
+
+const Panels = (() => {
+  const byId = id => document.getElementById(id);
+  let table = [], vehicles = [], chosen = {}, onParameters = () => {}, hiding = 0;
+
+  function element(name, attributes = {}, ...children) {
+    const made = document.createElement(name);
+    for (const key in attributes) if (key.startsWith('on')) made.addEventListener(key.slice(2), attributes[key]); else if (attributes[key] !== undefined) made.setAttribute(key, attributes[key]);
+    made.append(...children);
+    return made;
+  }
+  function notice(text) {
+    byId('notice').textContent = text;
+    byId('notice').hidden = !text;
+    clearTimeout(hiding);
+    hiding = setTimeout(() => { byId('notice').hidden = true; }, 6000);
+  }
+  function say(text) { byId('said').textContent = text; }
+
+  const OUTCOMES = ['Parked', 'Only near the goal', 'No way', 'Out of time', 'The start is blocked', 'The goal is blocked'];
+  const fixed = (value, digits, unit = '') => Number.isFinite(value) ? value.toFixed(digits) + unit : '\u2013';
+  function verdict(plan, limit) {
+    const outcome = plan.summary[0];
+    byId('status').textContent = OUTCOMES[outcome];
+    byId('verdict').className = outcome === 0 ? '' : outcome === 1 ? 'near' : 'wrong';
+    const s = plan.summary;
+    say(outcome === 0 ? `${fixed(s[1], 2)} m, ${s[2]} change${s[2] === 1 ? '' : 's'} of direction, ${fixed(s[3], 2)} m of room \u00b7 ${fixed(s[10], 1)} ms` : outcome === 3 ? `nothing found within ${limit} s` : plan.message);
+  }
+  function wrong(message) {
+    byId('status').textContent = 'Not a scene';
+    byId('verdict').className = 'wrong';
+    say(message);
+    byId('figures').tBodies[0].replaceChildren();
+  }
+  function figures(plan, other, duration) {
+    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['least clearance', fixed(p[3], 3, ' m')], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 2, ' ms')], ['expansions', fixed(p[6], 0)], ['motions tried', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
+    const mine = rows(plan.summary, duration), theirs = other ? rows(other.summary, NaN) : null;
+    byId('figures').tBodies[0].replaceChildren(...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), ...(theirs ? [element('td', { style: 'text-align:right' }, value), element('td', {}, theirs[i][1])] : [element('td', {}, value)]))));
+  }
+
+  const NAMES = { wheelbase: 'wheelbase, m', front_overhang: 'front overhang, m', rear_overhang: 'rear overhang, m', width: 'width, m', max_steering_angle: 'steering angle, rad', max_speed: 'speed, m/s', max_acceleration: 'acceleration, m/s\u00b2', max_steering_rate: 'steering rate, rad/s' };
+  function field(name, value, step, set) {
+    const input = element('input', { type: 'number', step, value: Math.round(value * 1e4) / 1e4, 'aria-label': name });
+    input.addEventListener('change', () => { const number = input.valueAsNumber; if (Number.isFinite(number)) set(number); else notice(`${name} must be a number.`); });
+    return element('label', { class: 'row' }, name, input);
+  }
+  function showVehicle() {
+    const scene = Scene.current, select = byId('vehicle'), known = vehicles.find(each => each.name === scene.vehicle.name);
+    select.replaceChildren(...vehicles.map(each => element('option', { value: each.name }, each.name.replace(/_/g, ' '))), ...(known ? [] : [element('option', { value: scene.vehicle.name }, scene.vehicle.name)]));
+    select.value = scene.vehicle.name;
+    const details = element('details', {}, element('summary', {}, 'Sizes and limits'));
+    for (const key of Formats.VEHICLE_FIELDS) details.append(field(NAMES[key], scene.vehicle[key], 0.01, value => { Scene.remember(); scene.vehicle[key] = value; scene.vehicle.name = 'custom'; Scene.changed(); showVehicle(); }));
+    const open = byId('vehicle-fields').querySelector('details[open]') !== null;
+    details.open = open;
+    byId('vehicle-fields').replaceChildren(details);
+  }
+  function showSlot() {
+    const scene = Scene.current, box = byId('slot-fields'), slot = scene.slot;
+    const remove = element('button', { type: 'button', onclick: () => { Scene.remember(); scene.goals = [lastGoal()]; scene.slot = null; Tools.select({ kind: 'goal', index: 0 }); Scene.changed(); showSlot(); } }, 'A free goal instead');
+    if (!slot) {
+      box.replaceChildren(element('p', { class: 'dim' }, 'The goal is a pose. Draw a slot with the tool Slot, or '), element('button', { type: 'button', onclick: () => {
+        Scene.remember();
+        const [x, y, yaw] = scene.goals[0], car = scene.vehicle, middle = (car.wheelbase + car.front_overhang - car.rear_overhang) / 2;
+        scene.slot = { kind: 'perpendicular', pose: [x + middle * Math.cos(yaw), y + middle * Math.sin(yaw), yaw], length: 5.2, width: 2.6, entry: 'reverse', angle: Math.PI / 4, side: 'either', depth: null, lateral_offset: 0 };
+        scene.goals = [];
+        Tools.select({ kind: 'slot' }); Scene.changed(); showSlot();
+      } }, 'Put a slot round the goal'));
+      return;
+    }
+    const choice = (name, values) => { const select = element('select', { 'aria-label': name }, ...values.map(each => element('option', {}, each))); select.value = slot[name]; select.addEventListener('change', () => { Scene.remember(); slot[name] = select.value; Scene.changed(); showSlot(); }); return element('label', { class: 'row' }, name, select); };
+    const number = (name, key, step = 0.05) => field(name, slot[key], step, value => { Scene.remember(); slot[key] = value; Scene.changed(); });
+    box.replaceChildren(choice('kind', Formats.KINDS), choice('entry', Formats.ENTRIES), number('length, m', 'length'), number('width, m', 'width'), ...(slot.kind === 'angled' ? [number('angle, rad', 'angle', 0.01)] : []), number('to the left, m', 'lateral_offset', 0.01), remove);
+  }
+  let goals = [];
+  const lastGoal = () => goals.length ? Array.from(goals.slice(0, 3)) : [...Scene.current.slot.pose];
+
+  const isDefault = row => chosen[row.name] === undefined || chosen[row.name] === String(row.value);
+  function parameterRow(row) {
+    const set = value => { if (String(value) === String(row.value)) delete chosen[row.name]; else chosen[row.name] = String(value); box.classList.toggle('changed', !isDefault(row)); onParameters(); };
+    const now = chosen[row.name] === undefined ? row.value : chosen[row.name], box = element('div', { class: 'parameter' + (isDefault(row) ? '' : ' changed'), 'data-name': row.name });
+    let control;
+    if (row.type === 'flag') { control = element('input', { type: 'checkbox', 'aria-label': row.name }); control.checked = String(now) === 'true'; control.addEventListener('change', () => set(control.checked)); }
+    else if (row.type === 'name') { control = element('select', { 'aria-label': row.name }, ...row.names.map(each => element('option', {}, each))); control.value = now; control.addEventListener('change', () => set(control.value)); }
+    else {
+      control = element('input', { type: 'number', 'aria-label': row.name, min: row.zero ? 0 : row.least, max: row.most, step: row.type === 'count' ? row.step : 'any', value: now });
+      control.addEventListener('change', () => { const value = control.valueAsNumber; if (Number.isFinite(value) && ((value >= row.least && value <= row.most) || (row.zero && value === 0))) set(value); else { notice(`${row.name} must be between ${row.least} and ${row.most}${row.unit ? ' ' + row.unit : ''}.`); control.value = chosen[row.name] === undefined ? row.value : chosen[row.name]; } });
+    }
+    const meaning = element('p', {});
+    row.meaning.split('`').forEach((part, i) => meaning.append(i % 2 ? element('code', {}, part) : part));
+    const line = element('label', { class: 'row' }, element('code', {}, row.name + (row.unit ? `, ${row.unit}` : '')), control);
+    box.append(line);
+    // Short ranges get a slider, too.
+    if (row.type === 'number' && row.most <= 100 && row.most > row.least) {
+      const slider = element('input', { type: 'range', min: row.zero ? 0 : row.least, max: Math.min(row.most, 10 * Math.max(1, row.value)), step: row.step || 'any', value: now, 'aria-label': row.name + ', slider' });
+      slider.addEventListener('input', () => { control.value = slider.value; set(Number(slider.value)); });
+      control.addEventListener('change', () => { slider.value = control.value; });
+      box.append(element('div', { class: 'row' }, slider));
+    }
+    box.append(meaning);
+    return box;
+  }
+  function showParameters() {
+    byId('parameters').replaceChildren(...table.filter(row => row.name !== 'turning_radius').map(parameterRow));
+    filter();
+  }
+  function filter() {
+    const words = byId('filter').value.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const box of byId('parameters').children) box.hidden = !words.every(word => box.textContent.toLowerCase().includes(word) || box.dataset.name.includes(word));
+  }
+  byId('filter').addEventListener('input', filter);
+  byId('defaults').addEventListener('click', () => { chosen = {}; showParameters(); onParameters(); });
+
+  function ablation(rows) {
+    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, name), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], 1))));
+    byId('table-wrap').replaceChildren(element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'expanded', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
+  }
+
+  function begin(about, changed) {
+    table = about.parameters; vehicles = about.vehicles; onParameters = changed;
+    const sets = table.find(row => row.name === 'parameter_set').names;
+    byId('compare').append(...sets.map(each => element('option', { value: each }, each === 'improved_astar' ? 'improved_astar (the paper)' : each)));
+    showParameters();
+  }
+  return { begin, notice, say, verdict, wrong, figures, showVehicle, showSlot, showParameters, ablation, byId, element,
+    get parameters() { return chosen; }, set parameters(values) { chosen = values; showParameters(); }, get vehicles() { return vehicles; },
+    get sets() { return table.find(row => row.name === 'parameter_set').names; }, set goals(numbers) { goals = numbers; }, knows: name => table.some(row => row.name === name) };
+})();

@@ -1,0 +1,71 @@
+// The page's side of the worker: the newest question is asked when the one before is answered.
+
+const Planner = (() => {
+  const source = document.getElementById('worker').textContent;
+  const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
+  let worker, busy = null, waiting = null, count = 0, ready = null, onReady = null, patience = 0;
+  const about = new Promise(resolve => { onReady = resolve; });
+
+  function begin() {
+    worker = new Worker(address);
+    worker.onmessage = event => {
+      const answer = event.data;
+      if (answer.kind === 'ready') { ready = answer; onReady(answer); send(); return; }
+      if (answer.kind === 'broken') { onReady({ broken: answer.message }); return; }
+      clearTimeout(patience);
+      const asked = busy;
+      busy = null;
+      if (answer.broken) { worker.terminate(); ready = null; begin(); }
+      if (asked) asked.resolve({ ...answer, stale: waiting !== null, question: asked.question });
+      send();
+    };
+    worker.onerror = event => { event.preventDefault(); onReady({ broken: event.message }); };
+  }
+
+  function send() {
+    if (busy || !waiting || !ready) return;
+    busy = waiting;
+    waiting = null;
+    worker.postMessage(busy.question);
+    // Should it not come back long after its limit (a huge map, say), it is begun anew.
+    patience = setTimeout(() => {
+      const asked = busy;
+      worker.terminate();
+      busy = null; ready = null;
+      begin();
+      asked.resolve({ ok: false, id: asked.question.id, message: 'the planner did not answer in time', question: asked.question });
+    }, 1000 * (15 + 6 * asked(busy.question)));
+  }
+  const asked = question => (question.seconds * 2 + (question.trajectory || 0)) * question.parameters.length;
+
+  // Resolves with the answer; with undefined when a newer question took its place.
+  function ask(question) {
+    return new Promise(resolve => {
+      if (waiting) waiting.resolve(undefined);
+      waiting = { question: { ...question, id: ++count }, resolve };
+      send();
+    });
+  }
+
+  function numbersOf(scene) {
+    const all = Formats.VEHICLE_FIELDS.map(field => scene.vehicle[field]);
+    all.push(...scene.start);
+    if (scene.slot) {
+      const slot = scene.slot;
+      all.push(1, Formats.KINDS.indexOf(slot.kind), ...slot.pose, slot.length, slot.width, Formats.ENTRIES.indexOf(slot.entry), slot.angle, Formats.SIDES.indexOf(slot.side), slot.depth === null ? -1 : slot.depth, slot.lateral_offset);
+    } else {
+      all.push(0, scene.goals.length);
+      for (const goal of scene.goals) all.push(...goal);
+    }
+    if (scene.map) all.push(1, scene.map.columns, scene.map.rows, scene.map.resolution, ...scene.map.origin, scene.map.unknownIsOccupied ? 1 : 0);
+    else {
+      all.push(0, scene.polygons.length);
+      for (const polygon of scene.polygons) all.push(polygon.length);
+      for (const polygon of scene.polygons) for (const [x, y] of polygon) all.push(x, y);
+    }
+    return Float64Array.from(all);
+  }
+
+  begin();
+  return { about, ask, numbersOf };
+})();
