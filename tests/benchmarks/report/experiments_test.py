@@ -24,16 +24,17 @@ def main(program, configurations):
                 continue
             connection = sqlite3.connect(os.path.join(folder, 'benchmark.db'))
             rows = connection.execute(
-                f'SELECT plannerConfigs.name, success, {", ".join(COLUMNS)} FROM runs JOIN plannerConfigs '
-                'ON plannerConfigs.id = runs.plannerid').fetchall()
+                f'SELECT experiments.name, plannerConfigs.name, success, {", ".join(COLUMNS)} FROM runs JOIN plannerConfigs '
+                'ON plannerConfigs.id = runs.plannerid JOIN experiments ON experiments.id = runs.experimentid').fetchall()
             connection.close()
-            for planner, success, *figures in rows:
-                solvable = name != 'unreachable'
+            for experiment, planner, success, *figures in rows:
+                # Through the gap of too_tight the car gets, the disc does not.
+                solvable = name != 'unreachable' or (planner == 'Car' and experiment.startswith('too_tight'))
                 if bool(success) != solvable:
                     faults.append(f'{name}, {planner}: success {success}')
                 if (solvable or 'Basic' not in planner) and not all(figure and figure > 0.0 for figure in figures):
                     faults.append(f'{name}, {planner}: {dict(zip(COLUMNS, figures))}')
-            if len(rows) != (4 if name != 'unreachable' else 3):
+            if len(rows) != (4 if name != 'unreachable' else 9):
                 faults.append(f'{name}: {len(rows)} runs')
     for fault in faults:
         print(fault)
