@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import re
 
 from charts import text
 from design import KEYS
@@ -29,7 +30,7 @@ def label(x, y, words, anchor='start', more=''):
 def effects_figure(effects, measures=('total', 'cells', 'expanded', 'length', 'turning')):
     """Main effects with their intervals on a logarithmic axis; one panel for each figure."""
     names = list(effects)
-    panel, left, row = 300.0, 150.0, 17.0
+    panel, left, row = 300.0, 175.0, 17.0
     height = 40.0 + row * len(KEYS) * len(names)
     body = []
     for index, measure in enumerate(measures):
@@ -98,6 +99,18 @@ def read_pgm(file):
     return width, height, [pixels[width * k:width * (k + 1)] for k in range(height)]
 
 
+def pose_in(file, key):
+    """A pose of a scenario file, as [x, y, yaw]."""
+    try:
+        with open(file, encoding='utf-8') as stream:
+            found = re.search(rf'^{key}: \[([^\]]*)\]', stream.read(), re.MULTILINE)
+    except OSError as error:
+        raise ReportError(f'{file}: cannot be read: {error.strerror}') from error
+    if not found:
+        raise ReportError(f'{file}: has no {key}')
+    return [float(word) for word in found.group(1).split(',')]
+
+
 def map_body(rows, cell, bounds, scale):
     """What is not free as grey rectangles, in pixels; bounds: x0, y0, x1, y1 in metres about the map's middle."""
     half = 0.5 * cell * len(rows)
@@ -120,14 +133,15 @@ def map_body(rows, cell, bounds, scale):
     return '<path fill="#c8c8c8" d="' + ''.join(body) + '"/>'
 
 
-def paths_figure(results, map_file, cell=0.5, scale=7.0, problem='perpendicular_approach'):
-    """The paths of all eight algorithms on one map, a panel each."""
+def paths_figure(results, map_file, start, cell=0.5, scale=7.0, problem='perpendicular_approach'):
+    """The paths of all eight algorithms on one map, a panel each. They are kept in coordinates of their own; start is
+    where they begin on the map."""
     rows = read_pgm(map_file)[2]
     drawn = {}
     for name in ALGORITHMS:
         path = next((run.path for run in results.of(problem, name) if run.path and run.path.get('pieces')), None)
         if path:
-            drawn[name] = points_of(path)
+            drawn[name] = [(x - path['start'][0] + start[0], y - path['start'][1] + start[1]) for x, y in points_of(path)]
     if not drawn:
         raise ReportError(f'{results.folder}: holds no paths')
     every = [point for points in drawn.values() for point in points]
@@ -197,6 +211,8 @@ def write_all(folder, images, fixed, effects):
         raise ReportError(f'{images}: cannot be made: {error.strerror}') from error
     here = os.path.dirname(os.path.abspath(__file__))
     write_whole(os.path.join(images, 'paper-effects.svg'), effects_figure(effects))
+    maps = os.path.join(here, '..', 'maps')
     write_whole(os.path.join(images, 'paper-paths.svg'),
-                paths_figure(fixed['perpendicular'], os.path.join(here, '..', 'maps', 'perpendicular.pgm')))
+                paths_figure(fixed['perpendicular'], os.path.join(maps, 'perpendicular.pgm'),
+                             pose_in(os.path.join(maps, 'perpendicular_approach.yaml'), 'start')))
     write_whole(os.path.join(images, 'paper-drives.svg'), drives_figure(drives))

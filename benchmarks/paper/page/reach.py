@@ -1,31 +1,17 @@
 """How near to its goal a disc can come at all: every cell that it gets to, looked at one by one."""
 import collections
 import math
-import re
 
-from figures import read_pgm
-from results import ReportError
+from figures import pose_in, read_pgm
 
 CELL, FREE = 0.5, 254
-
-
-def pose_of(text, key, file):
-    found = re.search(rf'^{key}: \[([^\]]*)\]', text, re.MULTILINE)
-    if not found:
-        raise ReportError(f'{file}: has no {key}')
-    return [float(word) for word in found.group(1).split(',')]
 
 
 def nearest_reachable(scenario_file, radius):
     """Metres between the goal and the nearest cell's middle that a disc gets to from the start over eight neighbours.
 
     The cells are those of the map, whose middle is at 0, 0; the start is in the middle of one."""
-    try:
-        with open(scenario_file, encoding='utf-8') as stream:
-            text = stream.read()
-    except OSError as error:
-        raise ReportError(f'{scenario_file}: cannot be read: {error.strerror}') from error
-    start, goal = (pose_of(text, key, scenario_file) for key in ('start', 'goal'))
+    start, goal = (pose_in(scenario_file, key) for key in ('start', 'goal'))
     width, height, rows = read_pgm(scenario_file.removesuffix('.yaml') + '.pgm')
     rows = rows[::-1]
     reach = math.ceil(radius / CELL)
