@@ -38,8 +38,11 @@ namespace parking
         const Vehicle &car = checker.vehicle();
         FootprintEnvironment environment(checker, bounds, SWEEP_TOLERANCE);
         std::vector<Path> found;
+        std::uint64_t expanded = 0;
         for (const Taste &taste : TASTES)
         {
+            if (expanded >= options.mostExpansions)
+                break;
             search::PlanRequest request;
             request.starts = {path.start};
             request.goals = {path.end()};
@@ -48,10 +51,11 @@ namespace parking
             request.parameters.gearChangePenalty = taste.gear;
             request.parameters.steeringChangePenalty = taste.steering;
             request.parameters.approximate = false;
-            request.maxExpansions = options.mostExpansions;
+            request.maxExpansions = options.mostExpansions - expanded;
             if (interrupted)
                 request.stop = interrupted;
             const search::PlanResult result = search::plan(environment, request);
+            expanded += result.statistics.expanded;
             const auto known = [&result](const Path &other)
             {
                 return isKnown(result.path, other);

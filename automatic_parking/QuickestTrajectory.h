@@ -18,7 +18,7 @@ namespace parking
         bool alternatives{true};             ///< whether other paths are looked for
         std::vector<Path> others;            ///< known already: other ways between the same poses
         bool forwardOnly{false};             ///< whether those must not drive in reverse
-        std::uint64_t mostExpansions{1000};  ///< of the search for each of them
+        std::uint64_t mostExpansions{1600};  ///< of the searches for all of them
     };
 
     /** \brief A trajectory, and the path that it was made from. */

@@ -23,7 +23,7 @@ namespace parking
         constexpr double FIRST_BARRIER = 5e-3;      // seconds, of rounds that begin with a guess
         constexpr double AGAIN_BARRIER = 1e-3;      // of rounds that begin with a solution
         constexpr double ENOUGH_GAIN = 3e-3;        // share of the cost for which another round is worth its time
-        constexpr double PROMISING = 1.15;          // share of the best cost that improving a solution may make up for
+        constexpr double PROMISING = 1.05;          // share of the best cost that improving a solution may make up for
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path, see Search
         constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
@@ -117,23 +117,33 @@ namespace parking
         /** Looks for a motion near one of the paths that costs less than \e limit. */
         std::optional<TimedMotion> run(const std::vector<Path> &paths, double limit)
         {
-            std::optional<Solution> found;
+            std::vector<Solution> solutions;
             for (std::size_t i = 0; i < paths.size() && (i == 0 || mayGoOn()); ++i)
             {
                 // While there are other paths, one attempt is enough for each.
-                auto solution =
-                    first(paths[i], paths.size() > 1 ? 1 : owner_.options_.mostRounds, found ? found->cost : limit);
-                if (!solution || (found && solution->cost > PROMISING * found->cost))
+                auto solution = first(paths[i], paths.size() > 1 ? 1 : owner_.options_.mostRounds,
+                                      solutions.empty() ? limit : PROMISING * leastCost(solutions));
+                if (!solution)
                     continue;
                 isFound_ = true;
-                improve(*solution);
-                if (found && solution->cost >= found->cost)
-                    continue;
-                found = std::move(solution);
-                report_.path = i;
+                solution->path = i;
+                solutions.push_back(std::move(*solution));
             }
-            if (!found && paths.size() > 1 && (found = first(paths.front(), owner_.options_.mostRounds, limit)))
-                improve(*found);
+            if (solutions.empty() && paths.size() > 1)
+                if (auto solution = first(paths.front(), owner_.options_.mostRounds, limit))
+                    solutions.push_back(std::move(*solution));
+            std::stable_sort(solutions.begin(), solutions.end(),
+                             [](const Solution &a, const Solution &b) { return a.cost < b.cost; });
+            std::optional<Solution> found;
+            for (Solution &solution : solutions)
+            {
+                if (found && (!mayGoOn() || solution.cost > PROMISING * found->cost))
+                    break;
+                improve(solution);
+                if (!found || solution.cost < found->cost)
+                    found = std::move(solution);
+            }
+            report_.path = found ? found->path : 0;
             if (!found)
                 return std::nullopt;
             const bool isBetter = owner_.costOf(found->motion) < limit;
@@ -150,7 +160,21 @@ namespace parking
             MotionProblem problem;
             TimedMotion motion;
             double cost;
+            std::size_t path{0};
+
+            // What solving it again depends on.
+            SeparationOptions separation;
+            double spacing{SPACING};
+            Pose start, goal;
         };
+
+        static double leastCost(const std::vector<Solution> &solutions)
+        {
+            double least = solutions.front().cost;
+            for (const Solution &solution : solutions)
+                least = std::min(least, solution.cost);
+            return least;
+        }
 
         /** Work that may still be done; more while there is nothing yet. */
         double left() const
@@ -212,12 +236,19 @@ namespace parking
         /** Chooses the lines anew along what was found, as often as that is worth it. */
         void improve(Solution &best)
         {
+            separation_ = best.separation;
+            spacing_ = best.spacing;
+            start_ = best.start;
+            goal_ = best.goal;
             for (std::size_t round = 0; round < owner_.options_.mostRounds && mayGoOn(); ++round)
             {
                 auto found = solveFrom(best.problem, AGAIN_BARRIER);
                 const double gain = found ? best.cost - found->cost : 0.0;
                 if (gain > 0.0)
+                {
+                    found->path = best.path;
                     best = std::move(*found);
+                }
                 if (gain < ENOUGH_GAIN * best.cost)
                     return;
             }
@@ -263,7 +294,8 @@ namespace parking
             TimedMotion motion = motionOf(problem);
             if (!holds(motion))
                 return std::nullopt;
-            return Solution{std::move(problem), std::move(motion), solved.cost};
+            return Solution{std::move(problem), std::move(motion), solved.cost, 0,
+                            separation_,        spacing_,          start_,      goal_};
         }
 
         TimedMotion motionOf(const MotionProblem &problem) const
