@@ -1,0 +1,284 @@
+#include "benchmarks/queries/MadeWorlds.h"
+
+#include "benchmarks/worlds/Random.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/text/NearestName.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        using parking_test::Random;
+        using Polygons = std::vector<Polygon>;
+
+        constexpr double MILLIMETRES = 1e3;  // in a metre
+        constexpr double SLOT_LENGTH = 5.0;  // metres, of a perpendicular slot
+        constexpr double WALL = 0.3;         // metres
+
+        /** A rectangle round a pose. */
+        Polygon block(const Pose &middle, double length, double width)
+        {
+            Polygon polygon;
+            for (const auto &[x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+            {
+                const Pose corner = compose(middle, {x * length, y * width, 0.0});
+                polygon.emplace_back(corner.x, corner.y);
+            }
+            return polygon;
+        }
+
+        Polygon wall(double left, double low, double right, double high)
+        {
+            return {{left, low}, {right, low}, {right, high}, {left, high}};
+        }
+
+        /** Walls round a box, from outside. */
+        void surround(Polygons &world, double left, double low, double right, double high)
+        {
+            world.push_back(wall(left - WALL, low - WALL, right + WALL, low));
+            world.push_back(wall(left - WALL, high, right + WALL, high + WALL));
+            world.push_back(wall(left - WALL, low, left, high));
+            world.push_back(wall(right, low, right + WALL, high));
+        }
+
+        /** Some car, parked as people do: off the middle and askew by a little. */
+        void park(Polygons &world, Random &random, const Pose &middle)
+        {
+            static const std::vector<std::string> names = vehicleNames();
+            const Vehicle car = vehicleByName(names[random.index(names.size())]);
+            const double along = random.between(-0.15, 0.15), across = random.between(-0.12, 0.12);
+            world.push_back(
+                block(compose(middle, {along, across, random.between(-0.03, 0.03)}), car.length(), car.width));
+        }
+
+        /** Cars side by side along x, their noses up or down, each slot taken with a probability. */
+        void row(Polygons &world, Random &random, double left, double right, double y, double slotWidth, double taken,
+                 double lean)
+        {
+            for (double x = left + 0.5 * slotWidth; x + 0.5 * slotWidth <= right; x += slotWidth)
+                if (random.chance(taken))
+                    park(world, random, {x, y, 0.5 * PI + lean});
+        }
+
+        Polygons parkedRows(Random &random)
+        {
+            Polygons world;
+            const double width = random.between(40.0, 90.0), end = random.between(6.0, 9.0);
+            const double aisle = random.between(5.2, 7.0), slot = random.between(2.4, 2.8);
+            const double taken = random.between(0.5, 0.95), lean = random.chance(0.3) ? random.between(-0.5, 0.5) : 0.0;
+            double y = 0.5 * SLOT_LENGTH;
+            row(world, random, 0.0, width, y, slot, taken, lean);
+            for (std::size_t aisles = 1 + random.index(3); aisles > 0; --aisles)
+            {
+                y += SLOT_LENGTH + aisle;
+                row(world, random, aisles > 1 ? end : 0.0, aisles > 1 ? width - end : width, y, slot, taken, lean);
+                if (aisles > 1)
+                    row(world, random, end, width - end, y += SLOT_LENGTH, slot, taken, lean);
+            }
+            surround(world, 0.0, 0.0, width, y + 0.5 * SLOT_LENGTH);
+            return world;
+        }
+
+        Polygons streets(Random &random)
+        {
+            Polygons world;
+            const std::size_t columns = 2 + random.index(3), rows = 2 + random.index(2);
+            std::vector<double> widths, heights, roadsX, roadsY;
+            for (std::size_t i = 0; i <= columns; ++i)
+                widths.push_back(random.between(22.0, 60.0)), roadsX.push_back(random.between(6.5, 11.0));
+            for (std::size_t i = 0; i <= rows; ++i)
+                heights.push_back(random.between(22.0, 60.0)), roadsY.push_back(random.between(6.5, 11.0));
+            const double crowded = random.between(0.2, 0.8);
+            double y = 0.0;
+            for (std::size_t i = 0; i < rows; y += heights[i] + roadsY[i], ++i)
+            {
+                double x = 0.0;
+                for (std::size_t k = 0; k < columns; x += widths[k] + roadsX[k], ++k)
+                {
+                    const double right = x + widths[k], high = y + heights[i];
+                    if (random.chance(0.7))
+                        world.push_back(wall(x, y, right, high));
+                    else
+                    {
+                        // A yard that is open to one street.
+                        const double depth = random.between(0.3, 0.7) * heights[i], gate = random.between(7.0, 14.0);
+                        const double at = random.between(x + 3.0, right - 3.0 - gate);
+                        world.push_back({{x, y},
+                                         {at, y},
+                                         {at, y + depth},
+                                         {at + gate, y + depth},
+                                         {at + gate, y},
+                                         {right, y},
+                                         {right, high},
+                                         {x, high}});
+                    }
+                    // Along the upper and the right kerb, where the street stays wide enough.
+                    for (double s = 6.0; s < widths[k] - 6.0; s += random.between(5.6, 8.0))
+                        if (roadsY[i] > 7.5 && random.chance(crowded))
+                            park(world, random, {x + s, high + 1.3, 0.0});
+                    for (double s = 6.0; s < heights[i] - 6.0; s += random.between(5.6, 8.0))
+                        if (roadsX[k] > 7.5 && random.chance(crowded))
+                            park(world, random, {right + 1.3, y + s, 0.5 * PI});
+                }
+            }
+            return world;
+        }
+
+        Polygons multiStorey(Random &random)
+        {
+            Polygons world;
+            const double width = random.between(42.0, 70.0), lane = random.between(5.4, 6.5);
+            const double slot = random.between(2.4, 2.7), taken = random.between(0.6, 0.95);
+            const double deck = 4.0 * SLOT_LENGTH + 2.0 * lane, ramp = random.between(3.4, 4.5);
+            const double climb = random.between(12.0, 20.0);
+            const std::size_t decks = 2 + random.index(3);
+            for (std::size_t i = 0; i < decks; ++i)
+            {
+                const double y = static_cast<double>(i) * (deck + climb);
+                // The ramps up begin at alternate ends, so that every deck has to be crossed.
+                const auto rampAt = [&](std::size_t below)
+                {
+                    return below % 2 == 0 ? width - 1.0 - ramp : 1.0;
+                };
+                const double clear = ramp + 4.0;
+                const double lowLeft = i > 0 && i % 2 == 0 ? clear : 0.0;
+                const double lowRight = i % 2 == 1 ? width - clear : width;
+                const double highLeft = i + 1 < decks && i % 2 == 1 ? clear : 0.0;
+                const double highRight = i + 1 < decks && i % 2 == 0 ? width - clear : width;
+                row(world, random, lowLeft, lowRight, y + 0.5 * SLOT_LENGTH, slot, taken, 0.0);
+                for (const double middle : {1.5 * SLOT_LENGTH + lane, 2.5 * SLOT_LENGTH + lane})
+                    row(world, random, lane + 0.5, width - lane - 0.5, y + middle, slot, taken, 0.0);
+                row(world, random, highLeft, highRight, y + deck - 0.5 * SLOT_LENGTH, slot, taken, 0.0);
+                for (double x = lane + 2.0; x < width - lane - 2.0; x += 3.0 * slot)
+                    world.push_back(block({x, y + 0.5 * deck, 0.0}, 0.4, 0.4));
+                world.push_back(wall(-WALL, y, 0.0, y + deck));
+                world.push_back(wall(width, y, width + WALL, y + deck));
+                if (i == 0)
+                    world.push_back(wall(0.0, y - WALL, width, y));
+                if (i + 1 == decks)
+                {
+                    world.push_back(wall(0.0, y + deck, width, y + deck + WALL));
+                    continue;
+                }
+                // Beside the ramp nothing can be driven on.
+                const double from = rampAt(i);
+                world.push_back(wall(-WALL, y + deck, from, y + deck + climb));
+                world.push_back(wall(from + ramp, y + deck, width + WALL, y + deck + climb));
+            }
+            return world;
+        }
+
+        /** Corners round a place, in order but at any distance: rarely convex. */
+        Polygon star(Random &random, double x, double y, double largest)
+        {
+            Polygon polygon;
+            const std::size_t corners = 3 + random.index(8);
+            const double turned = random.between(0.0, 2.0 * PI);
+            for (std::size_t i = 0; i < corners; ++i)
+            {
+                const double angle = turned + 2.0 * PI * (static_cast<double>(i) + random.between(0.0, 0.6)) /
+                                                  static_cast<double>(corners);
+                const double radius = largest * random.between(0.3, 1.0);
+                polygon.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle));
+            }
+            return polygon;
+        }
+
+        Polygons clutter(Random &random)
+        {
+            Polygons world;
+            const double size = random.between(35.0, 75.0);
+            const auto count = static_cast<std::size_t>(size * size * random.between(0.008, 0.03));
+            for (std::size_t i = 0; i < count; ++i)
+            {
+                const double x = random.between(0.0, size), y = random.between(0.0, size);
+                if (random.chance(0.3))
+                    world.push_back(block({x, y, 0.0}, 0.12, 0.12));
+                else if (random.chance(0.5))
+                {
+                    const double yaw = random.between(-PI, PI), length = random.between(0.3, 3.0);
+                    world.push_back(block({x, y, yaw}, length, random.between(0.2, 1.5)));
+                }
+                else
+                    world.push_back(star(random, x, y, random.between(0.2, 1.6)));
+            }
+            surround(world, 0.0, 0.0, size, size);
+            return world;
+        }
+
+        Polygons shapes(Random &random)
+        {
+            Polygons world;
+            const double size = random.between(60.0, 120.0);
+            for (std::size_t count = 7 + random.index(14); count > 0; --count)
+            {
+                const double x = random.between(0.0, size), y = random.between(0.0, size);
+                world.push_back(star(random, x, y, random.between(2.5, 0.14 * size)));
+            }
+            return world;
+        }
+
+        Polygons largeLot(Random &random)
+        {
+            Polygons world;
+            const double width = random.between(150.0, 250.0), cross = random.between(6.0, 9.0);
+            const double aisle = random.between(5.8, 7.5), slot = random.between(2.45, 2.75);
+            const double taken = random.between(0.3, 0.9);
+            const std::size_t modules = 5 + random.index(5);
+            double y = 0.0;
+            for (std::size_t i = 0; i < modules; ++i, y += 2.0 * SLOT_LENGTH + aisle)
+                // Two halves with a lane across in the middle; an island with a lamp at each end of a double row.
+                for (const double left : {cross, 0.5 * width + 0.5 * cross})
+                {
+                    const double right = left + 0.5 * width - 1.5 * cross;
+                    row(world, random, left + 2.0, right - 2.0, y + aisle + 0.5 * SLOT_LENGTH, slot, taken, 0.0);
+                    row(world, random, left + 2.0, right - 2.0, y + aisle + 1.5 * SLOT_LENGTH, slot, taken, 0.0);
+                    for (const double x : {left + 0.8, right - 0.8})
+                        world.push_back(block({x, y + aisle + SLOT_LENGTH, 0.0}, 1.4, random.between(3.0, 9.0)));
+                }
+            surround(world, 0.0, 0.0, width, y + aisle);
+            return world;
+        }
+
+        const std::vector<std::pair<std::string, std::function<Polygons(Random &)>>> KINDS{
+            {"parked_rows", parkedRows}, {"streets", streets}, {"multi_storey", multiStorey},
+            {"clutter", clutter},        {"shapes", shapes},   {"large_lot", largeLot}};
+    }  // namespace
+
+    std::vector<std::string> worldKinds()
+    {
+        std::vector<std::string> names;
+        for (const auto &[name, make] : KINDS)
+            names.push_back(name);
+        return names;
+    }
+
+    std::vector<Polygon> madeWorld(const std::string &kind, const std::string &seed)
+    {
+        for (const auto &[name, make] : KINDS)
+            if (name == kind)
+            {
+                Random random(seedOf(seed));
+                std::vector<Polygon> world = make(random);
+                for (Polygon &polygon : world)
+                    for (Eigen::Vector2d &corner : polygon)
+                        corner = (corner * MILLIMETRES).array().round().matrix() / MILLIMETRES;
+                return world;
+            }
+        throw Error(unknownName("kind of world", kind, worldKinds()));
+    }
+
+    std::uint64_t seedOf(const std::string &text)
+    {
+        std::uint64_t hash = 0xcbf29ce484222325U;
+        for (const char each : text)
+            hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3U;
+        return hash;
+    }
+}  // namespace parking

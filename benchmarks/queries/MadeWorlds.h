@@ -1,0 +1,27 @@
+#pragma once
+
+#include "parking_geometry/Polygon.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief Kinds of worlds that can be made: parked_rows, streets, multi_storey, clutter, shapes, large_lot. */
+    std::vector<std::string> worldKinds();
+
+    /** \brief The obstacles of a random world of a kind, in millimetres and therefore the same on every machine.
+
+        parked_rows: aisles between rows of parked cars, 40 to 90 m wide. streets: blocks of houses, cars along the
+        kerbs. multi_storey: decks with a ring of lanes each, side by side in the plane, with a narrow ramp from each to
+        the next. clutter: posts, boxes and debris. shapes: large polygons of any form. large_lot: hundreds of cars on
+        up to 250 m.
+
+        \param seed equal seeds give equal worlds
+        Throws parking::Error naming the known kinds for any other. */
+    std::vector<Polygon> madeWorld(const std::string &kind, const std::string &seed);
+
+    /** \brief A number that follows from a text, the same everywhere (Fowler, Noll and Vo's 64 bit hash). */
+    std::uint64_t seedOf(const std::string &text);
+}  // namespace parking
