@@ -31,8 +31,8 @@ namespace parking
             "scenario",     "name",         "vehicle",   "space",     "footprint",  "circle_radius", "start.x",
             "start.y",      "start.theta",  "goal.x",    "goal.y",    "goal.theta", "volume.min.x",  "volume.min.y",
             "volume.max.x", "volume.max.y", "objective", "threshold", "sampler"};
-        const std::vector<std::string> BENCHMARK_KEYS{"time_limit", "mem_limit", "run_count", "output",
-                                                      "save_paths", "seed",      "simplify",  "track"};
+        const std::vector<std::string> BENCHMARK_KEYS{"time_limit", "mem_limit", "run_count", "output", "save_paths",
+                                                      "seed",       "simplify",  "track",     "clock"};
         const std::vector<std::string> SAMPLERS{"uniform", "gaussian", "obstacle_based", "bridge_test"};
 
         /** Sections and keys are followed by their lines in the order of the file; boost tells no lines. */
@@ -142,6 +142,12 @@ namespace parking
                 config.seed = wholeNumber(key, value, 1, std::numeric_limits<std::uint32_t>::max());
             else if (key == "simplify")
                 config.simplify = switchNamed(key, value);
+            else if (key == "clock")
+            {
+                if (value != "wall" && value != "processor")
+                    throw Error(unknownName("clock", value, {"wall", "processor"}));
+                config.processorTime = value == "processor";
+            }
             else if (key == "track")
                 config.track = switchNamed(key, value);
             else

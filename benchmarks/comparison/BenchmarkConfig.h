@@ -52,8 +52,9 @@ namespace parking
         std::string output;  ///< folder; empty: the caller chooses
         SavePaths savePaths{SavePaths::None};
         std::uint_fast32_t seed{1};
-        bool simplify{false};  ///< let OMPL simplify each path, too, and report that beside it
-        bool track{false};     ///< drive each path with the controller
+        bool processorTime{false};  ///< limit and measure processor time instead of that of the wall clock
+        bool simplify{false};       ///< let OMPL simplify each path, too, and report that beside it
+        bool track{false};          ///< drive each path with the controller
         std::vector<PlannerSpec> planners;
     };
 

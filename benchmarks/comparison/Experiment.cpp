@@ -251,7 +251,7 @@ namespace parking
     {
         return hexadecimal(hash(formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
                                 std::to_string(config.seed) + (config.simplify ? "/s" : "/") +
-                                (config.track ? "/t" : "/")));
+                                (config.track ? "/t" : "/") + (config.processorTime ? "p" : "")));
     }
 
     std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner)

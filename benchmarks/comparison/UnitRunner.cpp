@@ -25,6 +25,7 @@ namespace parking
         constexpr double SIMPLIFY_SHARE = 1.0;      // of the time limit, at most
         constexpr double DEGREES = 180.0 / PI;
         // In a process of its own, a planner that has not come back after this is killed. Some of OMPL's come 2 s late.
+        constexpr double BUSY = 50.0;  // times as long as processor time the wall clock may take
         constexpr double SOLVE_SHARE = 3.0, SOLVE_GRACE = 2.0;  // of the time limit; seconds more
         // The same for all that is done with its path: simplification and drive take long.
         constexpr double MEASURE_SHARE = 10.0, MEASURE_GRACE = 60.0;
@@ -138,6 +139,7 @@ namespace parking
         isolation_(isolation),
         stop_(stop)
     {
+        SolveRecord::Clock::countProcessorTime(config.processorTime);
     }
 
     const Problem &UnitRunner::problem(std::size_t experiment)
@@ -154,9 +156,14 @@ namespace parking
                (isolation_ == Isolation::Plugins && !registry_.find(config_.planners[planner].planner).library.empty());
     }
 
+    double UnitRunner::patience() const
+    {
+        return config_.processorTime ? BUSY * config_.timeLimit : config_.timeLimit;
+    }
+
     IsolationLimits UnitRunner::limits() const
     {
-        return {SOLVE_SHARE * config_.timeLimit + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
+        return {SOLVE_SHARE * patience() + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
                 config_.memoryLimit};
     }
 
@@ -328,8 +335,8 @@ namespace parking
                     failure = std::current_exception();  // OMPL would keep it to itself
                 }
             });
-        ompl::tools::Benchmark::Request request(config_.timeLimit, config_.memoryLimit, 1, PROGRESS_INTERVAL, false,
-                                                false, false);
+        ompl::tools::Benchmark::Request request(patience(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
+                                                false);
         const Quiet nothingToTell;
         benchmark.benchmark(request);
 

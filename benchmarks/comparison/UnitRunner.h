@@ -49,6 +49,7 @@ namespace parking
 
     private:
         bool isIsolated(std::size_t planner) const;
+        double patience() const;
         IsolationLimits limits() const;
         void checkSettings(std::size_t experiment, std::size_t planner);
         /** Without what comes of the run. */

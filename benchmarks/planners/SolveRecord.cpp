@@ -22,7 +22,22 @@ namespace parking
             clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
             return now;
         }
+
+        std::atomic<bool> countsProcessorTime{false};
     }  // namespace
+
+    SolveRecord::Clock::time_point SolveRecord::Clock::now()
+    {
+        if (!countsProcessorTime.load(std::memory_order_relaxed))
+            return time_point(std::chrono::steady_clock::now().time_since_epoch());
+        const std::timespec now = processorTime();
+        return time_point(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
+    }
+
+    void SolveRecord::Clock::countProcessorTime(bool processorTime)
+    {
+        countsProcessorTime = processorTime;
+    }
 
     void SolveRecord::begin()
     {

@@ -27,7 +27,21 @@ namespace parking
     class SolveRecord
     {
     public:
-        using Clock = std::chrono::steady_clock;
+        /** \brief What planners are timed and stopped by: the wall clock, or the processor time of all threads of this
+            process, which a busy machine does not change. The same one for all planners. */
+        struct Clock
+        {
+            using duration = std::chrono::nanoseconds;
+            using rep = duration::rep;
+            using period = duration::period;
+            using time_point = std::chrono::time_point<Clock>;
+            static constexpr bool is_steady = true;
+
+            static time_point now();
+
+            /** \brief Not while a planner is at work. */
+            static void countProcessorTime(bool processorTime);
+        };
 
         /** \brief Forgets everything; the clock starts now. */
         void begin();
@@ -41,7 +55,7 @@ namespace parking
         /** \brief The same for what came out when the clock stopped. */
         void noteAtEnd(double cost);
 
-        /** \brief Seconds of wall clock between begin() and end(); 0 before. */
+        /** \brief Seconds of the clock between begin() and end(); 0 before. */
         double wallTime() const;
 
         /** \brief Seconds of processor time of all threads between begin() and end(); 0 before. */
@@ -110,7 +124,7 @@ namespace parking
         /** \brief Of the last solve(). */
         virtual const std::shared_ptr<SolveRecord> &record() const = 0;
 
-        /** \brief solve() ends after this many seconds of wall clock, whatever the caller's condition says.
+        /** \brief solve() ends after this many seconds of the clock, whatever the caller's condition says.
 
             ompl::tools::Benchmark looks at its clock every 0.1 s only. Infinite: no limit of our own. */
         virtual void setTimeLimit(double seconds) = 0;

@@ -6,6 +6,7 @@
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
 #include "benchmarks/summary/Summary.h"
+#include "benchmarks/system/LongStep.h"
 #include "benchmarks/system/Machine.h"
 #include "benchmarks/system/Progress.h"
 #include "benchmarks/system/QuietChildren.h"
@@ -23,6 +24,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -103,6 +105,9 @@ namespace parking
         folder_ = !options.output.empty()   ? options.output
                   : !config_.output.empty() ? config_.output
                                             : "results-" + fs::path(options.config).stem().string();
+        std::optional<LongStep> step;
+        if (!options_.quiet)
+            step.emplace("reading the scenarios");
         experiments_ = planExperiments(config_);
     }
 
@@ -332,6 +337,9 @@ namespace parking
         if (!options_.inputs.empty())
             makeFolder(folder_);
         gather();
+        std::optional<LongStep> step;
+        if (!options_.quiet)
+            step.emplace("writing the results");
         ComparisonFiles files;
         files.folder = folder_;
         const fs::path folder(folder_);

@@ -4,6 +4,7 @@
 #include "benchmarks/programs/PlanOptions.h"
 #include "benchmarks/programs/PlanResult.h"
 #include "benchmarks/system/CommandLine.h"
+#include "benchmarks/system/LongStep.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
@@ -45,16 +46,30 @@ namespace
         if (!options.html.empty())
             requireWritable(options.html);
 
-        const Problem problem(readScenario(options.scenario, {options.vehicle}), settings);
+        const Problem problem = [&]
+        {
+            const LongStep step("reading " + options.scenario);
+            return Problem(readScenario(options.scenario, {options.vehicle}), settings);
+        }();
         PlanResult result;
         result.planner = entry.name;
         result.parameters = parametersJson(*problem.prepare(entry, options.settings).planner);
         for (std::size_t run = 0; run < options.runs; ++run)
+        {
+            const LongStep step("planning, run " + std::to_string(run + 1) + " of " + std::to_string(options.runs) +
+                                ", at most " + formatNumber(options.timeLimit) + " s");
             result.runs.push_back(planOnce(problem, entry, options.settings, options.timeLimit, options.seed + run));
+        }
         if (options.trajectory)
+        {
+            const LongStep step("optimising the trajectory");
             addTrajectory(problem, result);
+        }
         if (options.track)
+        {
+            const LongStep step("driving");
             addDrive(problem, result);
+        }
 
         if (!options.svg.empty())
             writeFileAtomically(options.svg, resultSvg(problem, result));

@@ -285,3 +285,43 @@ def strip_chart(identifier, title, rows, limit, each=True):
                          f'{left} of {len(runs)} runs without a valid solution">∞ × {left}</text>')
         body.append(''.join(parts) + '</g>')
     return frame(identifier, title, ''.join(body), height, width)
+
+
+# Of pictures that stand alone: the colours of report.css in the light.
+STYLE = ('svg{font-family:sans-serif;background:#fff}.tick,.label,.name{font-size:11.5px;fill:#555}.grid{stroke:#e6e6e6;fill:none}'
+         '.axis{stroke:#aaa;stroke-width:1.2;fill:none}.curve{fill:none;stroke-width:2.1;stroke-linejoin:round}'
+         '.c0{stroke:#0077bb}.c1{stroke:#ee7733}.c2{stroke:#009988}.c3{stroke:#cc3377}.c4{stroke:#7a4fb5}.c5{stroke:#8a8a00}'
+         '.c6{stroke:#33a5d8}.c7{stroke:#7d7d7d}')
+
+
+def _standing_alone(title, names, body):
+    """A picture with a style and a legend of its own. names: index -> planner."""
+    side = 130.0
+    legend = []
+    for line, (index, name) in enumerate(names.items()):
+        colour, dash = style_of(index)
+        at = TOP + 14.0 + 20.0 * line
+        legend.append(f'<path class="curve {colour}"{dash} d="M{px(WIDTH + 4)} {px(at)}h22"/>'
+                      f'<text class="name" x="{px(WIDTH + 32)}" y="{px(at + 4)}">{text(name)}</text>')
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{px(WIDTH + side)}" height="{px(HEIGHT)}" '
+            f'viewBox="0 0 {px(WIDTH + side)} {px(HEIGHT)}" role="img" aria-label="{text(title)}"><style>{STYLE}</style>'
+            f'<rect width="100%" height="100%" fill="#fff"/>{body}{"".join(legend)}</svg>\n')
+
+
+def success_picture(title, names, runs_of, limit):
+    """success_chart() as a file of its own."""
+    chart, _ = success_chart('chart', title, runs_of, limit)
+    return _standing_alone(title, names, chart[chart.index('>') + 1:chart.rindex('</svg>')])
+
+
+def distribution_picture(title, names, values_of, most, label):
+    """Share of the values that are at most so large, from 1 to most. values_of: index -> values, infinite ones too."""
+    x = Axis(1.0, most, LEFT, WIDTH - RIGHT, False)
+    y = Axis(0.0, 1.0, HEIGHT - BOTTOM, TOP, False)
+    body = [axes(x, y, label, 'queries', lambda v: f'{v:g}', lambda v: f'{100 * v:.0f} %')]
+    for index, values in values_of.items():
+        colour, dash = style_of(index)
+        ordered = sorted(values)
+        points = [(1.0, 0.0)] + [(value, (k + 1) / len(ordered)) for k, value in enumerate(ordered) if value <= most]
+        body.append(f'<path class="curve {colour}"{dash} d="{step_path(points, x, y)}"/>')
+    return _standing_alone(title, names, ''.join(body))

@@ -47,6 +47,7 @@ output = out
 save_paths = all
 seed = 42
 simplify = yes
+clock = processor
 track = 1
 
 [planner]
@@ -70,6 +71,7 @@ rrt=
         EXPECT_EQ(config.savePaths, SavePaths::All);
         EXPECT_EQ(config.seed, 42U);
         EXPECT_TRUE(config.simplify);
+        EXPECT_TRUE(config.processorTime);
         EXPECT_TRUE(config.track);
         ASSERT_EQ(config.planners.size(), 3U);
         EXPECT_EQ(config.planners[0].name, "RRT");
@@ -106,6 +108,7 @@ rrt=
         EXPECT_EQ(config.runCount, 10U);
         EXPECT_EQ(config.savePaths, SavePaths::None);
         EXPECT_FALSE(config.simplify);
+        EXPECT_FALSE(config.processorTime);
         EXPECT_FALSE(config.track);
     }
 

@@ -3,9 +3,10 @@
 import json
 import math
 import os
+import subprocess
 import xml.etree.ElementTree
 
-from programs import ProgramTest, bundled, bundled_scenarios, main
+from programs import PLAN, ProgramTest, bundled, bundled_scenarios, main
 
 UNSOLVABLE = {'unreachable'}
 MAX_GAP = 0.1 + 1e-9  # metres between states of a path
@@ -164,6 +165,21 @@ class Bundled(ProgramTest):
         picture = xml.etree.ElementTree.fromstring(self.read('result.svg'))
         self.assertTrue(picture.tag.endswith('svg'))
         self.assertEqual(sorted(os.listdir(self.folder)), ['result.json', 'result.svg'])
+
+    def test_on_a_terminal_long_steps_tell_of_themselves(self):
+        leader, terminal = os.openpty()
+        try:
+            # It uses all of its time.
+            arguments = [PLAN, bundled('perpendicular'), '--planner', 'BITstar', '--time-limit', '1.2']
+            with subprocess.Popen(arguments, cwd=self.folder, stderr=terminal, stdout=subprocess.DEVNULL) as process:
+                process.wait(timeout=60)
+            said = os.read(leader, 4096).decode()
+        finally:
+            os.close(leader)
+            os.close(terminal)
+        self.assertIn('\rplanning, run 1 of 1, at most 1.2 s, 1 s', said)
+        self.assertRegex(said, r'\r +\r$')  # and the line is gone
+        self.assertEqual(self.run_program(*arguments).stderr, '')
 
     def test_help_names_all_planners(self):
         text = self.plan('--help').stdout
