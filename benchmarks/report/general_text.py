@@ -7,8 +7,7 @@ def cpu_name(text_of_cpu):
     return ' '.join(fields.get('Model name', 'processor not known').split())
 
 
-PAGE = """
-# Queries that nothing was tuned on
+PAGE = """# Queries that nothing was tuned on
 
 The bundled problems are what the planner's constants were chosen on. What it is worth elsewhere shows on random queries:
 worlds that a generator makes, and in each of them starts and goals that are free, every other goal pushed against an
@@ -21,7 +20,7 @@ obstacle. This page is written by `benchmarks/report/general_page` from such a c
 ## Distribution
 
 {count} queries in {worlds} worlds (seed `{seed}`, {margin:g} m of room at start and goal), one run of each planner on each,
-up to {limit} s of processor time. Times and lengths are of what a planner solved, which for some are the easy ones.
+up to {limit:g} s of processor time. Times and lengths are of what a planner solved, which for some are the easy ones.
 
 {table}
 
@@ -41,8 +40,8 @@ last one.
 ## How to repeat it
 
 ```sh
-parking_queries --output queries --seed {seed}
-parking_benchmark benchmarks/general.cfg --scenarios queries --output results-general
+parking_queries --output queries --seed {seed}{draw}
+parking_benchmark benchmarks/general.cfg --scenarios queries --output results-general{run}
 benchmarks/report/general_page results-general queries
 ```
 
@@ -61,5 +60,7 @@ drawn. The kinds: `parked_rows` (aisles between rows of parked cars), `streets` 
 cars, or the one of `--vehicle`.
 
 Times are processor times (`clock = processor`), so that a machine that does other things as well does not count against the
-planners. Measured on {cpu}; {machine}.
+planners. The machine was shared when this was measured.
+
+{machine}
 """
