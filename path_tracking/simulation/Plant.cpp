@@ -6,10 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace parking
 {
+    namespace
+    {
+        constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    }
+
     Disturbances Disturbances::everyday(std::uint64_t seed)
     {
         Disturbances disturbances;
@@ -30,6 +36,9 @@ namespace parking
         require.notNegative("yawNoise", yawNoise);
         require.that(std::abs(speedBias) < 1.0, "speedBias", speedBias, "above -1 and below 1");
         require.that(std::abs(steeringOffset) < 1.0, "steeringOffset", steeringOffset, "above -1 and below 1 radian");
+        require.that(std::abs(wheelbaseError) < 1.0, "wheelbaseError", wheelbaseError, "above -1 and below 1");
+        require.that(brakeLoss >= 0.0 && brakeLoss < 1.0, "brakeLoss", brakeLoss, "at least 0 and below 1");
+        require.notNegative("delay", delay);
     }
 
     Plant::Plant(const Vehicle &vehicle, const Disturbances &disturbances, const Pose &pose, double steering,
@@ -43,6 +52,7 @@ namespace parking
         wheels_(steering)
     {
         disturbances.validate();
+        vehicle_.wheelbase *= 1.0 + disturbances.wheelbaseError;
         if (!(std::isfinite(step) && step > 0.0))
             throw Error("plant: the step is " + formatNumber(step) + "; it must be a positive number of seconds");
     }
@@ -67,12 +77,37 @@ namespace parking
         measurement.pose.x += disturbances_.positionNoise * normal();
         measurement.pose.y += disturbances_.positionNoise * normal();
         measurement.pose.yaw = wrapAngle(measurement.pose.yaw + disturbances_.yawNoise * normal());
+        if (isWithin(disturbances_.blind))
+            measurement.pose = {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
         return measurement;
     }
 
-    void Plant::drive(const Command &command, double duration,
+    bool Plant::isWithin(const std::vector<TimeSpan> &spans) const
+    {
+        return std::any_of(spans.begin(), spans.end(), [this](const TimeSpan &span) { return span.contains(time_); });
+    }
+
+    Command Plant::arriving(const Command &command, double duration)
+    {
+        // Until the first command arrives the car stands as it did.
+        const auto late = static_cast<std::size_t>(std::lround(disturbances_.delay / duration));
+        if (underWay_.size() < late)
+            underWay_.resize(late, Command{0.0, servo_, true});
+        underWay_.push_back(command);
+        const Command first = underWay_.front();
+        underWay_.pop_front();
+        return first;
+    }
+
+    double Plant::braked(double acceleration) const
+    {
+        return acceleration * speed_ < 0.0 ? (1.0 - disturbances_.brakeLoss) * acceleration : acceleration;
+    }
+
+    void Plant::drive(const Command &given, double duration,
                       const std::function<void(double time, const State &)> &visit)
     {
+        const Command command = arriving(given, duration);
         const int steps = std::max(1, static_cast<int>(std::ceil(duration / step_ - 1e-9)));
         const double h = duration / steps;
         const double servoBegin = servo_;
@@ -85,6 +120,9 @@ namespace parking
             servo_ += std::clamp(wanted - servo_, -most, most);
             servo_ = std::clamp(servo_, -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
             const double wheelsBefore = wheels_;
+            time_ += h;
+            if (isWithin(disturbances_.stuck))
+                servo_ = wheels_;
             wheels_ = disturbances_.steeringLag > 0.0
                           ? servo_ + (wheels_ - servo_) * std::exp(-h / disturbances_.steeringLag)
                           : servo_;
@@ -92,6 +130,7 @@ namespace parking
             double asked = std::clamp(command.acceleration, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
             if (command.hold && asked * speed_ >= 0.0)
                 asked = speed_ == 0.0 ? 0.0 : -std::copysign(vehicle_.maxAcceleration, speed_);
+            asked = braked(asked);
             acceleration_ = disturbances_.accelerationLag > 0.0
                                 ? asked + (acceleration_ - asked) * std::exp(-h / disturbances_.accelerationLag)
                                 : asked;

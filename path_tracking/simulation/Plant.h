@@ -4,11 +4,25 @@
 #include "path_tracking/control/TrackingController.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <random>
+#include <vector>
 
 namespace parking
 {
+    /** \brief From one second of a drive to another. */
+    struct TimeSpan
+    {
+        double begin{0.0};
+        double end{0.0};
+
+        bool contains(double time) const
+        {
+            return time >= begin && time < end;
+        }
+    };
+
     /** \brief What makes the simulated car differ from the controller's model. All zero: the nominal car. */
     struct Disturbances
     {
@@ -18,6 +32,11 @@ namespace parking
         double yawNoise{0.0};         ///< radians, standard deviation of each measurement
         double speedBias{0.0};        ///< the car moves (1 + bias) times as fast as it measures
         double steeringOffset{0.0};   ///< radians that the wheels stand farther left than measured
+        double wheelbaseError{0.0};   ///< share by which the wheelbase is longer than the controller believes
+        double brakeLoss{0.0};        ///< share by which the car slows down less than it is told to
+        double delay{0.0};            ///< seconds that a command takes to arrive, in whole periods of the controller
+        std::vector<TimeSpan> blind;  ///< when no pose is measured: it is not a number
+        std::vector<TimeSpan> stuck;  ///< when the wheels stay where they are
         std::uint64_t seed{1};        ///< of the noise
 
         /** \brief What the figures of docs/path-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
@@ -56,6 +75,9 @@ namespace parking
 
     private:
         double normal();
+        bool isWithin(const std::vector<TimeSpan> &spans) const;
+        Command arriving(const Command &command, double duration);
+        double braked(double acceleration) const;
 
         Vehicle vehicle_;
         Disturbances disturbances_;
@@ -66,5 +88,7 @@ namespace parking
         double acceleration_{0.0};  // as measured
         double servo_{0.0};         // where the servo is
         double wheels_{0.0};        // where the wheels are, as measured
+        double time_{0.0};
+        std::deque<Command> underWay_;  // commands that have not arrived, the oldest first
     };
 }  // namespace parking

@@ -5,7 +5,7 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing; test, docs, package, page: only for tests, reference, ... | what for
+# package | build: for building and comparing; test, docs, package, page, fuzz: only for tests, reference, ... | what for
 packages()
 {
     cat <<'LIST'
@@ -42,6 +42,8 @@ python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)
+clang                        | fuzz  | builds what scripts/fuzz runs, instrumented
+libclang-rt-dev              | fuzz  | libFuzzer and clang's sanitizers
 LIST
 }
 

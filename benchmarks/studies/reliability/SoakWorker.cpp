@@ -1,0 +1,277 @@
+#include "benchmarks/studies/reliability/SoakWorker.h"
+
+#include "benchmarks/problems/PlanRun.h"
+#include "benchmarks/problems/Problem.h"
+#include "benchmarks/worlds/RandomWorlds.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "parking_geometry/Error.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace parking
+{
+    using parking_test::Random;
+
+    namespace
+    {
+        /** Planning ends after so many expansions, which depends on no clock: equal queries have equal answers. */
+        constexpr std::uint64_t MOST_EXPANSIONS = 20000;
+
+        std::vector<Polygon> randomPolygons(Random &random, std::size_t most, double reach)
+        {
+            std::vector<Polygon> polygons;
+            for (std::size_t left = random.index(most + 1); left > 0; --left)
+            {
+                const Pose at{
+                    random.between(-reach, reach), random.between(-reach, reach),
+                    random.chance(0.4) ? 0.5 * PI * static_cast<double>(random.index(4)) : random.between(-PI, PI)};
+                switch (random.index(5))
+                {
+                    case 0:
+                        polygons.push_back(parking_test::star(random, at.x, at.y, random.between(0.2, 2.5)));
+                        break;
+                    case 1:
+                        polygons.push_back(parking_test::bay(5.5, 2.5, at));
+                        break;
+                    case 2:
+                        polygons.push_back(
+                            parking_test::rectangle(random.between(1.0, 10.0), random.between(0.002, 0.2), at));
+                        break;
+                    default:
+                        polygons.push_back(parking_test::rectangle(4.7, 1.9, at));
+                }
+            }
+            return polygons;
+        }
+
+        OccupancyGrid randomGrid(Random &random, double reach)
+        {
+            const double resolution = std::array<double, 3>{0.1, 0.2, 0.5}[random.index(3)];
+            const auto side = static_cast<std::size_t>(2.0 * reach / resolution);
+            OccupancyGrid grid(side, side, resolution,
+                               {-reach, -reach, random.chance(0.7) ? 0.0 : random.between(-0.3, 0.3)});
+            for (std::size_t left = random.index(12); left > 0; --left)
+            {
+                const std::size_t column = random.index(side), row = random.index(side);
+                const std::size_t width = 1 + random.index(side / 8), height = 1 + random.index(side / 8);
+                for (std::size_t j = row; j < std::min(side, row + height); ++j)
+                    for (std::size_t i = column; i < std::min(side, column + width); ++i)
+                        grid.set(i, j, random.chance(0.1) ? Cell::Unknown : Cell::Occupied);
+            }
+            return grid;
+        }
+
+        Box boxRound(const OccupancyGrid &grid)
+        {
+            const std::vector<Eigen::Vector2d> outline = grid.outline();
+            Box box{outline.front(), outline.front()};
+            for (const Eigen::Vector2d &corner : outline)
+                box.include(corner);
+            return box;
+        }
+
+        search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker)
+        {
+            FootprintEnvironment environment(checker, scenario.bounds, 1e-3);
+            search::PlanRequest request;
+            request.starts = {scenario.start};
+            request.goals = scenario.goals;
+            request.car.turningRadius = scenario.vehicle.minTurningRadius();
+            request.car.inscribedRadius = scenario.vehicle.inscribedRadius();
+            request.car.bounds = scenario.bounds;
+            request.maxExpansions = MOST_EXPANSIONS;
+            return plan(environment, request);
+        }
+
+        bool equal(const Path &a, const Path &b)
+        {
+            return a.pieces.size() == b.pieces.size() &&
+                   std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(),
+                              [](const PathPiece &p, const PathPiece &q)
+                              { return p.curvature == q.curvature && p.length == q.length; });
+        }
+    }  // namespace
+
+    SoakWorker::SoakWorker(const SoakSettings &settings, std::uint64_t seed, std::atomic<std::uint64_t> &queries)
+      : settings_(settings),
+        seed_(seed),
+        all_(queries),
+        random_(seed),
+        registry_(PlannerRegistry::builtIn())
+    {
+    }
+
+    SoakFigures SoakWorker::figures() const
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return figures_;
+    }
+
+    bool SoakWorker::isOver(const std::atomic<bool> &stop) const
+    {
+        return stop || (settings_.most > 0 && all_ >= settings_.most);
+    }
+
+    void SoakWorker::work(const std::atomic<bool> &stop)
+    {
+        while (!isOver(stop))
+        {
+            newWorld();
+            for (std::size_t i = 0; i < settings_.perWorld && !isOver(stop); ++i)
+                query();
+        }
+    }
+
+    void SoakWorker::newWorld()
+    {
+        world_ = Scenario();
+        world_.name = "random";
+        const double reach = settings_.small ? 15.0 : 25.0;
+        if (random_.chance(0.3))
+        {
+            const std::vector<std::string> names = vehicleNames();
+            world_.vehicle = vehicleByName(names[random_.index(names.size())]);
+        }
+        if (!settings_.small && random_.chance(0.4))
+        {
+            world_.grid = randomGrid(random_, reach);
+            world_.bounds = boxRound(*world_.grid);
+        }
+        else
+        {
+            world_.polygons = randomPolygons(random_, settings_.small ? 5 : 16, reach - 3.0);
+            world_.bounds = {{-reach, -reach}, {reach, reach}};
+        }
+        checker_ = std::make_unique<FootprintChecker>(ObstacleSet::fromScenario(world_), world_.vehicle);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++figures_.worlds;
+    }
+
+    Pose SoakWorker::anywhere()
+    {
+        // Mostly free ones: to be told that a pose is not costs nothing and shows little.
+        Pose pose;
+        for (int tries = 0; tries < 30; ++tries)
+        {
+            pose = {random_.between(world_.bounds.min.x(), world_.bounds.max.x()),
+                    random_.between(world_.bounds.min.y(), world_.bounds.max.y()), random_.between(-PI, PI)};
+            if (checker_->isFree(pose) || random_.chance(0.02))
+                break;
+        }
+        return pose;
+    }
+
+    void SoakWorker::query()
+    {
+        Scenario scenario = world_;
+        scenario.start = anywhere();
+        scenario.goals = {anywhere()};
+        if (random_.chance(0.1))
+            scenario.goals.push_back(anywhere());
+        ++all_;
+        const auto begin = std::chrono::steady_clock::now();
+        const search::PlanResult result = planned(scenario, *checker_);
+        const double time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            ++figures_.queries;
+            figures_.planning.add(time);
+            figures_.solved += result.outcome == search::PlanOutcome::Solved ? 1 : 0;
+        }
+        judge(scenario, result);
+        if (random_.chance(0.01))
+        {
+            const bool same = equal(planned(scenario, *checker_).path, result.path);
+            const std::lock_guard<std::mutex> lock(mutex_);
+            ++figures_.repeated;
+            if (!same)
+                figures_.disagree("another path when asked again");
+        }
+        if (settings_.small)
+            return;
+        if (result.outcome == search::PlanOutcome::Solved && random_.chance(0.1))
+            replan(result.path);
+        if (random_.chance(0.02))
+            askOthers(scenario);
+    }
+
+    void SoakWorker::judge(const Scenario &scenario, const search::PlanResult &result)
+    {
+        const Referee referee(scenario);
+        std::string wrong;
+        const bool solved = result.outcome == search::PlanOutcome::Solved;
+        if (solved || result.outcome == search::PlanOutcome::Approximate)
+        {
+            const Verdict verdict = referee.check(result.path, solved);
+            if (!verdict.valid)
+                wrong = toString(verdict.fault) + ": " + verdict.reason;
+        }
+        else if (result.outcome == search::PlanOutcome::InvalidStart)
+        {
+            if (referee.space().isFree(scenario.start) && checker_->exactClearance(scenario.start) > 1e-5)
+                wrong = "the start is free";
+        }
+        else if (result.outcome == search::PlanOutcome::InvalidGoal)
+        {
+            for (const Pose &goal : scenario.goals)
+                if (referee.space().isFree(goal) && checker_->exactClearance(goal) > 1e-5)
+                    wrong = "a goal is free";
+        }
+        if (wrong.empty())
+            return;
+        std::ostringstream text;
+        text << "worker " << seed_ << ", query " << figures_.queries << ": " << wrong;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        figures_.disagree(text.str());
+    }
+
+    void SoakWorker::replan(const Path &path)
+    {
+        if (world_.grid)
+            return;
+        // Half way there something stands in the way.
+        const Path rest = path.rest(0.5 * path.length());
+        const Pose now = rest.start, then = rest.end();
+        Scenario changed = world_;
+        changed.start = {now.x, now.y, wrapAngle(now.yaw)};
+        changed.goals = {then};
+        const Pose at = path.rest(0.75 * path.length()).start;
+        changed.polygons.push_back(parking_test::rectangle(random_.between(0.2, 1.5), random_.between(0.2, 1.5),
+                                                           {at.x, at.y, random_.between(-PI, PI)}));
+        const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
+        const search::PlanResult result = planned(changed, checker);
+        judge(changed, result);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++figures_.replanned;
+    }
+
+    void SoakWorker::askOthers(const Scenario &scenario)
+    {
+        // OMPL has one generator for the seeds of all others: one thread at a time.
+        static std::mutex ompl;
+        const std::lock_guard<std::mutex> one(ompl);
+        static const std::array<const char *, 6> NAMES{"improved_astar", "RRTConnect", "reeds_shepp", "PRM",
+                                                       "BKPIECE1",       "SBL"};
+        const char *name = NAMES[turn_++ % NAMES.size()];
+        std::string wrong;
+        try
+        {
+            const Problem problem(scenario, {});
+            const PlanRun run =
+                planOnce(problem, registry_.find(name), {}, settings_.timeLimit, 1 + random_.index(1000));
+            if (run.status == PlanStatus::Exact && !run.isSolved())
+                wrong = std::string(name) + ": " + run.path->recheck.reason;
+        }
+        catch (const Error &error)
+        {
+            wrong = std::string(name) + ": " + error.what();
+        }
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++figures_.byOthers;
+        if (!wrong.empty())
+            figures_.disagree(wrong);
+    }
+}  // namespace parking

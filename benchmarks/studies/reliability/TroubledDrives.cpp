@@ -1,0 +1,271 @@
+#include "benchmarks/studies/reliability/TroubledDrives.h"
+
+#include "benchmarks/worlds/PolygonOracle.h"
+#include "benchmarks/worlds/RandomWorlds.h"
+#include "parking_geometry/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace parking
+{
+    using parking_test::PolygonOracle;
+    using parking_test::Random;
+
+    std::string toString(Trouble trouble)
+    {
+        switch (trouble)
+        {
+            case Trouble::None:
+                return "none";
+            case Trouble::Dropout:
+                return "no pose for 0.1 to 1.5 s";
+            case Trouble::Stuck:
+                return "wheels stick for 0.2 to 3 s";
+            case Trouble::Wheelbase:
+                return "wheelbase wrong by 3 %";
+            case Trouble::Brake:
+                return "20 % less brake";
+            case Trouble::Delay:
+                return "commands 0.3 s late";
+            case Trouble::Several:
+                return "the last three, noise and lag";
+        }
+        return "";
+    }
+
+    namespace
+    {
+        /** Metres that the ends of a step between two looks may lie apart. */
+        constexpr double STEP = 0.005;
+        /** Metres by which a body must overlap to count as touching: numbers round. */
+        constexpr double OVERLAP = 1e-4;
+        /** Metres that a stop must leave to the obstacle to have been possible: controllers know poses to a centimetre.
+         */
+        constexpr double SPARE = 0.05;
+
+        Disturbances disturbancesOf(Trouble trouble, double duration, Random &random)
+        {
+            Disturbances result;
+            result.seed = random.bits();
+            if (trouble == Trouble::Several)
+                result = Disturbances::everyday(result.seed);
+            const auto span = [&random, duration](double shortest, double longest)
+            {
+                const double begin = random.between(0.0, duration);
+                return TimeSpan{begin, begin + random.between(shortest, longest)};
+            };
+            if (trouble == Trouble::Dropout)
+                for (std::size_t left = 1 + random.index(2); left > 0; --left)
+                    result.blind.push_back(span(0.1, 1.5));
+            if (trouble == Trouble::Stuck)
+                result.stuck.push_back(span(0.2, 3.0));
+            if (trouble == Trouble::Wheelbase || trouble == Trouble::Several)
+                result.wheelbaseError = random.chance(0.5) ? 0.03 : -0.03;
+            if (trouble == Trouble::Brake || trouble == Trouble::Several)
+                result.brakeLoss = 0.2;
+            if (trouble == Trouble::Delay || trouble == Trouble::Several)
+                result.delay = 0.3;
+            return result;
+        }
+
+        Pose poseOf(const TrajectoryPoint &point)
+        {
+            return {point.x, point.y, point.yaw};
+        }
+
+        Pose between(const Pose &a, const Pose &b, double share)
+        {
+            return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.yaw + share * wrapAngle(b.yaw - a.yaw)};
+        }
+
+        /** Where a car first touches something from second \e since on; nothing when it does not. */
+        struct Touch
+        {
+            double time{0.0}, speed{0.0}, driven{0.0};
+        };
+
+        std::optional<Touch> firstTouch(const Trajectory &drive, const Vehicle &car, const PolygonOracle &oracle,
+                                        double since)
+        {
+            double driven = 0.0;
+            for (std::size_t i = 1; i < drive.size(); ++i)
+            {
+                const TrajectoryPoint &p = drive[i - 1], &q = drive[i];
+                if (q.t < since)
+                    continue;
+                const Pose a = poseOf(p), b = poseOf(q);
+                const double way = positionDistance(a, b);
+                const int looks = 1 + static_cast<int>((way + 4.0 * std::abs(wrapAngle(b.yaw - a.yaw))) / STEP);
+                for (int k = 1; k <= looks; ++k)
+                {
+                    const double share = static_cast<double>(k) / looks, time = p.t + share * (q.t - p.t);
+                    if (time >= since && !oracle.isFree(between(a, b, share), car, -OVERLAP))
+                        return Touch{time, std::abs(p.v + share * (q.v - p.v)), driven + share * way};
+                }
+                driven += way;
+            }
+            return std::nullopt;
+        }
+
+        const TrajectoryPoint &pointAt(const Trajectory &drive, double time)
+        {
+            const auto after = std::lower_bound(drive.begin(), drive.end(), time,
+                                                [](const TrajectoryPoint &point, double t) { return point.t < t; });
+            return after == drive.end() ? drive.back() : *after;
+        }
+
+        double drivenBetween(const Trajectory &drive, double begin, double end)
+        {
+            double driven = 0.0;
+            for (std::size_t i = 1; i < drive.size(); ++i)
+                if (drive[i - 1].t >= begin && drive[i].t <= end)
+                    driven += positionDistance(poseOf(drive[i - 1]), poseOf(drive[i]));
+            return driven;
+        }
+
+        PolygonOracle alone(const Polygon &obstacle)
+        {
+            constexpr double FAR = 1e4;
+            return {{obstacle}, {{-FAR, -FAR}, {FAR, FAR}}};
+        }
+
+        struct Surprise
+        {
+            double time{0.0};   ///< when it appears
+            double ahead{0.0};  ///< metres until it would be touched
+            Polygon obstacle;
+        };
+
+        /** A box in the way of a car that goes on as it does. Nothing when no place is found. */
+        std::optional<Surprise> surpriseFor(const Scenario &scenario, const Trajectory &drive, Random &random)
+        {
+            const Vehicle &car = scenario.vehicle;
+            for (int tries = 0; tries < 40; ++tries)
+            {
+                Surprise surprise;
+                const TrajectoryPoint &now = pointAt(drive, random.between(0.0, drive.back().t));
+                surprise.time = now.t;
+                if (std::abs(now.v) < 0.05)
+                    continue;
+                const double wanted = random.between(0.5, 6.0);
+                double driven = 0.0;
+                std::size_t i = 1;
+                for (; i < drive.size() && driven < wanted; ++i)
+                    if (drive[i].t > now.t)
+                        driven += positionDistance(poseOf(drive[i - 1]), poseOf(drive[i]));
+                if (driven < wanted)
+                    continue;
+                const TrajectoryPoint &then = drive[i - 1];
+                const double length = random.between(0.2, 1.2), width = random.between(0.2, 1.2);
+                const double bumper =
+                    then.v < 0.0 ? -car.rearOverhang - 0.5 * length : car.wheelbase + car.frontOverhang + 0.5 * length;
+                const double aside = random.between(-0.4, 0.4) * car.width;
+                surprise.obstacle = parking_test::rectangle(length, width, compose(poseOf(then), {bumper, aside, 0.0}));
+                const PolygonOracle oracle = alone(surprise.obstacle);
+                if (!oracle.isFree(poseOf(now), car, 0.02))
+                    continue;
+                const std::optional<Touch> touch = firstTouch(drive, car, oracle, now.t);
+                if (!touch || touch->driven < 0.5 || touch->driven > 6.0)
+                    continue;
+                surprise.ahead = touch->driven;
+                return surprise;
+            }
+            return std::nullopt;
+        }
+
+        /** Of all commands of a drive, the first that asks for more than the car can. */
+        std::string brokenLimit(const ParkingResult &result, const Vehicle &car, double period)
+        {
+            constexpr double SLACK = 1e-9;
+            for (const ParkingLeg &leg : result.legs)
+            {
+                const Command *before = nullptr;
+                for (const DriveRecord &record : leg.drive.log)
+                {
+                    const Command &command = record.control.command;
+                    const std::string at = " at " + std::to_string(leg.begin + record.t) + " s";
+                    if (!(std::abs(command.acceleration) <= car.maxAcceleration + SLACK))
+                        return "acceleration" + at;
+                    if (!(std::abs(command.steering) <= car.maxSteeringAngle + SLACK))
+                        return "steering angle" + at;
+                    if (before != nullptr &&
+                        !(std::abs(command.steering - before->steering) <= car.maxSteeringRate * period + SLACK))
+                        return "steering rate" + at;
+                    before = &command;
+                }
+            }
+            return "";
+        }
+    }  // namespace
+
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed)
+    {
+        if (scenario.grid)
+            throw Error("scenario " + scenario.name + ": obstacles appear in worlds of polygons only");
+        Random random(seed * 2654435761U + static_cast<std::uint64_t>(trouble));
+        TroubledDrive report;
+        report.trouble = trouble;
+        ParkingParameters parameters;
+        const ParkingResult calm = AutomaticParking(parameters).park(scenario);
+        report.status = calm.status;
+        report.message = calm.message;
+        if (!calm.parked() || calm.trajectory.back().t == 0.0)
+            return report;
+        parameters.drive.disturbances = disturbancesOf(trouble, calm.trajectory.back().t, random);
+        const ParkingResult undisturbed = AutomaticParking(parameters).park(scenario);
+        const Trajectory &expected = undisturbed.trajectory;
+
+        std::optional<Surprise> surprise;
+        if (random.chance(0.6))
+            surprise = surpriseFor(scenario, expected, random);
+        AutomaticParking parking(parameters);
+        bool told = false;
+        parking.setMapUpdate(
+            [&](double time, const Pose &) -> std::optional<Scenario>
+            {
+                if (!surprise || told || time < surprise->time - 1e-9)
+                    return std::nullopt;
+                told = true;
+                Scenario changed = scenario;
+                changed.polygons.push_back(surprise->obstacle);
+                return changed;
+            });
+        const ParkingResult result = surprise ? parking.park(scenario) : undisturbed;
+
+        report.status = result.status;
+        report.message = result.message;
+        const Vehicle &car = scenario.vehicle;
+        report.brokenLimit = brokenLimit(result, car, parameters.drive.tracking.mpc.step);
+        for (const ParkingLeg &leg : result.legs)
+            for (const DriveRecord &record : leg.drive.log)
+                report.fastest = std::max(report.fastest, std::abs(record.measurement.speed) / car.maxSpeed);
+        if (result.trajectory.empty())
+            return report;
+        report.stands = result.trajectory.back().v == 0.0;
+        if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, PolygonOracle(scenario), 0.0))
+        {
+            report.hitOther = true;
+            report.impactSpeed = touch->speed;
+        }
+        if (!surprise)
+            return report;
+        report.appeared = true;
+        report.ahead = surprise->ahead;
+        // It is seen at the begin of a period, and the stop begins with the next one.
+        const Disturbances &odds = parameters.drive.disturbances;
+        const double until = surprise->time + parameters.drive.tracking.mpc.step + odds.delay;
+        const double brake = (1.0 - odds.brakeLoss) * (1.0 + odds.speedBias) * car.maxAcceleration;
+        const double speed = pointAt(expected, until).v;
+        report.avoidable =
+            drivenBetween(expected, surprise->time, until) + speed * speed / (2.0 * brake) + SPARE < surprise->ahead;
+        if (const std::optional<Touch> touch =
+                firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time))
+        {
+            report.hitAppeared = true;
+            report.impactSpeed = std::max(report.impactSpeed, touch->speed);
+        }
+        return report;
+    }
+}  // namespace parking

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "automatic_parking/AutomaticParking.h"
+#include "parking_geometry/Scenario.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What goes wrong on a drive, beside an obstacle that may appear. */
+    enum class Trouble
+    {
+        None,
+        Dropout,    ///< no pose is measured for 0.1 to 1.5 s, once or twice
+        Stuck,      ///< the wheels stay where they are for 0.2 to 3 s
+        Wheelbase,  ///< 3 % longer or shorter than the controller believes
+        Brake,      ///< slows down 20 % less than it is told to
+        Delay,      ///< commands arrive 0.3 s late
+        Several     ///< the last three together, and everyday's noise and lag
+    };
+    constexpr std::size_t TROUBLES = static_cast<std::size_t>(Trouble::Several) + 1;
+
+    std::string toString(Trouble trouble);
+
+    /** \brief What came of one. */
+    struct TroubledDrive
+    {
+        Trouble trouble{Trouble::None};
+        ParkingStatus status{ParkingStatus::NoPath};
+        std::string message;
+        bool stands{false};    ///< at the end
+        bool appeared{false};  ///< did an obstacle appear on the way that was being driven?
+        double ahead{0.0};     ///< metres left to it then
+        /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
+           down as hard as this car can? */
+        bool avoidable{false};
+        bool hitAppeared{false};  ///< the obstacle
+        bool hitOther{false};     ///< anything else
+        double impactSpeed{0.0};  ///< m/s, of the first touch
+        std::string brokenLimit;  ///< the first command beyond a limit of the car; empty when none is
+        double fastest{0.0};      ///< share of the speed limit, as measured
+    };
+
+    /** \brief Parks the car of \e scenario, with trouble that depends on \e seed alone.
+
+        The drive is first made without the obstacle, which says where the car will be when; the obstacle is put in its
+       way 0.5 to 6 m ahead at a random time. Touches are looked for by the oracle of the tests every few millimetres of
+       the way that the simulated car really took. */
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed);
+}  // namespace parking
