@@ -124,7 +124,8 @@ namespace parking_test::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
-    // Of the processor: on a busy machine the clock on the wall says nothing. libFuzzer's own limit is there for what hangs.
+    // Of the processor: on a busy machine the clock on the wall says nothing. libFuzzer's own limit is there for what
+    // hangs.
     constexpr double MOST_SECONDS = 2.0;
     const std::clock_t begin = std::clock();
     parking_test::fuzz::tryInput(std::string(reinterpret_cast<const char *>(data), size));

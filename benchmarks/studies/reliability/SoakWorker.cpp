@@ -18,7 +18,7 @@ namespace parking
     namespace
     {
         /** Planning ends after so many expansions, which depends on no clock: equal queries have equal answers. */
-        constexpr std::uint64_t MOST_EXPANSIONS = 20000;
+        constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 1000;
 
         std::vector<Polygon> randomPolygons(Random &random, std::size_t most, double reach)
         {
@@ -73,7 +73,8 @@ namespace parking
             return box;
         }
 
-        search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker)
+        search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker,
+                                   std::uint64_t mostExpansions)
         {
             FootprintEnvironment environment(checker, scenario.bounds, 1e-3);
             search::PlanRequest request;
@@ -82,7 +83,7 @@ namespace parking
             request.car.turningRadius = scenario.vehicle.minTurningRadius();
             request.car.inscribedRadius = scenario.vehicle.inscribedRadius();
             request.car.bounds = scenario.bounds;
-            request.maxExpansions = MOST_EXPANSIONS;
+            request.maxExpansions = mostExpansions;
             return plan(environment, request);
         }
 
@@ -172,8 +173,9 @@ namespace parking
         if (random_.chance(0.1))
             scenario.goals.push_back(anywhere());
         ++all_;
+        const std::uint64_t mostExpansions = settings_.small ? MOST_WHEN_SMALL : MOST_EXPANSIONS;
         const auto begin = std::chrono::steady_clock::now();
-        const search::PlanResult result = planned(scenario, *checker_);
+        const search::PlanResult result = planned(scenario, *checker_, mostExpansions);
         const double time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         {
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -184,7 +186,7 @@ namespace parking
         judge(scenario, result);
         if (random_.chance(0.01))
         {
-            const bool same = equal(planned(scenario, *checker_).path, result.path);
+            const bool same = equal(planned(scenario, *checker_, mostExpansions).path, result.path);
             const std::lock_guard<std::mutex> lock(mutex_);
             ++figures_.repeated;
             if (!same)
@@ -242,7 +244,7 @@ namespace parking
         changed.polygons.push_back(parking_test::rectangle(random_.between(0.2, 1.5), random_.between(0.2, 1.5),
                                                            {at.x, at.y, random_.between(-PI, PI)}));
         const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
-        const search::PlanResult result = planned(changed, checker);
+        const search::PlanResult result = planned(changed, checker, MOST_EXPANSIONS);
         judge(changed, result);
         const std::lock_guard<std::mutex> lock(mutex_);
         ++figures_.replanned;
