@@ -103,7 +103,7 @@ namespace parking
         }
 
         /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
-        SampledPath chordPath(const og::PathGeometric &path)
+        SampledPath chordPath(const og::PathGeometric &path, double sampling)
         {
             const std::vector<const ompl::base::State *> states = statesOf(path);
             SampledPath result;
@@ -119,7 +119,7 @@ namespace parking
                     continue;
                 const Arc arc = arcBetween(from, to);
                 const double begin = result.back().arcLength;
-                const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / PlannedPath::SAMPLING)));
+                const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / sampling)));
                 for (std::size_t k = 1; k <= steps; ++k)
                 {
                     const double share = static_cast<double>(k) / static_cast<double>(steps);
@@ -141,9 +141,15 @@ namespace parking
         }
     }  // namespace
 
+    double samplingOf(double length, bool valid)
+    {
+        constexpr double MOST_STATES = 1e4;
+        return valid ? PlannedPath::SAMPLING : std::max(PlannedPath::SAMPLING, length / MOST_STATES);
+    }
+
     SampledPath PlannedPath::states() const
     {
-        SampledPath states = path.sample(SAMPLING);
+        SampledPath states = path.sample(samplingOf(path.length(), recheck.valid));
         states.back().pose = end;
         return states;
     }
@@ -174,8 +180,9 @@ namespace parking
             for (const Pose &goal : scenario.goals)
                 if (isSamePose(goal, result.end, SAME))
                     result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
+        const double sampling = samplingOf(result.path.length(), result.recheck.valid);
         // What the planner means, which on a plain SE2 space is not what a car does.
-        SampledPath meant = straight ? chordPath(path) : result.path.sample(PlannedPath::SAMPLING);
+        SampledPath meant = straight ? chordPath(path, sampling) : result.path.sample(sampling);
         meant.front().pose = result.path.start;
         meant.back().pose = result.end;
         result.length = pathLength(meant);

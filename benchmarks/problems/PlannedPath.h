@@ -21,11 +21,16 @@ namespace parking
         double clearance{0.0};  ///< metres between body (or disc) and obstacles, the least; 0 in collision
         Verdict recheck;        ///< by code of its own, on what the planner returned
 
-        /** \brief States of the path no more than SAMPLING apart, the last one at \e end. */
+        /** \brief States of the path no more than samplingOf(path.length(), recheck.valid) apart, the last one at \e
+         * end. */
         SampledPath states() const;
 
         static constexpr double SAMPLING = 0.1;  // metres
     };
+
+    /** \brief How far the states of a path may lie apart, in metres: PlannedPath::SAMPLING; more along one that is very
+       long and not valid. What a plug-in calls a path may be a million metres, of which nobody needs every one. */
+    double samplingOf(double length, bool valid);
 
     /** \brief Reads and measures a solution of \e problem.
 

@@ -73,7 +73,8 @@ namespace parking
         std::string pathCsv(const Scenario &scenario, const RunRecord &record)
         {
             std::string text = "x,y,yaw,direction,curvature\n";
-            for (const PathState &state : record.path.sample(PlannedPath::SAMPLING))
+            const double sampling = samplingOf(record.path.length(), record.denselyValid.value_or(false));
+            for (const PathState &state : record.path.sample(sampling))
             {
                 const Pose pose = scenario.toWorld(state.pose);
                 text += numberText(pose.x) + "," + numberText(pose.y) + "," + numberText(pose.yaw) + "," +

@@ -1,5 +1,6 @@
 #include "benchmarks/summary/ComparisonPictures.h"
 
+#include "benchmarks/problems/PlannedPath.h"
 #include "parking_geometry/drawing/Svg.h"
 
 #include <array>
@@ -9,7 +10,10 @@ namespace parking
 {
     namespace
     {
-        constexpr double SAMPLING = 0.1;  // metres
+        SampledPath sampled(const RunRecord &record)
+        {
+            return record.path.sample(samplingOf(record.path.length(), record.denselyValid.value_or(false)));
+        }
         /** Twelve colours that differ for most eyes, also in print. */
         constexpr std::array<const char *, 12> COLOURS{"#2563eb", "#ea580c", "#059669", "#be185d",
                                                        "#7c3aed", "#0891b2", "#a16207", "#dc2626",
@@ -43,7 +47,7 @@ namespace parking
         {
             if (record == nullptr)
                 continue;
-            const SampledPath path = record->path.sample(SAMPLING);
+            const SampledPath path = sampled(*record);
             all.insert(all.end(), path.begin(), path.end());
             solved += record->isSuccess() ? 1 : 0;
         }
@@ -62,7 +66,7 @@ namespace parking
             style.strokeOpacity = 0.9;
             style.dash = record->isSuccess() ? "" : "3 4";
             std::vector<Eigen::Vector2d> line;
-            for (const PathState &state : record->path.sample(SAMPLING))
+            for (const PathState &state : sampled(*record))
                 line.emplace_back(state.pose.x, state.pose.y);
             map.drawLine(SvgLayer::Lines, line, style);
             char length[32];

@@ -30,7 +30,7 @@ namespace parking
             case Trouble::Delay:
                 return "commands 0.3 s late";
             case Trouble::Several:
-                return "the last three, noise and lag";
+                return "the last three together";
         }
         return "";
     }
@@ -49,8 +49,6 @@ namespace parking
         {
             Disturbances result;
             result.seed = random.bits();
-            if (trouble == Trouble::Several)
-                result = Disturbances::everyday(result.seed);
             const auto span = [&random, duration](double shortest, double longest)
             {
                 const double begin = random.between(0.0, duration);

@@ -19,7 +19,7 @@ namespace parking
         Wheelbase,  ///< 3 % longer or shorter than the controller believes
         Brake,      ///< slows down 20 % less than it is told to
         Delay,      ///< commands arrive 0.3 s late
-        Several     ///< the last three together, and everyday's noise and lag
+        Several     ///< the last three together
     };
     constexpr std::size_t TROUBLES = static_cast<std::size_t>(Trouble::Several) + 1;
 

@@ -100,6 +100,20 @@ namespace
         }
     }
 
+    TEST(RefereedRun, OfALongWayToNowhereNotEveryMetreIsKept)
+    {
+        const Problem problem(parking_test::openGround(20.0), {});
+        const Scenario &scenario = problem.scenario();
+        const PlanResult far = planned(problem, {scenario.start, {3e5, 0.0, 0.0}, scenario.goals.front()});
+        ASSERT_TRUE(far.first().path.has_value());
+        EXPECT_FALSE(far.first().isSolved());
+        EXPECT_GT(far.first().path->length, 5.9e5);
+        EXPECT_LT(far.first().path->states().size(), 10100u);
+        const PlanResult near = planned(problem, {scenario.start, scenario.goals.front()});
+        EXPECT_TRUE(near.first().isSolved());
+        EXPECT_GE(near.first().path->states().size(), 201u);
+    }
+
     TEST(RefereedRun, AnExactSolutionWithoutStatesIsNone)
     {
         const Problem problem(parking_test::openGround(20.0), {});
