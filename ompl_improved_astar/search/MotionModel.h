@@ -149,6 +149,12 @@ namespace parking::search
         {
             return true;
         }
+
+        /** \brief Bytes of tables that grow with the search, for max_memory_mb. */
+        virtual std::size_t bytes() const
+        {
+            return 0;
+        }
     };
 
     /** \brief The motion models by name. */

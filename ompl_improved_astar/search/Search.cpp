@@ -313,7 +313,7 @@ namespace parking::search
 
     std::size_t Search::memory() const
     {
-        std::size_t bytes = 0;
+        std::size_t bytes = model_ ? model_->bytes() : 0;
         for (const Frontier &each : frontiers_)
             bytes += each.bytes();
         for (const Guides &guides : guides_)

@@ -90,7 +90,7 @@ namespace parking
             // Sharpness is per metre driven: along a reverse piece the curvature grows against the signed distance.
             const double slope = piece.length < 0.0 ? -piece.sharpness : piece.sharpness;
             const bool isStraight = curvature == 0.0 && piece.turn == 0.0;
-            for (std::size_t k = 0; k < steps;)
+            for (std::size_t k = 0; k < steps && !isOver();)
             {
                 const std::size_t freeSteps = isStraight ? freeStraight(step, steps - k) : 0;
                 if (freeSteps > 0)
@@ -123,7 +123,7 @@ namespace parking
                 return fail(Fault::NotFinite, "longer than any drive");
             const double way = length + referee_.space_.farthestPoint() * std::abs(turn);
             const std::size_t steps = stepsFor(way);
-            for (std::size_t k = 1; k <= steps; ++k)
+            for (std::size_t k = 1; k <= steps && !isOver(); ++k)
             {
                 const double share = static_cast<double>(k) / static_cast<double>(steps);
                 pose_ = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.yaw + share * turn};
@@ -141,10 +141,10 @@ namespace parking
         }
 
     private:
-        /** Nothing can be computed after a number that is none. */
+        /** Nothing can be computed after a number that is none, and nothing is learnt from ever more collisions. */
         bool isOver() const
         {
-            return verdict_.fault == Fault::NotFinite;
+            return verdict_.fault == Fault::NotFinite || verdict_.collisions >= MOST_COLLISIONS;
         }
 
         static std::size_t stepsFor(double way)

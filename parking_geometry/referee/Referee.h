@@ -52,6 +52,8 @@ namespace parking
         static constexpr double TOLERANCE = 1e-4;
         /** Metres: no place farther than this from the world, and no longer drive, is looked at. */
         static constexpr double FARTHEST = 1e6;
+        /** Poses in collision after which a path is not looked at any further: kilometres. */
+        static constexpr std::size_t MOST_COLLISIONS = 1000000;
 
         static constexpr double CLEARANCE = 0.002;  ///< metres
 

@@ -43,6 +43,12 @@ namespace parking::search
             return &curves_;
         }
 
+        std::size_t bytes() const override
+        {
+            // An array that grows is there twice, once of double the size.
+            return 3 * (known_[0].size() + known_[1].size()) * sizeof(Known);
+        }
+
         static constexpr std::size_t LEVELS = 7;
 
     private:

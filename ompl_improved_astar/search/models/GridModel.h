@@ -49,6 +49,10 @@ namespace parking::search
             return positionDistance(from, to);
         }
         bool load(const StopFunction &stop) override;
+        std::size_t bytes() const override
+        {
+            return cells_.bytes();
+        }
 
     private:
         static constexpr std::size_t MOST_STEPS = 32;

@@ -297,6 +297,22 @@ namespace
         }
     }
 
+    TEST(Referee, DoesNotLookAtALongWayToNowhereForEver)
+    {
+        Scenario scenario;
+        scenario.goals = {{10.0, 0.0, 0.0}};
+        scenario.bounds = {{-10.0, -10.0}, {20.0, 10.0}};
+        const Referee referee(scenario);
+        const Verdict curve = referee.check({scenario.start, {{0.0, 9e5}}});
+        const Verdict line = referee.checkLines({scenario.start, {9e5, 0.0, 0.0}});
+        for (const Verdict &verdict : {curve, line})
+        {
+            EXPECT_EQ(verdict.fault, Fault::Collision);
+            EXPECT_EQ(verdict.collisions, Referee::MOST_COLLISIONS);
+            EXPECT_LT(verdict.states, Referee::MOST_COLLISIONS + 100000);
+        }
+    }
+
     TEST(Referee, IntegratesLikeTheGeometry)
     {
         // By code of its own: a thousand random paths end where Path says.

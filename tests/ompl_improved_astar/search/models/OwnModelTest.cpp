@@ -86,6 +86,13 @@ namespace
             return positionDistance(from, to);
         }
 
+        std::size_t bytes() const override
+        {
+            return tables;
+        }
+
+        static inline std::size_t tables = 0;  ///< what its tables are said to take
+
     private:
         bool isWayFree(const Pose &from, const Pose &to)
         {
@@ -126,4 +133,18 @@ TEST(OwnModel, findsOutThatThereIsNoWay)
     EXPECT_EQ(result.outcome, PlanOutcome::Approximate);
     EXPECT_FALSE(result.reason.empty()) << "not for want of time";
     EXPECT_NEAR(result.path.end().y, 2.0, 0.4) << "up to the wall";
+}
+
+TEST(OwnModel, itsTablesCountAsMemory)
+{
+    std::vector<std::string> rows(40, std::string(40, '.'));
+    rows[35] = std::string(40, '#');
+    GridWorld world(rows);
+    const PlanRequest request = requestIn(world, {0.5, 0.5, 0.0}, {4.5, 38.5, 0.0});
+    const std::uint64_t whole = plan(world, request).statistics.generated;
+    TwoWheels::tables = (std::size_t(request.parameters.maxMemoryMb) << 20) + 1;
+    const PlanResult full = plan(world, request);
+    TwoWheels::tables = 0;
+    EXPECT_NE(full.reason.find("MB of memory"), std::string::npos) << full.reason;
+    EXPECT_LT(full.statistics.generated, whole / 2);
 }
