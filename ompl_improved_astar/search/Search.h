@@ -81,8 +81,8 @@ namespace parking::search
         /** \brief Searches until the solution improves, nothing is left, or \e stop says so. */
         SearchOutcome run(const StopFunction &stop);
 
-        /** \brief Bytes that nodes, cells, open lists, the ways round obstacles and the tables of the model take at most,
-            growing included. */
+        /** \brief Bytes that nodes, cells, open lists, the ways round obstacles and the tables of the model take at
+           most, growing included. */
         std::size_t memory() const;
 
         /** \brief Has it stopped since it would take more than SearchParameters::maxMemory? */
