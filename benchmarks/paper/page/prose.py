@@ -28,6 +28,11 @@ leaves them undefined.
 '''
 
 
+CLAIMS = '''
+Whether there is less at all is judged by the rule below, with the claims as one table; whether it is as much as claimed by
+the 95 % interval of the median, in brackets. Negative: more.
+'''
+
 RULE = '''
 One rule gives every verdict. The paper's ratio is "more" above 1.05, "less" below 1 / 1.05, else "the same". Ours is the
 median of the ratios on the maps, with its 95 % interval (order statistics). It is "the same" when the interval lies

@@ -107,28 +107,30 @@ def counted(rows):
 
 
 def headline_answer(claim, reduced):
-    """reduced: the Comparison of the improved figure with the other one, not corrected."""
+    """reduced: the Comparison of the improved figure with the other one. Whether there is less at all follows the rule of
+    all verdicts, whether it is as much as claimed the interval."""
     if not reduced.certain:
         return 'no answer: too few maps'
-    least, most = 1.0 - reduced.high, 1.0 - reduced.low
-    if least >= claim:
+    way = reduced.way()
+    if way != 'less':
+        return 'the other way round' if way == 'more' else 'not seen'
+    if 1.0 - reduced.high >= claim:
         return 'holds'
-    if least > 0.0:
-        return 'less, but not by as much' if most < claim else 'less; whether by as much is open'
-    return 'the other way round' if most < 0.0 else 'not seen'
+    return 'less, but not by as much' if 1.0 - reduced.low < claim else 'less; whether by as much is open'
 
 
 def headline_table(scenarios, headlines):
-    lines = ['| claim | section | ours: median reduction | |', '| --- | --- | ---: | --- |']
-    for text, section, scenario, measure, first, second, claim in headlines:
-        figures = scenarios[scenario]
-        reduced = compare(figures.figures(measure, first), figures.figures(measure, second))
-
+    """The claims are one family of tests."""
+    lines = ['| claim | section | ours: median reduction | p | |', '| --- | --- | ---: | ---: | --- |']
+    found = [compare(scenarios[scenario].figures(measure, first), scenarios[scenario].figures(measure, second))
+             for _, _, scenario, measure, first, second, _ in headlines]
+    correct(found)
+    for (text, section, *_, claim), reduced in zip(headlines, found):
         def percent(ratio):
             return f'{100.0 * (1.0 - ratio):.1f} %'.replace('-', '−')
         ours = (f'**{percent(reduced.middle)}** ({percent(reduced.high)} to {percent(reduced.low)})' if reduced.certain
                 else '–')
-        lines.append(f'| {text} | {section} | {ours} | {headline_answer(claim, reduced)} |')
+        lines.append(f'| {text} | {section} | {ours} | {shown_chance(reduced.chance)} | {headline_answer(claim, reduced)} |')
     return '\n'.join(lines)
 
 

@@ -61,6 +61,9 @@ class Rules(unittest.TestCase):
         self.assertEqual(ratios.headline_answer(0.5, compared(0.8, 0.1)), 'less, but not by as much')
         self.assertEqual(ratios.headline_answer(0.5, compared(1.0, 0.5)), 'not seen')
         self.assertEqual(ratios.headline_answer(0.5, compared(1.4, 0.1)), 'the other way round')
+        doubtful = compared(1.4, 0.1)
+        doubtful.chance = 0.2
+        self.assertEqual(ratios.headline_answer(0.5, doubtful), 'not seen')
         self.assertIn('too few', ratios.headline_answer(0.5, compared(0.4, 0.1, 3)))
 
     def test_no_sentence_contradicts_its_figures(self):
@@ -201,7 +204,7 @@ class Page(unittest.TestCase):
         planning = rows['planning: Experiment 5 / Improved A\\*']
         self.assertEqual((planning[2], planning[4]), ('**0.500** (0.500 to 0.500)', 'differs'))
         self.assertEqual(rows['mean acceleration: Basic A\\* / Improved A\\*'][4], 'differs')
-        self.assertEqual(rows['acceleration 83.1 % less'][3], 'not seen')
+        self.assertEqual(rows['acceleration 83.1 % less'][4], 'not seen')
         self.assertEqual(rows['smoothing'][2], '1.00 (1.00 to 1.00)')  # of the cells looked at
         for name in ('effects', 'paths', 'drives'):
             with open(os.path.join(self.folder, 'images', f'paper-{name}.svg'), encoding='utf-8') as stream:
