@@ -59,6 +59,7 @@ namespace parking
         replanned += other.replanned;
         repeated += other.repeated;
         byOthers += other.byOthers;
+        refusedOfOthers += other.refusedOfOthers;
         planning += other.planning;
         disagreed += other.disagreed;
         disagreements.insert(disagreements.end(), other.disagreements.begin(), other.disagreements.end());

@@ -32,7 +32,8 @@ namespace parking
     {
         std::uint64_t worlds{0}, queries{0}, solved{0}, replanned{0}, repeated{0};
         std::uint64_t byOthers{0};  ///< queries put to OMPL's planners, and to the one of this project behind OMPL
-        LatencyCounts planning;     ///< processor time of the queries put to plan()
+        std::uint64_t refusedOfOthers{0};        ///< exact paths of OMPL's planners that the referee does not accept
+        LatencyCounts planning;                  ///< processor time of the queries put to plan()
         std::vector<std::string> disagreements;  ///< one line each, the first hundred
         std::uint64_t disagreed{0};
 

@@ -282,7 +282,11 @@ namespace parking
         }
         const std::lock_guard<std::mutex> lock(mutex_);
         ++figures_.byOthers;
-        if (!wrong.empty())
+        // What others say of their paths is theirs to answer for; that the referee refuses them is what it is there
+        // for.
+        if (!wrong.empty() && name == NAMES.front())
             figures_.disagree(wrong);
+        else if (!wrong.empty())
+            ++figures_.refusedOfOthers;
     }
 }  // namespace parking

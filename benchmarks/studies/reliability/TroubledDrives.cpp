@@ -198,7 +198,7 @@ namespace parking
         }
     }  // namespace
 
-    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed)
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed, bool optimized)
     {
         if (scenario.grid)
             throw Error("scenario " + scenario.name + ": obstacles appear in worlds of polygons only");
@@ -206,6 +206,7 @@ namespace parking
         TroubledDrive report;
         report.trouble = trouble;
         ParkingParameters parameters;
+        parameters.optimizeTrajectory = optimized;
         const ParkingResult calm = AutomaticParking(parameters).park(scenario);
         report.status = calm.status;
         report.message = calm.message;

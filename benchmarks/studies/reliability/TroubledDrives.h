@@ -48,6 +48,9 @@ namespace parking
 
         The drive is first made without the obstacle, which says where the car will be when; the obstacle is put in its
        way 0.5 to 6 m ahead at a random time. Touches are looked for by the oracle of the tests every few millimetres of
-       the way that the simulated car really took. */
-    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed);
+       the way that the simulated car really took.
+
+        \param optimized drive the fastest trajectory, as AutomaticParking does by default; otherwise with standstills
+     */
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed, bool optimized);
 }  // namespace parking

@@ -75,6 +75,7 @@ namespace
         auto add = options.add_options();
         add("drives", oneValue("N"), "how many in all (default 1000)");
         add("first", oneValue("N"), "the first of them, which is its seed (default 0)");
+        add("standstills", "drive the paths themselves, not the fastest trajectories near them");
         add("verbose", "a line for each drive");
         add("help", "this text");
         options.add_options()("scenario", po::value<std::vector<std::string>>());
@@ -94,11 +95,12 @@ namespace
             throw Error("no scenario given (see --help)");
         const std::size_t drives = line.whole("drives", 1, 1000000).value_or(1000);
         const std::size_t first = line.whole("first", 0, 1000000000).value_or(0);
+        const bool standstills = line.given("standstills");
         std::array<Row, TROUBLES> rows;
         for (std::size_t i = first; i < first + drives; ++i)
         {
             const Scenario &scenario = scenarios[(i / TROUBLES) % scenarios.size()];
-            const TroubledDrive drive = driveInTrouble(scenario, static_cast<Trouble>(i % TROUBLES), i);
+            const TroubledDrive drive = driveInTrouble(scenario, static_cast<Trouble>(i % TROUBLES), i, !standstills);
             Row one;
             one.add(drive);
             rows[i % TROUBLES].add(drive);
