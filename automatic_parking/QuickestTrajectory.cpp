@@ -14,6 +14,8 @@ namespace parking
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
         constexpr double SAME_LENGTH = 1e-3;      // metres by which equal paths differ
 
+        constexpr double CLEARANCE_COST = 5.0;  // metres that a metre near obstacles is worth
+
         /** What makes the search prefer paths that are driven quickly. */
         struct Taste
         {
@@ -50,6 +52,7 @@ namespace parking
                            car.inscribedRadius(checker.margin()), bounds};
             request.parameters.gearChangePenalty = taste.gear;
             request.parameters.steeringChangePenalty = taste.steering;
+            request.parameters.clearanceCost = CLEARANCE_COST;
             request.parameters.approximate = false;
             request.maxExpansions = options.mostExpansions - expanded;
             if (interrupted)
