@@ -93,7 +93,8 @@ namespace parking_test::fuzz
 
     double Numbers::between(double low, double high)
     {
-        const unsigned int number = byte() * 256U + byte();
+        const unsigned int first = byte();  // which of two calls in one expression comes first, the compiler chooses
+        const unsigned int number = 256U * first + byte();
         return low + (high - low) * number / 65535.0;
     }
 
