@@ -24,7 +24,7 @@ namespace parking
         auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
         se2->setXY(pose.x, pose.y);
         const double yaw = wrapAngle(pose.yaw);
-        se2->setYaw(yaw >= PI ? -PI : yaw);  // what is no number stays none
+        se2->setYaw(yaw < PI ? yaw : -PI);
     }
 
     /** \brief Throws ompl::Exception unless the states of \e space are poses: an SE2 space or one derived from it. */

@@ -81,10 +81,13 @@ namespace parking_test::fuzz
                 parking::Pose pose{numbers.between(-5.0, 15.0), numbers.between(-8.0, 8.0), numbers.between(-3.2, 3.2)};
                 if (numbers.below(4) == 0)
                     pose = {numbers.anything(), numbers.anything(), numbers.anything()};
-                // OMPL asserts that it can measure what it is given, which ends the process: see docs/reliability.md.
+                // OMPL asserts that it can measure what it is given, which ends the process (and is what isolation is
+                // for): of headings setPose() makes such that it can.
                 for (double *number : {&pose.x, &pose.y, &pose.yaw})
                     if (std::abs(*number) > 1e6)
                         *number = std::copysign(1e6, *number);
+                if (!std::isfinite(pose.yaw))
+                    pose.yaw = -parking::PI;
                 answer.poses.push_back(pose);
             }
             if (numbers.flag())
