@@ -31,8 +31,19 @@ namespace parking
             return bands;
         }
 
-        SvgPlot plotOf(const Trajectory &driven, const char *title, const char *unit, double TrajectoryPoint::*field,
-                       double factor, double limit)
+        SvgSeries seriesOf(const Trajectory &trajectory, double TrajectoryPoint::*field, double factor)
+        {
+            SvgSeries series;
+            for (const TrajectoryPoint &point : trajectory)
+            {
+                series.x.push_back(point.t);
+                series.y.push_back(factor * point.*field);
+            }
+            return series;
+        }
+
+        SvgPlot plotOf(const Trajectory &driven, const Trajectory &planned, const char *title, const char *unit,
+                       double TrajectoryPoint::*field, double factor, double limit)
         {
             SvgPlot plot;
             plot.title = title;
@@ -42,24 +53,25 @@ namespace parking
             plot.limits = {-factor * limit, factor * limit};
             plot.yRange = {-ROOM * factor * limit, ROOM * factor * limit};
             plot.height = 170.0;
-            SvgSeries series;
-            series.colour = svg_colour::DRIVEN;
-            for (const TrajectoryPoint &point : driven)
-            {
-                series.x.push_back(point.t);
-                series.y.push_back(factor * point.*field);
-            }
-            plot.series.push_back(std::move(series));
+            plot.series.push_back(seriesOf(driven, field, factor));
+            plot.series.back().colour = svg_colour::DRIVEN;
+            if (planned.empty())
+                return plot;
+            plot.series.back().label = "driven";
+            plot.series.push_back(seriesOf(planned, field, factor));
+            plot.series.back().label = "planned";
+            plot.series.back().dashed = true;
             return plot;
         }
     }  // namespace
 
-    std::vector<SvgPlot> drivePlots(const Trajectory &driven, const Vehicle &vehicle)
+    std::vector<SvgPlot> drivePlots(const Trajectory &driven, const Vehicle &vehicle, const Trajectory &planned)
     {
-        return {
-            plotOf(driven, "Speed", "m/s", &TrajectoryPoint::v, 1.0, vehicle.maxSpeed),
-            plotOf(driven, "Acceleration", "m/s\xC2\xB2", &TrajectoryPoint::acceleration, 1.0, vehicle.maxAcceleration),
-            plotOf(driven, "Steering angle", "degrees", &TrajectoryPoint::steering, DEGREES, vehicle.maxSteeringAngle)};
+        return {plotOf(driven, planned, "Speed", "m/s", &TrajectoryPoint::v, 1.0, vehicle.maxSpeed),
+                plotOf(driven, planned, "Acceleration", "m/s\xC2\xB2", &TrajectoryPoint::acceleration, 1.0,
+                       vehicle.maxAcceleration),
+                plotOf(driven, planned, "Steering angle", "degrees", &TrajectoryPoint::steering, DEGREES,
+                       vehicle.maxSteeringAngle)};
     }
 
     SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,

@@ -18,6 +18,8 @@ namespace parking
     SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle = {});
 
-    /** \brief Speed, acceleration and steering angle over time, one plot each. */
-    std::vector<SvgPlot> drivePlots(const Trajectory &driven, const Vehicle &vehicle);
+    /** \brief Speed, acceleration and steering angle over time, one plot each.
+
+        \param planned what the drive follows, dashed; may be empty */
+    std::vector<SvgPlot> drivePlots(const Trajectory &driven, const Vehicle &vehicle, const Trajectory &planned = {});
 }  // namespace parking

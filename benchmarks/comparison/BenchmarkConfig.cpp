@@ -31,8 +31,9 @@ namespace parking
             "scenario",     "name",         "vehicle",   "space",     "footprint",  "circle_radius", "start.x",
             "start.y",      "start.theta",  "goal.x",    "goal.y",    "goal.theta", "volume.min.x",  "volume.min.y",
             "volume.max.x", "volume.max.y", "objective", "threshold", "sampler"};
-        const std::vector<std::string> BENCHMARK_KEYS{"time_limit", "mem_limit", "run_count", "output", "save_paths",
-                                                      "seed",       "simplify",  "track",     "clock"};
+        const std::vector<std::string> BENCHMARK_KEYS{"time_limit", "mem_limit", "run_count", "output",
+                                                      "save_paths", "seed",      "simplify",  "track",
+                                                      "trajectory", "clock"};
         const std::vector<std::string> SAMPLERS{"uniform", "gaussian", "obstacle_based", "bridge_test"};
 
         /** Sections and keys are followed by their lines in the order of the file; boost tells no lines. */
@@ -150,6 +151,8 @@ namespace parking
             }
             else if (key == "track")
                 config.track = switchNamed(key, value);
+            else if (key == "trajectory")
+                config.trajectory = switchNamed(key, value);
             else
                 throw Error(unknownName("key of [benchmark]", key, BENCHMARK_KEYS));
         }

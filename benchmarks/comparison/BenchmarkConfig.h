@@ -55,6 +55,7 @@ namespace parking
         bool processorTime{false};  ///< limit and measure processor time instead of that of the wall clock
         bool simplify{false};       ///< let OMPL simplify each path, too, and report that beside it
         bool track{false};          ///< drive each path with the controller
+        bool trajectory{false};     ///< optimise each path in time
         std::vector<PlannerSpec> planners;
     };
 

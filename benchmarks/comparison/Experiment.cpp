@@ -251,7 +251,8 @@ namespace parking
     {
         return hexadecimal(hash(formatNumber(config.timeLimit) + "/" + formatNumber(config.memoryLimit) + "/" +
                                 std::to_string(config.seed) + (config.simplify ? "/s" : "/") +
-                                (config.track ? "/t" : "/") + (config.processorTime ? "p" : "")));
+                                (config.track ? "/t" : "/") + (config.processorTime ? "p" : "") +
+                                (config.trajectory ? "q" : "")));
     }
 
     std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner)

@@ -93,6 +93,20 @@ namespace parking
             add("collisions while driving", &R::drivingCollisions, "", "poses of the drive that collide");
             add("median MPC time", &R::medianMpcTime, "s", "of a step of the controller");
 
+            add("trajectory duration", &R::trajectoryDuration, "s",
+                "with `trajectory`: of the quickest trajectory near the path", std::nullopt,
+                InReport{"trajectory", 1.0, "s"});
+            add("trajectory cost", &R::trajectoryCost, "",
+                "its cost in the competition of TPCAP: J = 100 T + 10 (control effort + steering integral) + 5 gear "
+                "changes",
+                std::nullopt, InReport{"J", 1.0, ""});
+            add("trajectory control effort", &R::controlEffort, "", "integral of a^2 + (v w)^2, in SI units");
+            add("trajectory steering integral", &R::steeringIntegral, "rad^2 s", "of the squared steering angle");
+            add("trajectory gear changes", &R::trajectoryGearChanges, "", "between forwards and reverse");
+            add("trajectory stops to steer", &R::trajectoryStopsToSteer, "",
+                "nothing better was found than the path itself with standstills");
+            add("trajectory time", &R::trajectoryTime, "s", "processor time of optimising it");
+
             add("time", &R::time, "s", "of `solve()`");
             add("memory", &R::memory, "MB", "OMPL: of the process");
             add("status", &R::status, "", "OMPL: what `solve()` returned; the table `enums` has the names");

@@ -49,6 +49,10 @@ namespace parking
         std::optional<double> travelTime, drivenLength, meanAcceleration, meanSteeringAngle, greatestPositionError,
             finalPositionError, finalYawError, medianMpcTime;
         std::optional<std::uint64_t> drivingCollisions;
+        // The quickest trajectory near it.
+        std::optional<double> trajectoryDuration, trajectoryCost, controlEffort, steeringIntegral, trajectoryTime;
+        std::optional<std::uint64_t> trajectoryGearChanges;
+        std::optional<bool> trajectoryStopsToSteer;
         // What ompl::tools::Benchmark measures itself.
         std::optional<double> time, memory, validSegmentFraction;
         std::optional<ompl::base::PlannerStatus::StatusType> status;

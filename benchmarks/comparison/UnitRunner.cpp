@@ -1,5 +1,6 @@
 #include "benchmarks/comparison/UnitRunner.h"
 
+#include "automatic_parking/QuickestTrajectory.h"
 #include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/problems/PathDrive.h"
 #include "benchmarks/system/QuietChildren.h"
@@ -10,6 +11,7 @@
 #include <ompl/util/Console.h>
 
 #include <chrono>
+#include <ctime>
 #include <exception>
 #include <map>
 #include <sstream>
@@ -105,6 +107,31 @@ namespace parking
             catch (const Error &)
             {
                 // A path that cannot be driven is a result, too.
+            }
+        }
+
+        /** The quickest trajectory near the path. */
+        void optimize(RunRecord &record, const Problem &problem, const PlannedPath &path)
+        {
+            const std::clock_t begin = std::clock();
+            try
+            {
+                QuickestTrajectoryOptions options;
+                options.alternatives = false;  // they would be this planner's, whoever is compared
+                const OptimizedTrajectory found =
+                    quickestTrajectory(problem.footprint(), problem.scenario().bounds, path.path, options).trajectory;
+                const TpcapCost cost = tpcapCost(found.motion);
+                record.trajectoryDuration = cost.time;
+                record.trajectoryCost = cost.total();
+                record.controlEffort = cost.controlEffort;
+                record.steeringIntegral = cost.steeringIntegral;
+                record.trajectoryGearChanges = cost.gearChanges;
+                record.trajectoryStopsToSteer = found.fallback;
+                record.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+            }
+            catch (const Error &)
+            {
+                // A path that cannot be driven has none.
             }
         }
 
@@ -370,5 +397,7 @@ namespace parking
             simplify(record, world, prepared, config_.timeLimit);
         if (config_.track)
             track(record, world, *run.path);
+        if (config_.trajectory)
+            optimize(record, world, *run.path);
     }
 }  // namespace parking

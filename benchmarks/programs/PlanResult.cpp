@@ -145,10 +145,10 @@ namespace parking
             return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
         }
 
-        std::vector<Pose> trackOf(const DriveResult &drive)
+        std::vector<Pose> trackOf(const Trajectory &trajectory)
         {
             std::vector<Pose> track;
-            for (const TrajectoryPoint &point : drive.trajectory)
+            for (const TrajectoryPoint &point : trajectory)
                 track.push_back({point.x, point.y, point.yaw});
             return track;
         }
@@ -310,13 +310,21 @@ namespace parking
         drawScenario(map, scenario);
         if (!path.empty())
             drawPath(map, path, scenario.vehicle);
+        const Trajectory planned = result.trajectory
+                                       ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
+                                       : Trajectory();
         if (result.drive)
-            drawTrack(map, trackOf(*result.drive), svg_colour::DRIVEN, "driven");
+            drawTrack(map, trackOf(result.drive->trajectory), svg_colour::DRIVEN, "driven");
+        else if (!planned.empty())
+            drawTrack(map, trackOf(planned), svg_colour::DRIVEN, "trajectory");
         figure.setMap(map);
         if (path.size() > 1)
             figure.addPlot(curvaturePlot(path, scenario.vehicle));
         if (result.drive)
-            for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle))
+            for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle, planned))
+                figure.addPlot(plot);
+        else if (!planned.empty())
+            for (const SvgPlot &plot : drivePlots(planned, scenario.vehicle))
                 figure.addPlot(plot);
         return figure.toString();
     }
