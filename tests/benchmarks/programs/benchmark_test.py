@@ -188,6 +188,20 @@ improved_astar.problem.footprint=circle
             self.assertLessEqual(run['figures']['simplified path length'],
                                  run['figures']['path length'] + 1e-6)
 
+    def test_trajectories_are_reported_with_their_cost(self):
+        self.write('set.cfg', CONFIG.replace('[planner]', 'trajectory = yes\n[planner]'))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect', '--planner',
+                       'improved_astar')
+        runs = [run['figures'] for run in self.records('out/runs.jsonl')]
+        self.assertEqual(len(runs), 4)
+        for run in runs:
+            time = run['trajectory duration']
+            # TPCAP's cost; the trajectory stays near the path, and no car drives it faster than 2.5 m/s.
+            cost = (100 * time + 10 * (run['trajectory control effort'] + run['trajectory steering integral']) +
+                    5 * run['trajectory gear changes'])
+            self.assertAlmostEqual(run['trajectory cost'], cost, delta=1e-6 * cost)
+            self.assertLess(0.5 * run['path length'] / 2.5, time)
+
     def test_a_folder_of_scenarios(self):
         os.mkdir(self.path('cases'))
         shutil.copy(bundled('angled45'), self.path('cases/b.yaml'))
