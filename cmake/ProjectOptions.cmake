@@ -44,7 +44,9 @@ target_compile_options(parking_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${PARKING_WARNINGS_AS_ERRORS}>:-Werror>)
 if(BUILD_SHARED_LIBS AND NOT PARKING_SANITIZER)
-  target_link_options(parking_build_flags INTERFACE -Wl,-z,defs)  # what a library lacks, its own build says
+  # What a library lacks, its own build says. A module finds the rest in what loads it: the Python module, in Python.
+  target_link_options(parking_build_flags INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>:-Wl,-z,defs>)
 endif()
 if(PARKING_SANITIZER)
   target_compile_options(parking_build_flags INTERFACE -fsanitize=${PARKING_SANITIZER} -fno-omit-frame-pointer)
