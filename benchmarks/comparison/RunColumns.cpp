@@ -58,6 +58,9 @@ namespace parking
             add("map loading time", &R::mapLoadingTime, "s",
                 "building obstacles and distance field, and finding out which cells are free where that is done first",
                 std::nullopt, InReport{"map loading", 1e3, "ms"});
+            add("peak memory", &R::peakMemory, "MB",
+                "by which the process grew at most while the planner worked; of its own only with `--isolate`",
+                InSummary{"peak memory", Statistic::Median, 1, false}, InReport{"peak memory", 1.0, "MB", true});
             add("nodes expanded", &R::nodesExpanded, "", "for OMPL's planners the vertices of their graph");
             add("motions generated", &R::motionsGenerated, "", "for OMPL's planners the edges of their graph");
             add("states checked", &R::statesChecked, "", "poses, those along motions included; not counted for discs");
@@ -71,6 +74,40 @@ namespace parking
             add("distance to goal", &R::distanceToGoal, "m", "from the end of the path to the nearest goal");
             add("densely valid", &R::denselyValid, "", "what the second check says");
             add("dense collisions", &R::denseCollisions, "", "poses that collide in the second check");
+
+            add("attains goal", &R::attainsGoal, "", "ends within 1 cm (in x and in y) and 1 degree of a goal");
+            add("angle over length", &R::angleOverLength, "rad/m",
+                "turns of the direction of travel over the length; a cusp is half a turn",
+                InSummary{"angle over length", Statistic::Median, 3, false},
+                InReport{"angle over length", 1.0, "rad/m", true});
+            add("max curvature", &R::maxCurvature, "1/m", "largest absolute value",
+                InSummary{"max curvature", Statistic::Median, 3, false}, InReport{"max curvature", 1.0, "1/m", true});
+            add("normalized curvature", &R::normalizedCurvature, "rad",
+                "absolute curvature, integrated over the length",
+                InSummary{"normalized curvature", Statistic::Median, 3, false},
+                InReport{"normalized curvature", 1.0, "rad", true});
+            add("smoothness", &R::smoothness, "1/m^2", "OMPL's measure, every 0.1 m; 0 for a straight line",
+                InSummary{"smoothness", Statistic::Median, 3, false}, InReport{"smoothness", 1.0, "1/m²", true});
+            add("reverse share", &R::reverseShare, "", "of the length, driven in reverse",
+                InSummary{"reverse share", Statistic::Median, 3, false}, InReport{"in reverse", 100.0, "%", true});
+            add("mean clearance", &R::meanClearance, "m", "along the path; more than 5 m count as 5 m",
+                InSummary{"mean clearance", Statistic::Median, 3, false}, InReport{"mean clearance", 1.0, "m", true});
+            add("median clearance", &R::medianClearance, "m", "likewise",
+                InSummary{"median clearance", Statistic::Median, 3, false},
+                InReport{"median clearance", 1.0, "m", true});
+            add("cusp to cusp time", &R::profileTime, "s",
+                "of the fastest drive that stops at cusps only, as if the wheels turned at once",
+                InSummary{"cusp to cusp time", Statistic::Median, 0, false}, InReport{"cusp to cusp", 1.0, "s", true});
+            add("cusp to cusp cost", &R::profileCost, "", "TPCAP's J of that drive",
+                InSummary{"cusp to cusp cost", Statistic::Median, 0, false},
+                InReport{"J, cusp to cusp", 1.0, "", true});
+            add("cusp to cusp jerk", &R::profileJerk, "m/s^3", "of that drive: mean of the absolute value");
+            add("steering at standstill time", &R::standingSteeringTime, "s",
+                "in which the wheels of that drive turn where the curvature jumps; not in the time above",
+                InSummary{"steering at standstill", Statistic::Median, 0, false},
+                InReport{"steering at standstill", 1.0, "s", true});
+            add("steerings at standstill", &R::standingSteerings, "", "places where the curvature jumps",
+                InSummary{"steerings at standstill", Statistic::Median, 0, false});
 
             add("simplification time", &R::simplificationTime, "s", "of OMPL, with `simplify`");
             add("simplified path length", &R::simplifiedLength, "m", "after that", std::nullopt,
@@ -93,6 +130,13 @@ namespace parking
             add("collisions while driving", &R::drivingCollisions, "", "poses of the drive that collide");
             add("median MPC time", &R::medianMpcTime, "s", "of a step of the controller");
 
+            add("drive attains goal", &R::driveAttainsGoal, "", "of the drive: as `attains_goal`");
+            add("drive colliding frames", &R::driveCollidingFrames, "", "of the drive: share of its frames of 1 ms");
+            add("drive standing time", &R::driveStandingTime, "s", "of the drive, at less than 1 mm/s",
+                InSummary{"drive standing time", Statistic::Median, 0, false}, InReport{"standing", 1.0, "s", true});
+            add("drive jerk", &R::driveJerk, "m/s^3", "of the drive: mean of the absolute value",
+                InSummary{"drive jerk", Statistic::Median, 3, false}, InReport{"jerk", 1.0, "m/s³", true});
+
             add("trajectory duration", &R::trajectoryDuration, "s",
                 "with `trajectory`: of the quickest trajectory near the path", std::nullopt,
                 InReport{"trajectory", 1.0, "s"});
@@ -105,6 +149,16 @@ namespace parking
             add("trajectory gear changes", &R::trajectoryGearChanges, "", "between forwards and reverse");
             add("trajectory stops to steer", &R::trajectoryStopsToSteer, "",
                 "nothing better was found than the path itself with standstills");
+            add("trajectory attains goal", &R::trajectoryAttainsGoal, "", "as `attains_goal`");
+            add("trajectory colliding frames", &R::trajectoryCollidingFrames, "", "share of its frames of 1 ms",
+                InSummary{"trajectory colliding frames", Statistic::Median, 4, false},
+                InReport{"colliding frames", 100.0, "%", true});
+            add("trajectory standing time", &R::trajectoryStandingTime, "s", "at less than 1 mm/s",
+                InSummary{"trajectory standing time", Statistic::Median, 0, false},
+                InReport{"trajectory standing", 1.0, "s", true});
+            add("trajectory jerk", &R::trajectoryJerk, "m/s^3", "mean of the absolute value",
+                InSummary{"trajectory jerk", Statistic::Median, 3, false},
+                InReport{"trajectory jerk", 1.0, "m/s³", true});
             add("trajectory time", &R::trajectoryTime, "s", "processor time of optimising it");
 
             add("time", &R::time, "s", "of `solve()`");

@@ -30,15 +30,17 @@ namespace parking
     {
         const char *heading;
         Statistic statistic;
-        int decimals;  ///< on the terminal; times have three digits instead
+        int decimals;        ///< on the terminal; times have three digits instead
+        bool inTable{true};  ///< on the terminal and in summary.md, too; otherwise in summary.csv only
     };
 
     /** \brief A column's place in the HTML report, beside those that the report knows by name. */
     struct InReport
     {
         const char *heading;
-        double factor;     ///< from the column's unit to the one shown
-        const char *unit;  ///< as shown
+        double factor;       ///< from the column's unit to the one shown
+        const char *unit;    ///< as shown
+        bool folded{false};  ///< in the table of further figures below that of the problem
     };
 
     /** \brief A figure of a run as it appears in files, tables and documents. */

@@ -34,12 +34,19 @@ namespace parking
         std::string reason;  ///< one line on why there is no solution; empty where nobody tells
         std::optional<bool> success, late;
         // What it took.
-        std::optional<double> firstSolutionTime, planningTime, cpuTime, mapLoadingTime;
+        std::optional<double> firstSolutionTime, planningTime, cpuTime, mapLoadingTime, peakMemory;
         std::optional<std::uint64_t> nodesExpanded, motionsGenerated, statesChecked, exactChecks;
         // The path.
         std::optional<double> pathLength, leastClearance, distanceToGoal;
         std::optional<std::uint64_t> cusps, denseCollisions;
         std::optional<bool> denselyValid;
+        // How it is shaped, and how far the obstacles are.
+        std::optional<bool> attainsGoal;
+        std::optional<double> angleOverLength, maxCurvature, normalizedCurvature, smoothness, reverseShare,
+            meanClearance, medianClearance;
+        // Driven from cusp to cusp as fast as the car can, with steering that is there at once.
+        std::optional<double> profileTime, profileCost, profileJerk, standingSteeringTime;
+        std::optional<std::uint64_t> standingSteerings;
         // The same path after OMPL's simplification.
         std::optional<double> simplificationTime, simplifiedLength, simplifiedClearance;
         std::optional<std::uint64_t> simplifiedCusps, simplifiedDenseCollisions;
@@ -49,10 +56,13 @@ namespace parking
         std::optional<double> travelTime, drivenLength, meanAcceleration, meanSteeringAngle, greatestPositionError,
             finalPositionError, finalYawError, medianMpcTime;
         std::optional<std::uint64_t> drivingCollisions;
+        std::optional<bool> driveAttainsGoal;
+        std::optional<double> driveCollidingFrames, driveStandingTime, driveJerk;
         // The quickest trajectory near it.
         std::optional<double> trajectoryDuration, trajectoryCost, controlEffort, steeringIntegral, trajectoryTime;
         std::optional<std::uint64_t> trajectoryGearChanges;
-        std::optional<bool> trajectoryStopsToSteer;
+        std::optional<bool> trajectoryStopsToSteer, trajectoryAttainsGoal;
+        std::optional<double> trajectoryCollidingFrames, trajectoryStandingTime, trajectoryJerk;
         // What ompl::tools::Benchmark measures itself.
         std::optional<double> time, memory, validSegmentFraction;
         std::optional<ompl::base::PlannerStatus::StatusType> status;

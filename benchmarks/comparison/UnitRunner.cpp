@@ -2,6 +2,9 @@
 
 #include "automatic_parking/QuickestTrajectory.h"
 #include "benchmarks/comparison/RunColumns.h"
+#include "benchmarks/metrics/DriveMetrics.h"
+#include "benchmarks/metrics/PathMetrics.h"
+#include "benchmarks/metrics/PeakMemory.h"
 #include "benchmarks/problems/PathDrive.h"
 #include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
@@ -69,6 +72,40 @@ namespace parking
             record.denseCollisions = path.recheck.collisions;
         }
 
+        /** What the path is like: its shape, what is around it, and how long a car takes along it. */
+        void putMetrics(RunRecord &record, const Problem &problem, const PlannedPath &planned)
+        {
+            // What is no path at all, or ends a planet away, has no shape.
+            if (planned.recheck.fault == Fault::NotFinite || planned.recheck.fault == Fault::NoPath ||
+                !(planned.length < Referee::FARTHEST))
+                return;
+            const PathShape shape = shapeOf(planned.path);
+            record.attainsGoal = attainsGoal(planned.end, problem.scenario().goals);
+            record.angleOverLength = shape.angleOverLength;
+            record.maxCurvature = shape.maxCurvature;
+            record.normalizedCurvature = shape.normalizedCurvature;
+            record.smoothness = shape.smoothness;
+            record.reverseShare = shape.reverseShare;
+            const ClearanceFigures clearance =
+                clearanceAlong(planned.path, [&problem](const Pose &pose, double enough)
+                               { return problem.referee().space().clearance(pose, enough); });
+            record.meanClearance = clearance.mean;
+            record.medianClearance = clearance.median;
+            try
+            {
+                const CuspToCusp profile = cuspToCusp(planned.path, problem.scenario().vehicle);
+                record.profileTime = profile.time;
+                record.profileCost = profile.cost();
+                record.profileJerk = profile.meanJerk;
+                record.standingSteerings = profile.standingSteerings;
+                record.standingSteeringTime = profile.standingSteeringTime;
+            }
+            catch (const Error &)
+            {
+                // No car drives it.
+            }
+        }
+
         /** OMPL's simplification, on the solution in the problem definition. */
         void simplify(RunRecord &record, const Problem &problem, const PreparedPlanner &prepared, double timeLimit)
         {
@@ -103,6 +140,12 @@ namespace parking
                 record.finalYawError = figures.finalYawError;
                 record.drivingCollisions = figures.collisions;
                 record.medianMpcTime = figures.solveTime.median;
+                const DriveFigures frames =
+                    driveFigures(drive.trajectory, problem.scenario().goals, problem.footprint());
+                record.driveAttainsGoal = frames.attainsGoal;
+                record.driveCollidingFrames = frames.collidingShare();
+                record.driveStandingTime = frames.standingTime;
+                record.driveJerk = frames.meanJerk;
             }
             catch (const Error &)
             {
@@ -128,6 +171,11 @@ namespace parking
                 record.trajectoryGearChanges = cost.gearChanges;
                 record.trajectoryStopsToSteer = found.fallback;
                 record.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+                const DriveFigures frames = driveFigures(found.motion, problem.scenario().goals, problem.footprint());
+                record.trajectoryAttainsGoal = frames.attainsGoal;
+                record.trajectoryCollidingFrames = frames.collidingShare();
+                record.trajectoryStandingTime = frames.standingTime;
+                record.trajectoryJerk = frames.meanJerk;
             }
             catch (const Error &)
             {
@@ -341,16 +389,19 @@ namespace parking
         benchmark.addPlanner(prepared.planner);
         // clear() has thrown samplers away; those that solve() makes shall not depend on how many were made before. And
         // describing the space, OMPL has checked a thousand states.
+        PeakMemory memory;
         benchmark.setPreRunEvent(
             [&](const ob::PlannerPtr &)
             {
                 seedRandomNumbers(record.seed);
                 world.resetCounts();
+                memory.begin();
             });
         std::exception_ptr failure;
         benchmark.setPostRunEvent(
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
+                record.peakMemory = memory.megabytes();
                 solved();
                 takeOmplProperties(record, properties);
                 try
@@ -390,6 +441,7 @@ namespace parking
         if (!run.path)
             return;
         putPath(record, *run.path);
+        putMetrics(record, world, *run.path);
         record.distanceToGoal = run.goalDistance;
         record.hasPath = true;
         record.path = run.path->path;

@@ -84,15 +84,34 @@ def sortable(value):
 # Further columns, shown where the runs have such figures: column, heading, factor, unit. The file is made from the
 # table in benchmarks/comparison/RunColumns.cpp.
 with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
-    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit']) for column in json.load(_columns)]
+    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit'], column['folded'])
+             for column in json.load(_columns)]
 
 
-def extra_columns(results):
+def extra_columns(results, folded):
     """Loading the map matters beside the drive only: otherwise it is the same for all."""
     there = {name for name, *_ in EXTRA for run in results.runs[:2000] if not math.isnan(run.figure(name))}
     if 'travel time' not in there:
         there.discard('map loading time')
-    return [column for column in EXTRA if column[0] in there]
+    return [column[:4] for column in EXTRA if column[0] in there and column[4] == folded]
+
+
+def extra_cells(cell, extra):
+    values = [(factor * cell.of_solved(name), unit) for name, _, factor, unit in extra]
+    return ''.join(f'<td{sortable(value)}>{shown(value)}{f" {unit}" if value == value else ""}</td>'
+                   for value, unit in values)
+
+
+def more_table(results, cells, more):
+    """Further figures of the paths and drives, folded up; empty where no planner has any."""
+    rows = [(index, extra_cells(cell, more)) for index, cell in cells.items() if cell.solved]
+    if not more or not rows:
+        return ''
+    return ('<details><summary>Further figures: medians over the solved runs</summary><div class="scroll"><table class="figures '
+            'sortable"><thead><tr><th class=name>planner</th>' + ''.join(f'<th>{heading}</th>' for _, heading, *_ in more)
+            + '</tr></thead><tbody>'
+            + ''.join(f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(results.planners[index])}</th>{row}</tr>'
+                      for index, row in rows) + '</tbody></table></div></details>')
 
 
 def problem_table(results, cells, extra):
@@ -127,10 +146,7 @@ def problem_table(results, cells, extra):
             f'{interval_html(cell.length_interval, lambda v: shown(v, 4), cell.count)}</td>'
             f'<td{sortable(cusps)}>{f"{cusps:g}" if cusps == cusps else "–"}</td>'
             f'<td{sortable(clearance)}>{f"{100 * clearance:.1f} cm" if clearance == clearance else "–"}</td>')
-        for prop, _, factor, unit in extra:
-            value = factor * cell.of_solved(prop)
-            out.append(f'<td{sortable(value)}>{shown(value)}{f" {unit}" if value == value else ""}</td>')
-        out.append('</tr>')
+        out.append(extra_cells(cell, extra) + '</tr>')
     return ''.join(out) + '</tbody></table></div>'
 
 
@@ -263,11 +279,11 @@ def tile(value, what, tip=''):
     return f'<div class="tile"{f" data-tip={chr(34)}{text(tip)}{chr(34)}" if tip else ""}><b>{value}</b><span>{what}</span></div>'
 
 
-def problem_section(results, number, problem, cells, extra, charts):
-    """Table and charts of a problem; the section is left open."""
+def problem_section(results, number, problem, cells, extra, more, charts):
+    """Tables and charts of a problem; the section is left open."""
     runs_of = {index: cell.runs for index, cell in cells.items()}
     out = [f'<section class="problem" id="problem-{number}"><h2>{text(problem)}</h2>']
-    out.append(problem_table(results, cells, extra))
+    out += [problem_table(results, cells, extra), more_table(results, cells, more)]
     out.append('<div class="charts">')
     made = [(f'success-{number}', 'Success over time', success_chart(f'success-{number}', f'success over time, {problem}',
                                                                    runs_of, results.time_limit)),
@@ -308,11 +324,11 @@ def gallery(results, number, problem, cells, files):
 
 def problem_sections(results, table, charts):
     """The sections, and how many there are: as many as the page has room for. The data of curves is added to charts."""
-    extra, files = extra_columns(results), path_links(results)
+    extra, more, files = extra_columns(results, False), extra_columns(results, True), path_links(results)
     room, room_for_paths, out = Room(SECTIONS), Room(GALLERIES), []
     for number, problem in enumerate(results.problems):
         own = {}
-        section = problem_section(results, number, problem, table[problem], extra, own)
+        section = problem_section(results, number, problem, table[problem], extra, more, own)
         if not room.take(section + json.dumps(own)):
             return ''.join(out) + left_out('sections', number, len(results.problems)), number
         charts.update(own)

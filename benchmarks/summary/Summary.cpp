@@ -24,6 +24,8 @@ namespace parking
             Cells cells{"problem", "planner", "solved", "near"};
             for (const RunColumn *column : summaryColumns())
             {
+                if (!column->summary->inTable)
+                    continue;
                 cells.emplace_back(column->summary->heading);
                 if (column->summary->statistic == Statistic::Distribution)
                     cells.emplace_back("quartiles");
@@ -68,6 +70,8 @@ namespace parking
             for (std::size_t i = 0; i < columns.size(); ++i)
             {
                 const RunColumn &column = *columns[i];
+                if (!column.summary->inTable)
+                    continue;
                 const SummaryFigure &figure = row.figures[i];
                 const bool distribution = column.summary->statistic == Statistic::Distribution;
                 const bool nothing = std::isnan(figure.median) || (distribution && std::isinf(figure.median));

@@ -5,7 +5,7 @@ import math
 from charts import shown
 from design import FACTORS, KEYS, VARIANTS
 from order_statistics import median, median_interval
-from paired import LEVEL, NEAR, Comparison, correct, sign_test
+from paired import LEVEL, NEAR, Comparison, chance_of_signs, correct
 from study import MEASURES
 
 EFFECT_MEASURES = ('total', 'cells', 'expanded', 'length', 'turning')
@@ -43,7 +43,7 @@ def effects(study, measure):
             continue
         low, high, certainty = median_interval(values)
         logarithms = [math.log(value) if abs(math.log(value)) > 1e-9 else 0.0 for value in values]
-        found[keys] = Comparison(values, median(values), low, high, certainty > 0.0, sign_test(logarithms))
+        found[keys] = Comparison(values, median(values), low, high, certainty > 0.0, chance_of_signs(logarithms))
     correct(list(found.values()))
     return found
 

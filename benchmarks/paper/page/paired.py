@@ -3,28 +3,15 @@ import dataclasses
 import math
 
 from order_statistics import median, median_interval
+from standings.paired_tests import holm, sign_test
 
 NEAR = 1.05   # ratios nearer to 1 than by this factor count as none
 LEVEL = 0.05  # of what counts as certain
 
 
-def sign_test(values):
-    """Probability of signs at least as uneven if both were equally likely, two-sided; values of 0 do not count."""
-    more = sum(value > 0.0 for value in values)
-    count = more + sum(value < 0.0 for value in values)
-    few = min(more, count - more)
-    tail = sum(math.comb(count, k) for k in range(few + 1)) / 2.0 ** count
-    return min(1.0, 2.0 * tail)
-
-
-def holm(chances):
-    """The probabilities corrected for being many (Holm 1979), in the same order."""
-    order = sorted(range(len(chances)), key=lambda index: chances[index])
-    corrected, most = [0.0] * len(chances), 0.0
-    for rank, index in enumerate(order):
-        most = max(most, min(1.0, (len(chances) - rank) * chances[index]))
-        corrected[index] = most
-    return corrected
+def chance_of_signs(values):
+    """The sign test's probability for differences; those of 0 do not count."""
+    return sign_test(sum(value > 0.0 for value in values), sum(value < 0.0 for value in values))
 
 
 @dataclasses.dataclass
@@ -61,7 +48,7 @@ def compare(firsts, seconds):
         return Comparison([])
     low, high, certainty = median_interval(ratios)
     return Comparison(ratios, median(ratios), low, high, certainty > 0.0,
-                      sign_test([math.log(ratio) if abs(math.log(ratio)) > 1e-9 else 0.0 for ratio in ratios]))
+                      chance_of_signs([math.log(ratio) if abs(math.log(ratio)) > 1e-9 else 0.0 for ratio in ratios]))
 
 
 def correct(comparisons):

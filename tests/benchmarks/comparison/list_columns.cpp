@@ -14,7 +14,8 @@ int main()
             each["report"] = {{"name", column.name},
                               {"heading", column.report->heading},
                               {"factor", column.report->factor},
-                              {"unit", column.report->unit}};
+                              {"unit", column.report->unit},
+                              {"folded", column.report->folded}};
         columns.push_back(std::move(each));
     }
     std::cout << columns.dump(1) << '\n';

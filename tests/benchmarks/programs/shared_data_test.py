@@ -13,6 +13,7 @@ from programs import SHARED_DATA, VERIFY, ProgramTest, main
 
 POSES = os.path.join(SHARED_DATA, 'poses.json')
 TIME_LIMIT = 5  # seconds for each problem
+VERIFY_TRAJECTORY = os.path.join(os.path.dirname(VERIFY), 'verify_trajectory.py')
 ENOUGH_CASES = 0.9  # of the cases must be solved,
 ENOUGH_MAP_PROBLEMS = 38.0 / 42.0  # of the problems on maps
 
@@ -60,6 +61,21 @@ class SharedData(ProgramTest):
     @unittest.skipUnless(cases(), 'no TPCAP cases in ' + SHARED_DATA)
     def test_tpcap(self):
         self.solve_all([(os.path.basename(case)[:-len('.csv')], case, [case]) for case in cases()], ENOUGH_CASES)
+
+    @unittest.skipUnless(cases() and os.path.exists(VERIFY_TRAJECTORY), 'no cases, or no checker of trajectories')
+    def test_costs_of_trajectories(self):
+        case = cases()[0]
+        result = self.planned(case, '--trajectory', '--time-limit', TIME_LIMIT)
+        name = self.write('result.json', json.dumps(result))
+        checked = subprocess.run([self.python, '-B', VERIFY_TRAJECTORY, case, name], capture_output=True, text=True,
+                                 timeout=300, check=False)
+        found = json.loads(checked.stdout)
+        self.assertEqual((found['errors'], found['colliding']), ([], 0))
+        ours = result['trajectory_optimization']['tpcap_cost']
+        self.assertEqual(ours['gear_changes'], found['gear_changes'])
+        for member, other in (('J', 'J'), ('time_s', 'duration'), ('control_effort', 'control_effort'),
+                              ('steering_integral', 'steering_integral')):
+            self.assertAlmostEqual(ours[member] / found[other], 1.0, delta=0.005, msg=member)
 
     @unittest.skipUnless(os.path.exists(POSES), 'no problems on maps: ' + POSES)
     def test_maps(self):

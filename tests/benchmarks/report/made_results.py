@@ -43,6 +43,10 @@ def write(folder, records, header=None, name='runs.jsonl'):
             stream.write(json.dumps(line) + '\n')
 
 
+with open(os.path.join(REPORT, 'columns.json'), encoding='utf-8') as _columns:
+    FURTHER = [column['name'] for column in json.load(_columns) if column['folded']]
+
+
 def random_records(problems, planners, runs, seed=1):
     """Runs of all kinds."""
     rng = random.Random(seed)
@@ -54,8 +58,9 @@ def random_records(problems, planners, runs, seed=1):
                 time = 10.0 ** rng.uniform(-3, 0.2)
                 length = rng.uniform(10, 30)
                 better = [[time, 1.3 * length], [min(1.9, 1.5 * time), length]]
+                more = {} if outcome == 'none' else {name: rng.uniform(0.0, 10.0) for name in FURTHER}
                 made.append(record(f'problem_{problem}', f'planner_{planner}', run, outcome, time, length,
-                                   better if outcome in ('solved', 'invalid') else []))
+                                   better if outcome in ('solved', 'invalid') else [], **more))
     return made
 
 

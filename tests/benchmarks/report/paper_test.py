@@ -19,7 +19,7 @@ sys.path[:0] = [os.path.join(PAPER, 'page'), REPORT]
 import factorial  # noqa: E402
 import ratios  # noqa: E402
 from design import ALGORITHMS, FACTORS, KEYS, SCENARIOS, VARIANTS, studies  # noqa: E402
-from paired import Comparison, compare, holm, sign_test, verdict, way_of  # noqa: E402
+from paired import Comparison, chance_of_signs, compare, correct, verdict, way_of  # noqa: E402
 from published import ABLATION, HEADLINES, PARALLEL, VERTICAL, ratio_rows  # noqa: E402
 from reach import nearest_reachable  # noqa: E402
 
@@ -33,11 +33,13 @@ def compared(ratio, spread=0.0, count=MAPS):
 
 
 class Rules(unittest.TestCase):
-    def test_sign_test_and_holm(self):
-        self.assertAlmostEqual(sign_test([1.0] * 5), 2.0 / 32.0)
-        self.assertAlmostEqual(sign_test([1.0, 1.0, -1.0, 0.0]), 1.0)  # 3 of 3 would be 0.25, 2 of 3 says nothing
-        self.assertEqual(sign_test([]), 1.0)
-        self.assertEqual([round(each, 9) for each in holm([0.01, 0.04, 0.03])], [0.03, 0.06, 0.06])
+    def test_signs_and_correction(self):
+        self.assertAlmostEqual(chance_of_signs([1.0] * 5), 2.0 / 32.0)
+        self.assertAlmostEqual(chance_of_signs([1.0, 1.0, -1.0, 0.0]), 1.0)  # 3 of 3 would be 0.25, 2 of 3 says nothing
+        self.assertEqual(chance_of_signs([]), 1.0)
+        several = [Comparison([], chance=chance) for chance in (0.01, 0.04, 0.03)]
+        correct(several)
+        self.assertEqual([round(each.chance, 9) for each in several], [0.03, 0.06, 0.06])
 
     def test_ways(self):
         self.assertEqual([way_of(ratio) for ratio in (1.2, 1.04, 0.97, 0.8)], ['more', 'same', 'same', 'less'])

@@ -107,11 +107,16 @@ class FiguresTest(Folder):
         made_results.write(self.folder, runs)
         _, page = self.page()
         for number in range(3):
-            for row in page.tables[number - 3][1:]:
+            further = {row[0]: row for row in page.tables[2 * number - 5][1:]}
+            for row in page.tables[2 * number - 6][1:]:
                 planner = row[0].split(' ')[0]
                 own = [each for each in runs if each['experiment'] == f'problem_{number}' and each['planner'] == planner]
                 good = [each for each in own if each['figures']['success']]
                 self.assertEqual(row[1], f'{len(good)}/23')
+                self.assertEqual(len(further[planner]), 1 + len(made_results.FURTHER))
+                curvature = statistics.median(each['figures']['normalized curvature'] for each in good)
+                self.assertAlmostEqual(float(further[planner][1 + made_results.FURTHER.index('normalized curvature')]
+                                             .split(' ')[0]), curvature, delta=0.006 * curvature)
                 times = [each['figures']['first solution time'] for each in good]
                 middle = statistics.median(times + [math.inf] * (23 - len(times)))
                 shown = row[2].split(' ')[0]
