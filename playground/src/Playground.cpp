@@ -5,7 +5,6 @@
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/MakeScenario.h"
-#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 #include "playground/src/Describe.h"
 
@@ -18,7 +17,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace
@@ -266,52 +264,11 @@ namespace
 
     void setParameter(const std::string &name, const std::string &value)
     {
-        PlannerParameters changed = session().parameters;
+        PlannerParameters &parameters = session().parameters;
         if (name == "parameter_set")
-        {
-            session().parameters = parameterSet(value, changed);
-            return;
-        }
-        const auto &table = parameterTable();
-        const auto row =
-            std::find_if(table.begin(), table.end(), [&](const Parameter &each) { return each.name == name; });
-        if (row == table.end())
-        {
-            std::vector<std::string> names;
-            for (const Parameter &each : table)
-                names.push_back(each.name);
-            throw Error(unknownName("parameter", name, names));
-        }
-        std::visit(
-            [&](auto member)
-            {
-                using Value = std::decay_t<decltype(changed.*member)>;
-                double number = 0.0;
-                const auto wrong = [&]
-                {
-                    return Error(name + " must be " + row->allowed() + ", not " + inQuotes(value));
-                };
-                if constexpr (std::is_same_v<Value, std::string>)
-                    changed.*member = value;
-                else if constexpr (std::is_same_v<Value, bool>)
-                {
-                    if (value != "true" && value != "false")
-                        throw wrong();
-                    changed.*member = value == "true";
-                }
-                else
-                {
-                    if (!parseNumber(value, number))
-                        throw wrong();
-                    if (std::is_same_v<Value, unsigned int> &&
-                        (number < 0.0 || number > 4e9 || number != std::floor(number)))
-                        throw wrong();
-                    changed.*member = static_cast<Value>(number);
-                }
-            },
-            row->member);
-        row->check(changed);
-        session().parameters = changed;
+            parameters = parameterSet(value, parameters);
+        else
+            parameterNamed(name).setText(parameters, value);
     }
 }  // namespace
 

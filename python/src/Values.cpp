@@ -1,14 +1,12 @@
 #include "python/src/Values.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 namespace parking::python
@@ -231,35 +229,13 @@ namespace parking::python
         for (const auto &[key, value] : values)
         {
             const auto name = py::cast<std::string>(key);
-            const auto &table = parameterTable();
-            const auto row =
-                std::find_if(table.begin(), table.end(), [&](const Parameter &each) { return each.name == name; });
-            if (row == table.end())
-            {
-                std::vector<std::string> names;
-                for (const Parameter &each : table)
-                    names.push_back(each.name);
-                throw Error(unknownName("parameter", name, names));
-            }
-            std::visit(
-                [&, &given = value](auto member)
-                {
-                    using Value = std::decay_t<decltype(parameters.*member)>;
-                    if constexpr (std::is_same_v<Value, bool>)
-                        parameters.*member = flagFrom(given, name);
-                    else if constexpr (std::is_same_v<Value, std::string>)
-                        parameters.*member = textFrom(given, name);
-                    else if constexpr (std::is_same_v<Value, double>)
-                        parameters.*member = numberFrom(given, name);
-                    else
-                    {
-                        const double number = numberFrom(given, name);
-                        if (number != std::floor(number) || number < 0.0 || number > 4e9)
-                            throw Error(name + " must be " + row->allowed() + ", not " + formatNumber(number));
-                        parameters.*member = static_cast<unsigned int>(number);
-                    }
-                },
-                row->member);
+            const Parameter &row = parameterNamed(name);
+            if (const auto *flag = std::get_if<bool PlannerParameters::*>(&row.member))
+                parameters.*(*flag) = flagFrom(value, name);
+            else if (const auto *text = std::get_if<std::string PlannerParameters::*>(&row.member))
+                parameters.*(*text) = textFrom(value, name);
+            else
+                row.setNumber(parameters, numberFrom(value, name));
         }
         checkParameters(parameters);
         return parameters;

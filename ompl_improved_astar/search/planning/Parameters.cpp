@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace parking
 {
@@ -293,6 +295,51 @@ namespace parking
             }
         };
         std::visit([&](const auto at) { checkValue(parameters.*at); }, member);
+    }
+
+    void Parameter::setNumber(PlannerParameters &parameters, double value) const
+    {
+        if (const auto *number = std::get_if<double P::*>(&member))
+            parameters.*(*number) = value;
+        else
+        {
+            constexpr double MOST = std::numeric_limits<unsigned int>::max();
+            if (!(value >= 0.0 && value <= MOST) || value != std::floor(value))
+                throw Error(name + " must be " + allowed() + ", not " + formatNumber(value));
+            parameters.*std::get<unsigned int P::*>(member) = static_cast<unsigned int>(value);
+        }
+    }
+
+    void Parameter::setText(PlannerParameters &parameters, const std::string &text) const
+    {
+        PlannerParameters changed = parameters;
+        double number = 0.0;
+        const bool isSwitch = std::holds_alternative<bool P::*>(member);
+        if (const auto *at = std::get_if<std::string P::*>(&member))
+            changed.*(*at) = text;
+        else if (isSwitch && (text == "true" || text == "false"))
+            changed.*std::get<bool P::*>(member) = text == "true";
+        else if (!isSwitch && parseNumber(text, number))
+            setNumber(changed, number);
+        else
+            throw Error(name + " must be " + allowed() + ", not " + inQuotes(text));
+        check(changed);
+        parameters = std::move(changed);
+    }
+
+    const Parameter &parameterNamed(const std::string &name)
+    {
+        const auto &table = parameterTable();
+        const auto row =
+            std::find_if(table.begin(), table.end(), [&](const Parameter &each) { return each.name == name; });
+        if (row == table.end())
+        {
+            Names names;
+            for (const Parameter &each : table)
+                names.push_back(each.name);
+            throw Error(unknownName("parameter", name, names));
+        }
+        return *row;
     }
 
     void checkParameters(const PlannerParameters &parameters)

@@ -85,10 +85,23 @@ namespace parking
         /** \brief Throws parking::Error, naming the parameter, its value and what is right, when the value that it has
             in \e parameters is not allowed. */
         void check(const PlannerParameters &parameters) const;
+
+        /** \brief Gives it, in \e parameters, the value that is written in \e text: true or false, a number, a name.
+
+            Throws parking::Error as check() does when the text means none, or one that is not allowed; \e parameters
+            are then as before. `parameter_set` gets its name only, see parameterSet(). */
+        void setText(PlannerParameters &parameters, const std::string &text) const;
+
+        /** \brief Gives a number its value, unchecked but for what its type cannot hold: throws parking::Error for a
+            count that is not whole, as check() does. Not for switches and names. */
+        void setNumber(PlannerParameters &parameters, double value) const;
     };
 
     /** \brief Every parameter, in the order in which the README lists them. */
     const std::vector<Parameter> &parameterTable();
+
+    /** \brief The row of this name; throws parking::Error naming the nearest one otherwise. */
+    const Parameter &parameterNamed(const std::string &name);
 
     /** \brief Throws parking::Error for the first parameter whose value is not allowed, see Parameter::check(). */
     void checkParameters(const PlannerParameters &parameters);

@@ -176,6 +176,65 @@ TEST(Parameters, NamesAreTakenFromTheListAndTheNearestIsProposed)
         });
 }
 
+TEST(Parameters, AreReadFromTextAndRefusedTextChangesNothing)
+{
+    for (const Parameter &row : parameterTable())
+    {
+        const std::string right = std::holds_alternative<bool PlannerParameters::*>(row.member) ? "true"
+                                  : row.values.names != nullptr ? row.values.names().back()
+                                                                : formatNumber(row.values.most);
+        PlannerParameters parameters;
+        row.setText(parameters, right);
+        std::visit(
+            [&](const auto member)
+            {
+                using Value = std::decay_t<decltype(parameters.*member)>;
+                if constexpr (std::is_same_v<Value, std::string>)
+                    EXPECT_EQ(parameters.*member, right) << row.name;
+                else if constexpr (std::is_same_v<Value, bool>)
+                    EXPECT_TRUE(parameters.*member) << row.name;
+                else
+                    EXPECT_EQ(static_cast<double>(parameters.*member), row.values.most) << row.name;
+            },
+            row.member);
+        const PlannerParameters before = parameters;
+        for (const char *wrong : {"", "much", "1e300", "-1", "7.5x", "True"})
+            try
+            {
+                row.setText(parameters, wrong);
+                ADD_FAILURE() << row.name << " = '" << wrong << "' was taken";
+            }
+            catch (const Error &error)
+            {
+                const std::string text = error.what();
+                EXPECT_NE(text.find(row.name), std::string::npos) << text;
+                EXPECT_NE(text.find(row.allowed()), std::string::npos) << text;
+                EXPECT_TRUE(parameters == before) << text;
+            }
+        EXPECT_EQ(&parameterNamed(row.name), &row);
+    }
+}
+
+TEST(Parameters, CountsAreWholeAndUnknownNamesAreAnsweredWithTheNearest)
+{
+    PlannerParameters parameters;
+    const Parameter &row = parameterNamed("heading_bins");
+    row.setNumber(parameters, 36.0);
+    EXPECT_EQ(parameters.headingBins, 36u);
+    for (const double wrong : {7.5, -1.0, 1e12, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(row.setNumber(parameters, wrong), Error) << wrong;
+    EXPECT_EQ(parameters.headingBins, 36u);
+    try
+    {
+        parameterNamed("heading_bin");
+        ADD_FAILURE() << "was taken";
+    }
+    catch (const Error &error)
+    {
+        EXPECT_NE(std::string(error.what()).find("did you mean 'heading_bins'"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Parameters, TheWeightsAreThoseOfTheHeuristic)
 {
     PlannerParameters parameters;
