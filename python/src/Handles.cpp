@@ -1,6 +1,7 @@
 #include "python/src/Handles.h"
 
 #include "parking_geometry/Error.h"
+#include "python/src/Background.h"
 
 #include <chrono>
 
@@ -10,19 +11,47 @@ namespace parking::python
     {
         constexpr double SAMPLING = 0.1;          // metres between the states of a path
         constexpr double TRAJECTORY_STEP = 0.05;  // seconds between the points of a trajectory
-    }                                             // namespace
 
-    const ScenarioPlanner &ScenarioHandle::planner() const
+        double now()
+        {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+        }
+    }  // namespace
+
+    ScenarioHandle::Loaded::Loaded(const Scenario &scenario) : begin(now()), planner(scenario), seconds(now() - begin)
     {
-        std::call_once(once_,
-                       [this]
-                       {
-                           const auto begin = std::chrono::steady_clock::now();
-                           planner_ = std::make_unique<const ScenarioPlanner>(scenario_);
-                           loadingTime_ =
-                               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-                       });
-        return *planner_;
+    }
+
+    const ScenarioPlanner *ScenarioHandle::planner(const std::function<bool()> &interrupted) const
+    {
+        std::shared_future<LoadedPointer> loaded;
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (!loaded_.valid())
+                loaded_ = resultInBackground<LoadedPointer>([scenario = scenario_]
+                                                            { return std::make_shared<const Loaded>(*scenario); });
+            loaded = loaded_;
+        }
+        if (!await(loaded, interrupted))
+            return nullptr;
+        try
+        {
+            return &loaded.get()->planner;
+        }
+        catch (...)
+        {
+            // There may be enough memory the next time.
+            const std::lock_guard<std::mutex> lock(mutex_);
+            loaded_ = {};
+            throw;
+        }
+    }
+
+    double ScenarioHandle::loadingTime() const
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const bool known = loaded_.valid() && loaded_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        return known ? loaded_.get()->seconds : 0.0;
     }
 
     const std::vector<double> &PathHandle::rows() const

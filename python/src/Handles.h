@@ -6,7 +6,8 @@
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/trajectory/Trajectory.h"
 
-#include <map>
+#include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,28 +23,40 @@ namespace parking::python
     class ScenarioHandle
     {
     public:
-        explicit ScenarioHandle(Scenario scenario) : scenario_(std::move(scenario))
+        explicit ScenarioHandle(Scenario scenario) : scenario_(std::make_shared<const Scenario>(std::move(scenario)))
         {
         }
 
         const Scenario &scenario() const
         {
-            return scenario_;
+            return *scenario_;
         }
 
-        const ScenarioPlanner &planner() const;
+        /** \brief The planner; null when \e interrupted, asked every 2 ms while it is made, says so. */
+        const ScenarioPlanner *planner(const std::function<bool()> &interrupted) const;
+
+        const ScenarioPlanner &planner() const
+        {
+            return *planner({});
+        }
 
         /** \brief Seconds that making the planner took; 0 before. */
-        double loadingTime() const
-        {
-            return loadingTime_;
-        }
+        double loadingTime() const;
 
     private:
-        Scenario scenario_;
-        mutable std::once_flag once_;
-        mutable std::unique_ptr<const ScenarioPlanner> planner_;
-        mutable double loadingTime_{0.0};
+        struct Loaded
+        {
+            explicit Loaded(const Scenario &scenario);
+
+            double begin;
+            ScenarioPlanner planner;
+            double seconds;
+        };
+        using LoadedPointer = std::shared_ptr<const Loaded>;
+
+        std::shared_ptr<const Scenario> scenario_;
+        mutable std::mutex mutex_;
+        mutable std::shared_future<LoadedPointer> loaded_;
     };
 
     using ScenarioPointer = std::shared_ptr<const ScenarioHandle>;

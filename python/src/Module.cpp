@@ -1,5 +1,6 @@
 // The extension module improved_astar._core.
 #include "parking_geometry/Error.h"
+#include "python/src/Background.h"
 #include "python/src/Bindings.h"
 
 #include <pybind11/pybind11.h>
@@ -22,4 +23,8 @@ PYBIND11_MODULE(_core, module)
     parking::python::addPlans(module);
     parking::python::addParking(module);
     parking::python::addReferee(module);
+    // At once: within the first plan it would take its time, and be left half read by Ctrl-C.
+    py::module_::import("numpy");
+    py::module_::import("atexit").attr("register")(
+        py::cpp_function(&parking::python::finishBackgroundWork, py::call_guard<py::gil_scoped_release>()));
 }

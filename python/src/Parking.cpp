@@ -2,6 +2,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
+#include "python/src/Background.h"
 #include "python/src/Bindings.h"
 #include "python/src/Handles.h"
 #include "python/src/Signals.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 
 namespace parking::python
@@ -76,16 +78,25 @@ namespace parking::python
         {
             const ScenarioPointer scenario = scenarioFrom(problem, "scenario");
             PlanningParameters parameters = self.parameters();
-            Signals signals;
-            parameters.interrupted = [&signals]
+            // Reading a large map for each gap cannot be interrupted: who waits goes away from it.
+            const auto stop = std::make_shared<std::atomic<bool>>(false);
+            parameters.interrupted = [stop]
             {
-                return signals.arrived();
+                return stop->load(std::memory_order_relaxed);
             };
-            std::shared_ptr<const ParkingHandle> result;
+            using Found = std::shared_ptr<const ParkingHandle>;
+            Found result;
+            Signals signals;
             {
                 const py::gil_scoped_release release;
-                result = std::make_shared<const ParkingHandle>(scenario,
-                                                               ParkingPlanner(parameters).plan(scenario->scenario()));
+                const auto found = resultInBackground<Found>(
+                    [scenario, parameters] {
+                        return std::make_shared<const ParkingHandle>(
+                            scenario, ParkingPlanner(parameters).plan(scenario->scenario()));
+                    });
+                *stop = !await(found, [&signals] { return signals.ask(); });
+                if (!*stop)
+                    result = found.get();
             }
             signals.raise();
             return result;

@@ -58,8 +58,9 @@ namespace parking::python
             PlanPointer result;
             {
                 const py::gil_scoped_release release;
-                result = std::make_shared<const PlanHandle>(
-                    scenario, scenario->planner().plan(question.parameters, question.limits), question.parameters);
+                if (const ScenarioPlanner *planner = scenario->planner(question.limits.interrupted))
+                    result = std::make_shared<const PlanHandle>(
+                        scenario, planner->plan(question.parameters, question.limits), question.parameters);
             }
             signals.raise();
             return result;
@@ -117,9 +118,10 @@ namespace parking::python
                 for (std::size_t i = next_++; i < scenarios_.size() && !stop_; i = next_++)
                     try
                     {
-                        results_[i] = std::make_shared<const PlanHandle>(
-                            scenarios_[i], scenarios_[i]->planner().plan(question_.parameters, question_.limits),
-                            question_.parameters);
+                        if (const ScenarioPlanner *planner = scenarios_[i]->planner(question_.limits.interrupted))
+                            results_[i] = std::make_shared<const PlanHandle>(
+                                scenarios_[i], planner->plan(question_.parameters, question_.limits),
+                                question_.parameters);
                     }
                     catch (const std::exception &error)
                     {

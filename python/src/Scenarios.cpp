@@ -5,6 +5,7 @@
 #include "parking_geometry/text/NearestName.h"
 #include "python/src/Bindings.h"
 #include "python/src/Handles.h"
+#include "python/src/Signals.h"
 #include "python/src/Values.h"
 
 #include <pybind11/stl.h>
@@ -167,10 +168,24 @@ namespace parking::python
             Result *to = answers.mutable_data();
             const auto count = static_cast<std::size_t>(rows.shape(0));
             const Eigen::Vector2d offset = self.scenario().worldOffset;
-            const py::gil_scoped_release release;
-            const FootprintChecker &checker = self.planner().footprint();
-            for (std::size_t i = 0; i < count; ++i)
-                to[i] = ask(checker, Pose{data[3 * i] - offset.x(), data[3 * i + 1] - offset.y(), data[3 * i + 2]});
+            Signals signals;
+            {
+                const auto interrupted = [&signals]
+                {
+                    return signals.arrived();
+                };
+                const py::gil_scoped_release release;
+                const ScenarioPlanner *planner = self.planner(interrupted);
+                constexpr std::size_t AT_ONCE = 1024;  // between two looks at the clock
+                for (std::size_t i = 0; planner != nullptr && i < count; ++i)
+                {
+                    if (i % AT_ONCE == 0 && interrupted())
+                        break;
+                    to[i] = ask(planner->footprint(),
+                                Pose{data[3 * i] - offset.x(), data[3 * i + 1] - offset.y(), data[3 * i + 2]});
+                }
+            }
+            signals.raise();
             return answers;
         }
 

@@ -203,35 +203,55 @@ def test_other_threads_run_while_one_plans():
     assert most > 5
 
 
-@pytest.mark.parametrize('call', ['plan', 'plan_batch', 'ParkingPlanner'])
-def test_ctrl_c_ends_planning(call):
+@pytest.mark.parametrize('call', ['plan', 'plan_batch', 'ParkingPlanner', 'trajectory', 'is_free', 'reading a large map'])
+def test_ctrl_c_ends_it_within_10_ms(call):
     program = '''if True:
         import os, signal, sys, threading, time
+        import numpy
         import improved_astar as ia
-        problem = ia.Scenario.read(sys.argv[1])
-        sent = []
+        call, problem = sys.argv[2], ia.Scenario.read(sys.argv[1])
+        cells, poses = numpy.zeros((2500, 2500), dtype=numpy.uint8), numpy.tile(problem.start, (20000000, 1))
+        cells[::100, ::100] = 1
+
+        def work():
+            if call == 'plan':
+                ia.plan(problem, time_limit=60, anytime=True)
+            elif call == 'plan_batch':
+                ia.plan_batch([problem] * 8, time_limit=60, anytime=True, threads=2)
+            elif call == 'trajectory':
+                ia.plan(problem).trajectory
+            elif call == 'is_free':
+                problem.is_free(poses)
+            elif call == 'reading a large map':
+                ia.plan(ia.Scenario.from_grid(cells, (10, 10, 0), (240, 240, 0), resolution=0.1))
+            else:
+                ia.ParkingPlanner(time_limit=60, tight=True).plan(problem)
+
         def send():
-            time.sleep(0.2)
+            time.sleep(0.03)
             sent.append(time.perf_counter())
             os.kill(os.getpid(), signal.SIGINT)
         ia.plan(problem)
-        threading.Thread(target=send).start()
-        try:
-            if sys.argv[2] == 'plan':
-                ia.plan(problem, time_limit=60, anytime=True)
-            elif sys.argv[2] == 'plan_batch':
-                ia.plan_batch([problem] * 8, time_limit=60, anytime=True, threads=2)
-            else:
+        least = 1e9
+        # A shared machine lets the process wait now and then; one that never asks for signals is late every time.
+        for _ in range(40):
+            sent = []
+            other = threading.Thread(target=send)
+            try:
+                other.start()
                 while True:
-                    ia.ParkingPlanner(time_limit=60, tight=True).plan(problem)
-        except KeyboardInterrupt:
-            print(time.perf_counter() - sent[0])
+                    work()
+            except KeyboardInterrupt:
+                least = min(least, time.perf_counter() - sent[0])
+            other.join()
+            if least < 0.01:
+                break
+        print(least)
     '''
     done = subprocess.run([sys.executable, '-c', program, os.path.join(SCENARIOS, 'narrow_parallel.yaml'), call],
-                          capture_output=True, text=True, check=False, timeout=50)
+                          capture_output=True, text=True, check=False, timeout=200)
     assert done.returncode == 0, done.stderr
-    # A machine at its limit may let the process wait; the 10 ms that are meant stand in docs/python.md.
-    assert float(done.stdout) < 1.0
+    assert float(done.stdout) < 0.01
 
 
 def test_python_adds_little():
