@@ -1,5 +1,5 @@
 # Debian packages, made by cpack -G DEB (scripts/package does it all): the libraries, what compiling against them takes, the
-# programs, and the documentation. Nothing of this is needed to build or to install.
+# programs, the Python module, and the documentation. Nothing of this is needed to build or to install.
 if(NOT BUILD_SHARED_LIBS)
   message(FATAL_ERROR "PARKING_PACKAGES makes packages of shared libraries: set BUILD_SHARED_LIBS to ON")
 endif()
@@ -8,6 +8,9 @@ set(parking_runtime_package libompl-improved-astar${PARKING_SOVERSION})
 set(CPACK_COMPONENTS_ALL libraries development documentation)
 if(TARGET parking_plan)
   list(APPEND CPACK_COMPONENTS_ALL programs)
+endif()
+if(TARGET improved_astar_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 
 set(CPACK_GENERATOR DEB)
@@ -59,6 +62,31 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME ${parking_source})
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS python3)
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Programs: parking_plan plans a parking problem, optimises and drives the
 path; parking_benchmark compares planners on many problems.")
+
+# The module is for one version of Python, as Debian's are. What Python compiles there when the package is installed, it takes
+# away when the package is removed.
+set(CPACK_COMPONENT_PYTHON_DEPENDS libraries)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-improved-astar)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${PARKING_PYTHON_DEPENDS}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS ${parking_source}-doc)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module improved_astar: plans from scenario files, polygons and NumPy
+arrays, optimises the drive, checks paths and draws them. It needs neither OMPL
+nor FCL in its process.")
+file(CONFIGURE OUTPUT ${made}/postinst @ONLY CONTENT "#!/bin/sh
+set -e
+if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then
+    py3compile -p python3-improved-astar
+fi
+")
+file(CONFIGURE OUTPUT ${made}/prerm @ONLY CONTENT "#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then
+    py3clean -p python3-improved-astar
+fi
+")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${made}/postinst ${made}/prerm)
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME ${parking_source}-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
@@ -115,6 +143,9 @@ foreach(program IN ITEMS parking_plan parking_benchmark)
 endforeach()
 # What scripts/package builds: no micro-benchmarks.
 add_custom_target(packaged DEPENDS ${parking_man_pages} ${parking_all_libraries})
+if(TARGET improved_astar_python)
+  add_dependencies(packaged improved_astar_python)
+endif()
 if(parking_man_pages)
   install(FILES ${parking_man_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
 endif()

@@ -35,9 +35,9 @@ shellcheck                   | test  | checks the shell scripts
 doxygen                      | test docs | builds the reference, which must not make it warn
 dpkg-dev                     | test package | finds out what packages a library needs
 file                         | test package | tells programs from other files
-python3-dev                  | test  | the Python module
-pybind11-dev                 | test  | pybind11: the Python module
-python3-numpy                | test  | arrays of the Python module
+python3-dev                  | test package | the Python module
+pybind11-dev                 | test package | pybind11: the Python module
+python3-numpy                | test package | arrays of the Python module
 python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module

@@ -30,6 +30,16 @@ for program in parking_plan parking_benchmark; do
     man --pager=cat --warnings "$program" 2>man-warnings >page
     [[ ! -s man-warnings ]] && grep -q -- '--help' page
 done
+say "The Python module"
+python3 - /usr/share/ompl_improved_astar/scenarios/narrow_parallel.yaml <<'PYTHON'
+import sys
+import improved_astar as ia
+result = ia.plan(ia.Scenario.read(sys.argv[1]))
+assert result and ia.check(result.scenario, result), result
+assert ia.__file__.startswith('/usr/lib/python3/dist-packages/'), ia.__file__
+loaded = open('/proc/self/maps', encoding='utf-8').read()
+assert not any(name in loaded for name in ('libompl.so', 'libfcl', 'libceres')), 'more than the core is loaded'
+PYTHON
 say "Other people's projects"
 consumers=$project_root/tests/package
 cmake -S "$consumers/consumer" -B consumer -DPROJECT_FOLDER="$project_root" -DLIBRARIES="" >/dev/null
@@ -45,7 +55,7 @@ g++ -std=c++17 "$project_root/examples/readme_example.cpp" -o by_pkg_config \
 ./by_pkg_config >/dev/null
 say "Removing them"
 apt-get --quiet --quiet purge --yes ompl-improved-astar ompl-improved-astar-doc libompl-improved-astar-dev \
-    'libompl-improved-astar0*' >/dev/null
+    python3-improved-astar 'libompl-improved-astar0*' >/dev/null
 cd /
 after=$(traces)
 if [[ $after != "$before" ]]; then
