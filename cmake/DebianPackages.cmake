@@ -130,7 +130,7 @@ if(PARKING_REFERENCE)
 endif()
 
 # The manual pages say what the programs say of themselves.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
+parking_require(python3 Python3 COMPONENTS Interpreter)
 foreach(program IN ITEMS parking_plan parking_benchmark)
   if(TARGET ${program})
     add_custom_command(OUTPUT ${made}/${program}.1.gz

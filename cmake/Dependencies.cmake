@@ -39,6 +39,9 @@ endif()
 
 # What the public headers include. No version of OMPL is asked for: its configuration refuses other major versions.
 parking_find(libompl-dev ompl)
+if(ompl_VERSION AND ompl_VERSION VERSION_LESS 1.5 AND NOT PARKING_PACKAGE_CONFIG)
+  message(FATAL_ERROR "OMPL 1.5 or later is needed, ${ompl_VERSION} was found: install a newer libompl-dev")
+endif()
 parking_find(libfcl-dev fcl)
 
 # What only the sources need: of interest to consumers of static libraries, which link it, but not of shared ones.
