@@ -19,8 +19,8 @@ namespace parking
     /** \brief Everything that parking may be tuned with. */
     struct ParkingParameters
     {
-        PlanningParameters planning;
-        ClosedLoopParameters drive;
+        PlanningParameters planning;  ///< of every plan, the first one and those made anew
+        ClosedLoopParameters drive;   ///< of the controller and of the simulated car
 
         /** Drive the fastest trajectory near the path, the wheels turning while the car rolls; otherwise the path
            itself with standstills wherever its curvature jumps. */
@@ -54,7 +54,7 @@ namespace parking
     {
         std::string reason;  ///< why it was planned: "first plan", "the map has changed", ...
         double begin{0.0};   ///< seconds since the first command
-        ParkingPlan plan;
+        ParkingPlan plan;    ///< its path has no pieces where the car stands at the goal already
         /** What is driven; absent when the path itself is. */
         std::optional<QuickestTrajectory> trajectory;
         double optimizationTime{0.0};  ///< seconds
@@ -64,14 +64,15 @@ namespace parking
     /** \brief What came of parking; every stage's output is kept. */
     struct ParkingResult
     {
-        ParkingStatus status{ParkingStatus::NoPath};
-        std::string message;           ///< one line
-        std::vector<ParkingLeg> legs;  ///< a plan each; more than one after replanning
+        ParkingStatus status{ParkingStatus::NoPath};  ///< how it ended
+        std::string message;                          ///< one line
+        std::vector<ParkingLeg> legs;                 ///< a plan each; more than one after replanning
         /** Of all drives, time running on; the car plans in no time. Of a car that stays: its pose, twice. */
         Trajectory trajectory;
         Evaluation evaluation;     ///< of all drives together, final errors against the goal
         double planningTime{0.0};  ///< seconds, all plans and trajectories
 
+        /** \brief Does the car stand at its goal? */
         bool parked() const
         {
             return status == ParkingStatus::Parked;
@@ -100,11 +101,13 @@ namespace parking
         /** \brief Throws parking::Error for parameters out of their range. */
         explicit AutomaticParking(const ParkingParameters &parameters = {});
 
+        /** \brief The parameters as given. */
         const ParkingParameters &parameters() const
         {
             return parameters_;
         }
 
+        /** \brief Whom to ask for a changed world; empty: the world stays as it is. */
         void setMapUpdate(MapUpdate update);
 
         /** \brief Replaces the optimiser of the controller (see TrackingController). */

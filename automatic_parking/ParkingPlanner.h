@@ -17,7 +17,7 @@ namespace parking
     /** \brief What planning came to, stage by stage. */
     struct ParkingPlan
     {
-        bool found{false};
+        bool found{false};                             ///< is there a path, or does the car stand at a goal?
         ParkingStatus failure{ParkingStatus::NoPath};  ///< why not, when nothing was found
         std::string message;                           ///< one line: what was planned, or why nothing was
 
@@ -59,6 +59,7 @@ namespace parking
             \param contact of the worlds that plan() makes, see ParkingWorld */
         explicit ParkingPlanner(const PlanningParameters &parameters = {}, ContactTestMaker contact = {});
 
+        /** \brief The parameters as given. */
         const PlanningParameters &parameters() const
         {
             return parameters_;

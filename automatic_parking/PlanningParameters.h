@@ -90,14 +90,14 @@ namespace parking
         double steeringChangePenalty{0.1};  ///< metres that turning the wheels to full lock may save
         double clearanceWeight{1.0};        ///< extra cost per metre in touch with an obstacle, none at 1 m
 
-        WayIn wayIn{WayIn::OneSweep};
+        WayIn wayIn{WayIn::OneSweep};  ///< into slots; without a slot everything is searched
         /** Of the manoeuvre in one sweep. Its clearance is not looked at: \e gaps say it. */
         ReverseParkingOptions sweep;
 
-        bool smooth{true};  ///< make the curvature continuous
-        SmoothingOptions smoothing;
+        bool smooth{true};           ///< make the curvature continuous
+        SmoothingOptions smoothing;  ///< of the path's curvature, where \e smooth is set
 
-        PlanningTuning tuning;
+        PlanningTuning tuning;  ///< constants that seldom need another value
 
         /** \brief For slots that leave centimetres, in a world that is as it is drawn: ways in several stretches, gaps
             of 5, 2 and 1 cm, few stretches before all else, and no clock.

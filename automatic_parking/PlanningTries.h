@@ -36,14 +36,17 @@ namespace parking::planning
     /** \brief What a rung has led to: a way from start to goal, or, where only the way in was asked for, that. */
     struct Candidate
     {
-        ReverseParkingResult manoeuvre;
-        Path approach, arcs;
-        Pose goal;
+        ReverseParkingResult manoeuvre;  ///< the way into the slot; no pieces where there is none
+        Path approach,                   ///< from the start to where the manoeuvre begins, or all the way
+            arcs;                        ///< both, from start to goal
+        Pose goal;                       ///< the pose that the way ends at
+        /** Metres, 0 for a way in alone; infinite when nothing was found. */
         double cost{std::numeric_limits<double>::infinity()};
-        std::size_t stretches{0};  ///< at the slot
-        Rung rung{};
+        std::size_t stretches{0};                         ///< at the slot
+        Rung rung{};                                      ///< what it was found with
         std::shared_ptr<const FootprintChecker> checker;  ///< within whose margin it may be smoothed
 
+        /** \brief Has a way been found? */
         bool found() const
         {
             return cost < std::numeric_limits<double>::infinity();
@@ -54,6 +57,7 @@ namespace parking::planning
     class Stopwatch
     {
     public:
+        /** \brief Seconds since it was made. */
         double seconds() const
         {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
@@ -77,6 +81,7 @@ namespace parking::planning
             \param last there is no other: the search all the way is granted all of the time */
         Candidate find(Rung rung, bool last);
 
+        /** \brief Is the time up, or has somebody interrupted? */
         bool isOver() const
         {
             return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
@@ -88,6 +93,7 @@ namespace parking::planning
             return isInterrupted() || watch_.seconds() > parameters_.tuning.shareForTries * parameters_.timeLimit;
         }
 
+        /** \brief Seconds since the tries began. */
         double seconds() const
         {
             return watch_.seconds();
@@ -99,6 +105,7 @@ namespace parking::planning
             return verdict_;
         }
 
+        /** \brief Seconds, of distance fields and the like. */
         double loadingTime() const
         {
             return loadingTime_;
@@ -110,6 +117,7 @@ namespace parking::planning
             return count_;
         }
 
+        /** \brief What all searches together took. */
         const search::SearchStatistics &statistics() const
         {
             return statistics_;

@@ -14,7 +14,7 @@ namespace parking
     /** \brief How quickestTrajectory() goes about it. */
     struct QuickestTrajectoryOptions
     {
-        TrajectoryOptions trajectory;
+        TrajectoryOptions trajectory;        ///< of the optimiser
         bool alternatives{true};             ///< whether other paths are looked for
         std::vector<Path> others;            ///< known already: other ways between the same poses
         bool forwardOnly{false};             ///< whether those must not drive in reverse
@@ -24,9 +24,9 @@ namespace parking
     /** \brief A trajectory, and the path that it was made from. */
     struct QuickestTrajectory
     {
-        OptimizedTrajectory trajectory;
-        Path path;
-        std::size_t paths{1};  ///< that were optimised
+        OptimizedTrajectory trajectory;  ///< the quickest that was found
+        Path path;                       ///< the given path, or one of the others
+        std::size_t paths{1};            ///< that were optimised
     };
 
     /** \brief Other ways from the start of \e path to its end.

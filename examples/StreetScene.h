@@ -26,6 +26,7 @@ namespace parking_examples
     class StreetScene
     {
     public:
+        /** \brief A world of 40 m round the origin without obstacles; the car shall get from \e start into \e slot. */
         StreetScene(const parking::Vehicle &car, const parking::ParkingSlot &slot, const parking::Pose &start)
         {
             scenario_.vehicle = car;

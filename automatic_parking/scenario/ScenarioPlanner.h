@@ -33,6 +33,7 @@ namespace parking
         double planningTime{0.0};  ///< seconds, without what is in loadingTime
         CheckCounts checks;        ///< which tier decided how many poses; of the rectangle
 
+        /** \brief Is there a path, to a goal or only towards one? */
         bool hasPath() const
         {
             return outcome == search::PlanOutcome::Solved || outcome == search::PlanOutcome::Approximate;
@@ -56,10 +57,13 @@ namespace parking
             Throws what FootprintChecker throws. */
         explicit ScenarioPlanner(Scenario scenario, ContactTestMaker contact = {});
 
+        /** \brief The scenario as given. */
         const Scenario &scenario() const
         {
             return scenario_;
         }
+
+        /** \brief The checker of the car's rectangle, without a margin. */
         const FootprintChecker &footprint() const
         {
             return footprint_;

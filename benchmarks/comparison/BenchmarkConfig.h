@@ -13,50 +13,55 @@ namespace parking
     /** \brief How the scenarios of a comparison are put to its planners: the section [problem] of a .cfg file. */
     struct ProblemOptions
     {
-        std::string name;     ///< instead of the scenario's; with a single scenario only
-        std::string vehicle;  ///< name or file; empty: the scenario's
-        ProblemSettings settings;
-        std::optional<Pose> start, goal;               ///< instead of the scenario's, in the coordinates of its file
-        std::optional<double> minX, minY, maxX, maxY;  ///< of the rear axle, likewise; within the scenario's own bounds
-        std::string sampler;  ///< of valid states: empty, uniform, gaussian, obstacle_based or bridge_test
+        std::string name;            ///< instead of the scenario's; with a single scenario only
+        std::string vehicle;         ///< name or file; empty: the scenario's
+        ProblemSettings settings;    ///< in which terms planners are asked
+        std::optional<Pose> start,   ///< instead of the scenario's, in the coordinates of its file
+            goal;                    ///< likewise; instead of all its goals and its slot
+        std::optional<double> minX,  ///< metres, of the rear axle, likewise; within the scenario's own bounds
+            minY,                    ///< likewise
+            maxX,                    ///< likewise
+            maxY;                    ///< likewise
+        std::string sampler;         ///< of valid states: empty, uniform, gaussian, obstacle_based or bridge_test
 
+        /** \brief Do both put a scenario in the same way? */
         bool operator==(const ProblemOptions &other) const;
     };
 
     /** \brief One planner of a comparison, with its parameters. */
     struct PlannerSpec
     {
-        std::string name;     ///< what results call it; unique
-        std::string planner;  ///< of the registry
-        PlannerSettings settings;
-        ProblemOptions problem;
+        std::string name;               ///< what results call it; unique
+        std::string planner;            ///< of the registry
+        PlannerSettings settings;       ///< set on every instance, after those of the registry
+        ProblemOptions problem;         ///< that of the comparison, with what is set for this planner alone
         std::vector<std::string> only;  ///< patterns of the names of the scenarios that it is run on; empty: all
     };
 
     /** \brief Which paths are written to files of their own. */
     enum class SavePaths
     {
-        None,
+        None,      ///< no path
         Shortest,  ///< of each planner on each problem
-        All
+        All        ///< every path
     };
 
     /** \brief A comparison, as a .cfg file describes it (see docs/comparison.md). */
     struct BenchmarkConfig
     {
-        std::string file;
-        std::vector<std::string> scenarios;  ///< files, in the order given; those of a pattern or folder sorted
-        double timeLimit{5.0};               ///< seconds per run
-        double memoryLimit{4096.0};          ///< MB
-        std::size_t runCount{10};
-        std::string output;  ///< folder; empty: the caller chooses
-        SavePaths savePaths{SavePaths::None};
-        std::uint_fast32_t seed{1};
-        bool processorTime{false};  ///< limit and measure processor time instead of that of the wall clock
-        bool simplify{false};       ///< let OMPL simplify each path, too, and report that beside it
-        bool track{false};          ///< drive each path with the controller
-        bool trajectory{false};     ///< optimise each path in time
-        std::vector<PlannerSpec> planners;
+        std::string file;                      ///< that it was read from
+        std::vector<std::string> scenarios;    ///< files, in the order given; those of a pattern or folder sorted
+        double timeLimit{5.0};                 ///< seconds per run
+        double memoryLimit{4096.0};            ///< MB
+        std::size_t runCount{10};              ///< runs of each planner on each experiment
+        std::string output;                    ///< folder; empty: the caller chooses
+        SavePaths savePaths{SavePaths::None};  ///< which paths are written to files of their own
+        std::uint_fast32_t seed{1};            ///< of the comparison; every run has its own from it, see seedOf()
+        bool processorTime{false};             ///< limit and measure processor time instead of that of the wall clock
+        bool simplify{false};                  ///< let OMPL simplify each path, too, and report that beside it
+        bool track{false};                     ///< drive each path with the controller
+        bool trajectory{false};                ///< optimise each path in time
+        std::vector<PlannerSpec> planners;     ///< in the order of the file
     };
 
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].

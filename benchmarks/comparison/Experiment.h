@@ -12,9 +12,9 @@ namespace parking
     /** \brief One scenario in one setting, and the planners that are compared on it. One OMPL log comes of it. */
     struct Experiment
     {
-        std::string name;  ///< unique; a single word that can be part of a file name
-        std::string scenarioFile;
-        ProblemOptions options;
+        std::string name;                   ///< unique; a single word that can be part of a file name
+        std::string scenarioFile;           ///< path of the scenario's file
+        ProblemOptions options;             ///< what is changed of the scenario, and how it is put
         std::vector<std::size_t> planners;  ///< indices into BenchmarkConfig::planners
         std::string digest;                 ///< of everything that the scenario's files say
 
@@ -30,7 +30,7 @@ namespace parking
     {
         std::size_t experiment{0};  ///< index into the list of experiments
         std::size_t planner{0};     ///< index into BenchmarkConfig::planners
-        std::size_t run{0};
+        std::size_t run{0};         ///< number of the run, from 0
     };
 
     /** \brief The experiments of a comparison. Planners whose problem differs from others' (overrides in the .cfg) meet

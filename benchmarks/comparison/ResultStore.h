@@ -16,8 +16,8 @@ namespace parking
     /** \brief What a file of results holds. */
     struct StoredResults
     {
-        nlohmann::json header;  ///< of the comparison that wrote to it last; without names when there is none
-        bool hasHeader{false};
+        nlohmann::json header;           ///< of the comparison that wrote to it last; without names when there is none
+        bool hasHeader{false};           ///< has the file a line about the comparison?
         std::vector<RunRecord> records;  ///< in the order of the file
         std::size_t end{0};              ///< bytes up to the end of the last whole line
         std::string damage;              ///< one line that names file and line of what is none; empty when all is well
@@ -47,6 +47,7 @@ namespace parking
         ResultStore(const ResultStore &) = delete;
         ResultStore &operator=(const ResultStore &) = delete;
 
+        /** \brief Is there a run of use for this experiment, planner and number? */
         bool has(const std::string &experiment, const std::string &planner, std::size_t run) const;
 
         /** \brief The runs that are of use. */

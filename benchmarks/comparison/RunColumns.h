@@ -28,30 +28,30 @@ namespace parking
     /** \brief A column's place in the summary. */
     struct InSummary
     {
-        const char *heading;
-        Statistic statistic;
-        int decimals;        ///< on the terminal; times have three digits instead
-        bool inTable{true};  ///< on the terminal and in summary.md, too; otherwise in summary.csv only
+        const char *heading;  ///< of the column on the terminal and in Markdown
+        Statistic statistic;  ///< what is shown of the runs' values
+        int decimals;         ///< on the terminal; times have three digits instead
+        bool inTable{true};   ///< on the terminal and in summary.md, too; otherwise in summary.csv only
     };
 
     /** \brief A column's place in the HTML report, beside those that the report knows by name. */
     struct InReport
     {
-        const char *heading;
-        double factor;       ///< from the column's unit to the one shown
-        const char *unit;    ///< as shown
-        bool folded{false};  ///< in the table of further figures below that of the problem
+        const char *heading;  ///< of the column, without its unit
+        double factor;        ///< from the column's unit to the one shown
+        const char *unit;     ///< as shown
+        bool folded{false};   ///< in the table of further figures below that of the problem
     };
 
     /** \brief A figure of a run as it appears in files, tables and documents. */
     struct RunColumn
     {
         const char *name;  ///< as in OMPL's logs, but without type; in the database '_' stands for blanks
-        RunMember member;
+        RunMember member;  ///< where a RunRecord holds the figure
         const char *unit;  ///< empty for counts and what is yes or no
         const char *text;  ///< what it means, for docs/comparison.md
-        std::optional<InSummary> summary;
-        std::optional<InReport> report;
+        std::optional<InSummary> summary;  ///< without it the summary does not show the column
+        std::optional<InReport> report;    ///< without it the report shows the column only where it knows its name
 
         /** \brief OMPL's: BOOLEAN, INTEGER, REAL or ENUM. */
         const char *type() const;

@@ -16,9 +16,9 @@ namespace parking
     /** \brief Which runs have a process of their own. */
     enum class Isolation
     {
-        None,
+        None,     ///< only exceptions of a planner do no harm then
         Plugins,  ///< those of planners from elsewhere
-        All
+        All       ///< every run
     };
 
     /** \brief Does single runs of a comparison, each through ompl::tools::Benchmark.
@@ -42,6 +42,8 @@ namespace parking
            solve() does not come back within three times the time limit and two seconds. */
         RunRecord run(const Unit &unit);
 
+        /** \brief The world of an experiment; read when first asked for. Throws parking::Error as Experiment::load()
+            does. */
         const Problem &problem(std::size_t experiment);
 
         /** \brief The setup of an experiment in OMPL's words, for the log. */

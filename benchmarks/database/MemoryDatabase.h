@@ -31,6 +31,7 @@ namespace parking
         class Statement
         {
         public:
+            /** \brief Prepares \e text. \e database must outlive the statement. */
             Statement(MemoryDatabase &database, const std::string &text);
             ~Statement();
             Statement(const Statement &) = delete;
@@ -38,8 +39,14 @@ namespace parking
 
             /** \brief Binds the next value. A text must outlive the run. */
             Statement &operator<<(std::string_view text);
+
+            /** \brief Binds a whole number. */
             Statement &operator<<(std::int64_t number);
+
+            /** \brief Binds a number; NaN becomes NULL. */
             Statement &operator<<(double number);
+
+            /** \brief Binds NULL. */
             Statement &operator<<(std::nullptr_t);
 
             /** \brief Runs it, and makes room for the next values.

@@ -46,10 +46,10 @@ namespace parking
         What the steering would take is told apart: a car has to stand still wherever the curvature jumps. */
     struct CuspToCusp
     {
-        double time{0.0};              ///< seconds, of the profile alone
-        double controlEffort{0.0};     ///< integral of a^2 + (v w)^2, with the steering rate w; jumps are not in it
-        double steeringIntegral{0.0};  ///< integral of the squared steering angle
-        std::size_t gearChanges{0};
+        double time{0.0};                  ///< seconds, of the profile alone
+        double controlEffort{0.0};         ///< integral of a^2 + (v w)^2, with the steering rate w; jumps are not in it
+        double steeringIntegral{0.0};      ///< integral of the squared steering angle
+        std::size_t gearChanges{0};        ///< changes of direction
         std::size_t standingSteerings{0};  ///< places where the curvature jumps, at cusps or between them
         double standingSteeringTime{0.0};  ///< seconds in which the wheels turn there; not in \e time
         double meanJerk{0.0};              ///< m/s^3, mean of the absolute value over the time

@@ -16,13 +16,13 @@ namespace parking
     /** \brief A planner of the comparison. */
     struct PlannerEntry
     {
-        std::string name;
+        std::string name;     ///< as it is listed; unique but for case, underscores, hyphens and blanks
         std::string summary;  ///< one line for --help
         /** Is the planner handed path length as its objective, and goes on improving until the time is up? */
         bool optimizing{false};
-        ompl::base::PlannerAllocator allocate;
-        PlannerSettings settings;  ///< set on every instance before the user's
-        std::string library{};     ///< the file of the plug-in that it is from; empty for planners of the project
+        ompl::base::PlannerAllocator allocate;  ///< makes a new instance; never empty in a registry
+        PlannerSettings settings;               ///< set on every instance before the user's
+        std::string library{};  ///< the file of the plug-in that it is from; empty for planners of the project
     };
 
     /** \brief The planners of the comparison by name.
@@ -42,6 +42,7 @@ namespace parking
         /** \brief Another name for the planner \e name, which must be known. */
         void addAlias(const std::string &alias, const std::string &name);
 
+        /** \brief Is it the name or the alias of a planner? */
         bool knows(const std::string &name) const;
 
         /** \brief Throws parking::Error with the nearest and all known names for one that is not known. */
@@ -50,6 +51,7 @@ namespace parking
         /** \brief Of all planners, in the order in which they were added; without aliases. */
         std::vector<std::string> names() const;
 
+        /** \brief All planners, in the order in which they were added. */
         const std::vector<PlannerEntry> &entries() const
         {
             return entries_;

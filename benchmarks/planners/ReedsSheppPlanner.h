@@ -14,8 +14,11 @@ namespace parking
     class ReedsSheppPlanner : public ompl::base::Planner
     {
     public:
+        /** \brief For any space, though made for curves that a car can drive. */
         explicit ReedsSheppPlanner(const ompl::base::SpaceInformationPtr &si);
 
+        /** \brief INVALID_START or INVALID_GOAL when none is valid, UNRECOGNIZED_GOAL_TYPE for a goal that cannot be
+            sampled. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
 
         /** \brief The two states of the solution, if there is one. */

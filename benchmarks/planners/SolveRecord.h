@@ -31,12 +31,13 @@ namespace parking
             process, which a busy machine does not change. The same one for all planners. */
         struct Clock
         {
-            using duration = std::chrono::nanoseconds;
-            using rep = duration::rep;
-            using period = duration::period;
-            using time_point = std::chrono::time_point<Clock>;
-            static constexpr bool is_steady = true;
+            using duration = std::chrono::nanoseconds;          ///< in which the clock counts
+            using rep = duration::rep;                          ///< counts of the above
+            using period = duration::period;                    ///< seconds of a count, a ratio
+            using time_point = std::chrono::time_point<Clock>;  ///< a moment of this clock
+            static constexpr bool is_steady = true;             ///< it never goes back
 
+            /** \brief This moment, by the clock that countProcessorTime() has chosen. */
             static time_point now();
 
             /** \brief Not while a planner is at work. */
@@ -64,6 +65,7 @@ namespace parking
         /** \brief The least cost noted; infinite without one. */
         double bestCost() const;
 
+        /** \brief All that were noted, in order of time, each of a lower cost than the one before. */
         std::vector<Improvement> improvements() const;
 
     private:
@@ -84,8 +86,10 @@ namespace parking
     class RecordingObjective final : public ompl::base::PathLengthOptimizationObjective
     {
     public:
+        /** \brief \param record is told the cost of every solution that a planner asks about */
         RecordingObjective(const ompl::base::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record);
 
+        /** \brief Notes \e cost; then what the path length says. */
         bool isSatisfied(ompl::base::Cost cost) const override;
 
     private:
@@ -95,15 +99,16 @@ namespace parking
     /** \brief What went wrong inside a planner. */
     struct PlannerFailure
     {
+        /** \brief What went wrong. */
         enum class Kind
         {
-            None,
-            Exception,
-            Memory,   ///< there was not enough
-            Nonsense  ///< an answer that nobody can read
+            None,       ///< all went well
+            Exception,  ///< it threw something other than std::bad_alloc
+            Memory,     ///< there was not enough
+            Nonsense    ///< an answer that nobody can read
         };
-        Kind kind{Kind::None};
-        std::string text;  ///< one line
+        Kind kind{Kind::None};  ///< None as long as all goes well
+        std::string text;       ///< one line
     };
 
     /** \brief The exception that is being handled, as a failure in \e where. */
@@ -168,6 +173,7 @@ namespace parking
     class Measured final : public Planner, public MeasuredPlanner
     {
     public:
+        /** \brief Hands \e arguments to the planner's own constructor. */
         template <class... Arguments>
         explicit Measured(Arguments &&...arguments) : Planner(std::forward<Arguments>(arguments)...)
         {
@@ -178,6 +184,8 @@ namespace parking
 
         using Planner::solve;
 
+        /** \brief The planner's own, timed, and ended in time. CRASH when it throws or its answer is no path, see
+            failure(). */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
         {
             const auto limit = std::chrono::duration<double>(timeLimit_);
@@ -211,11 +219,13 @@ namespace parking
             return status;
         }
 
+        /** \brief The planner's own; what it throws becomes failure(). */
         void clear() override
         {
             guard("clear()", [this] { Planner::clear(); });
         }
 
+        /** \brief The planner's own; what it throws becomes failure(). */
         void getPlannerData(ompl::base::PlannerData &data) const override
         {
             guard("getPlannerData()", [&] { Planner::getPlannerData(data); });

@@ -17,13 +17,16 @@ namespace parking
     class CircleMotionValidator : public ompl::base::MotionValidator
     {
     public:
-        static constexpr double TOLERANCE = 1e-3;  // metres
+        static constexpr double TOLERANCE = 1e-3;  ///< metres of clearance below which the proof gives up
 
+        /** \brief \param checker of the disc, for the same space */
         CircleMotionValidator(const ompl::base::SpaceInformationPtr &si,
                               std::shared_ptr<const CircleValidityChecker> checker);
 
+        /** \brief Is the disc free all along the line from \e s1, which is taken to be free, to \e s2? */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
 
+        /** \brief The same; when it is not, \e lastValid gets the last state proved free and its share of the way. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
                          std::pair<ompl::base::State *, double> &lastValid) const override;
 

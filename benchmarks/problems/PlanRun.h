@@ -25,8 +25,8 @@ namespace parking
     /** \brief How a run ended. */
     enum class PlanStatus
     {
-        Exact,
-        Approximate,
+        Exact,         ///< a path to a goal
+        Approximate,   ///< a path that ends short of the goals
         Timeout,       ///< nothing found until the time was up
         InvalidStart,  ///< no start is free
         InvalidGoal,   ///< no goal is free
@@ -38,6 +38,8 @@ namespace parking
         Memory,        ///< it took too much memory
         Nonsense       ///< its answer is none: no path, or states that are nowhere
     };
+
+    /** \brief Number of values that a PlanStatus has. */
     constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
 
     /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception,
@@ -59,7 +61,7 @@ namespace parking
         double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
         double firstSolutionTime{0.0};  ///< seconds; only with an exact solution
         double mapLoadingTime{0.0};     ///< seconds that the planner itself spent on finding out which cells are free
-        SearchFigures search;
+        SearchFigures search;           ///< what the search took
         /** Cost of the solution over a lower bound of it in the discretised problem: of the improved A* with both
             heuristic weights at 1; infinite otherwise. */
         double suboptimalityBound{std::numeric_limits<double>::infinity()};

@@ -25,7 +25,7 @@ namespace parking
          * end. */
         SampledPath states() const;
 
-        static constexpr double SAMPLING = 0.1;  // metres
+        static constexpr double SAMPLING = 0.1;  ///< metres between states, see samplingOf()
     };
 
     /** \brief How far the states of a path may lie apart, in metres: PlannedPath::SAMPLING; more along one that is very

@@ -28,27 +28,28 @@ namespace parking
     /** \brief In which terms a scenario is put to a planner. */
     struct ProblemSettings
     {
-        SpaceKind space{SpaceKind::ReedsShepp};
-        FootprintKind footprint{FootprintKind::Rectangle};
-        double circleRadius{0.0};  ///< metres; 0: half of the car's width
-        double threshold{0.0};     ///< metres; optimising planners stop at a path that is shorter
+        SpaceKind space{SpaceKind::ReedsShepp};             ///< by which states are joined
+        FootprintKind footprint{FootprintKind::Rectangle};  ///< what is to stay free of obstacles
+        double circleRadius{0.0};                           ///< metres; 0: half of the car's width
+        double threshold{0.0};  ///< metres; optimising planners stop at a path that is shorter
     };
 
     /** \brief Names as in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle. The readers throw
         parking::Error listing the known names for any other. @{ */
     std::string toString(SpaceKind space);
-    std::string toString(FootprintKind footprint);
-    SpaceKind spaceByName(const std::string &name);
-    FootprintKind footprintByName(const std::string &name);
+    std::string toString(FootprintKind footprint);           ///< rectangle or circle
+    SpaceKind spaceByName(const std::string &name);          ///< of reeds_shepp, dubins or se2
+    FootprintKind footprintByName(const std::string &name);  ///< of rectangle or circle
     /** @} */
 
     /** \brief A planner ready to solve a problem, with everything that it changes being its own. */
     struct PreparedPlanner
     {
-        std::shared_ptr<ompl::geometric::SimpleSetup> setup;
-        ompl::base::PlannerPtr planner;
+        std::shared_ptr<ompl::geometric::SimpleSetup> setup;  ///< with a problem definition of its own
+        ompl::base::PlannerPtr planner;                       ///< set up, with its settings
         MeasuredPlanner *measured{nullptr};  ///< the planner again; null for one that does not measure itself
 
+        /** \brief Where the planner leaves its solutions. */
         const ompl::base::ProblemDefinitionPtr &problem() const
         {
             return setup->getProblemDefinition();
@@ -67,10 +68,13 @@ namespace parking
             Throws parking::Error for settings that are out of range and for a car that does not fit into the world. */
         Problem(Scenario scenario, const ProblemSettings &settings);
 
+        /** \brief The scenario as given. */
         const Scenario &scenario() const
         {
             return scenario_;
         }
+
+        /** \brief The settings as given; the radius of a disc is circleRadius(). */
         const ProblemSettings &settings() const
         {
             return settings_;
@@ -85,10 +89,13 @@ namespace parking
             return settings_.space != SpaceKind::SE2;
         }
 
+        /** \brief Space, bounds and the checks of states and motions, shared by all planners. */
         const ompl::base::SpaceInformationPtr &spaceInformation() const
         {
             return si_;
         }
+
+        /** \brief The space's curves as arcs. */
         const CurveSpace &curveSpace() const
         {
             return *curveSpace_;
@@ -134,6 +141,8 @@ namespace parking
 
         /** \brief States and motions' poses checked since the last call of resetCounts(). */
         CheckCounts checkCounts() const;
+
+        /** \brief Begins to count anew. */
         void resetCounts() const;
 
     private:

@@ -18,15 +18,15 @@ namespace parking
     /** \brief What a comparison left in its folder. */
     struct ComparisonFiles
     {
-        std::string folder;
-        std::vector<std::string> logs;
-        std::string database;
-        std::string table;  ///< Markdown
-        std::string csv;
-        std::string report;       ///< HTML; empty when there is no python3 to make it
-        std::string reportError;  ///< why there is none although there should be
-        std::vector<std::string> pictures;
-        std::size_t missing{0};  ///< runs that are not there
+        std::string folder;                 ///< of all results
+        std::vector<std::string> logs;      ///< OMPL's logs, one for each experiment with runs
+        std::string database;               ///< SQLite, in OMPL's schema
+        std::string table;                  ///< Markdown
+        std::string csv;                    ///< the same table with all figures
+        std::string report;                 ///< HTML; empty when there is no python3 to make it
+        std::string reportError;            ///< why there is none although there should be
+        std::vector<std::string> pictures;  ///< SVG, one for each experiment with runs
+        std::size_t missing{0};             ///< runs that are not there
     };
 
     /** \brief A comparison from beginning to end: configuration, runs, results. */
@@ -50,10 +50,13 @@ namespace parking
             goes away. Throws parking::Error, also while another process does the same in the folder. */
         ComparisonFiles write();
 
+        /** \brief As the file says, with what the command line changes. */
         const BenchmarkConfig &config() const
         {
             return config_;
         }
+
+        /** \brief Of all results. */
         const std::string &folder() const
         {
             return folder_;

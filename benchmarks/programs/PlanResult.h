@@ -16,15 +16,17 @@ namespace parking
     /** \brief All that parking_plan has found out. */
     struct PlanResult
     {
-        std::string planner;
-        nlohmann::json parameters;
-        std::vector<PlanRun> runs;  ///< at least one; the first one's path is the result
-        std::optional<DriveResult> drive;
-        std::string driveError;  ///< why the path cannot be driven; empty otherwise
+        std::string planner;               ///< name in the registry
+        nlohmann::json parameters;         ///< all of the planner's, see parametersJson()
+        std::vector<PlanRun> runs;         ///< at least one; the first one's path is the result
+        std::optional<DriveResult> drive;  ///< with PlanOptions::track, unless driveError says why not
+        std::string driveError;            ///< why the path cannot be driven; empty otherwise
+        /** With PlanOptions::trajectory, unless trajectoryError says why not. */
         std::optional<QuickestTrajectory> trajectory;
         std::string trajectoryError;  ///< why there is no trajectory; empty otherwise
         double trajectoryTime{0.0};   ///< seconds of processor time
 
+        /** \brief The run whose path is the result. */
         const PlanRun &first() const
         {
             return runs.front();

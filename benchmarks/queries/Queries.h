@@ -14,9 +14,9 @@ namespace parking
     /** \brief Where queries are drawn: obstacles and car of \e scenario, whose start and goals are to be chosen. */
     struct QueryWorld
     {
-        std::string name;  ///< what files and results call it
-        Scenario scenario;
-        Box range;  ///< of rear axles
+        std::string name;   ///< what files and results call it
+        Scenario scenario;  ///< obstacles and car
+        Box range;          ///< of rear axles
     };
 
     /** \brief A world of polygons with a car. */
@@ -32,7 +32,8 @@ namespace parking
     /** \brief From where to where. */
     struct Query
     {
-        Pose start, goal;
+        Pose start,                  ///< of the rear axle, in the coordinates of the world's scenario
+            goal;                    ///< likewise
         bool goalAtObstacle{false};  ///< it was pushed towards an obstacle as far as it goes, in steps of 0.1 m
     };
 
@@ -50,5 +51,7 @@ namespace parking
 
     /** \brief A grid as a ROS map: the YAML file for the image \e image, and the image itself (PGM). */
     std::string mapYaml(const OccupancyGrid &grid, const std::string &image);
+
+    /** \brief The image of mapYaml(): PGM, white where it is free, black where occupied, grey where unknown. */
     std::string mapImage(const OccupancyGrid &grid);
 }  // namespace parking

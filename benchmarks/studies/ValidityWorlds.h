@@ -27,12 +27,13 @@ namespace parking
         /** \brief A world with both kinds of check, and the poses that are asked about there. */
         struct Place
         {
-            std::unique_ptr<FootprintChecker> tiered;
-            std::unique_ptr<PlainFclChecker> plain;
-            std::vector<Pose> poses;
+            std::unique_ptr<FootprintChecker> tiered;  ///< distance field and circles before the exact test
+            std::unique_ptr<PlainFclChecker> plain;    ///< FCL for every pose
+            std::vector<Pose> poses;                   ///< of the rear axle, in the world's local coordinates
         };
-        std::vector<Place> places;
+        std::vector<Place> places;  ///< one for each world
 
+        /** \brief Number of poses of all places together. */
         std::size_t poseCount() const;
     };
 

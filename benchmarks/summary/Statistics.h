@@ -13,8 +13,8 @@ namespace parking
     /** \brief An interval with the share of certainty that it really has. */
     struct ConfidenceInterval
     {
-        double low;
-        double high;
+        double low;    ///< in the unit of the values
+        double high;   ///< likewise
         double level;  ///< at least what was asked for, or 0 when there are too few values for that
     };
 

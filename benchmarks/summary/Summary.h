@@ -15,7 +15,9 @@ namespace parking
         where no run counts, infinite where too many runs do. */
     struct SummaryFigure
     {
-        double median, low, high;     ///< with quartiles
+        double median,                ///< in the column's unit
+            low,                      ///< first quartile
+            high;                     ///< third quartile
         ConfidenceInterval interval;  ///< of the median
     };
 
@@ -25,12 +27,12 @@ namespace parking
     /** \brief How one planner did on one experiment. Times in seconds, lengths in metres. */
     struct SummaryRow
     {
-        std::string experiment;
-        std::string planner;
-        std::size_t runs{0};
-        std::size_t solved{0};   ///< exact and densely valid
-        std::size_t invalid{0};  ///< exact in the planner's view, but not valid when checked again
-        std::size_t approximate{0};
+        std::string experiment;              ///< its name
+        std::string planner;                 ///< what results call the planner
+        std::size_t runs{0};                 ///< all that are there, finished or failed
+        std::size_t solved{0};               ///< exact and densely valid
+        std::size_t invalid{0};              ///< exact in the planner's view, but not valid when checked again
+        std::size_t approximate{0};          ///< other paths: they end short of the goals, or came too late
         std::vector<SummaryFigure> figures;  ///< one for each of summaryColumns()
 
         /** \brief The figure of a column. Throws parking::Error when the summary does not have it. */

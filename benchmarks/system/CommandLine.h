@@ -31,8 +31,10 @@ namespace parking
                     const boost::program_options::options_description &options,
                     const boost::program_options::positional_options_description &positional);
 
+        /** \brief Was it given at all? */
         bool given(const std::string &option) const;
 
+        /** \brief What it was given; nothing when it was not. */
         std::optional<std::string> text(const std::string &option) const;
 
         /** \brief Of an option that may be given several times. */

@@ -17,17 +17,18 @@ namespace parking
     /** \brief How work in a process of its own ended. */
     struct IsolatedResult
     {
+        /** \brief How the process ended. */
         enum class End
         {
-            Answered,
-            Exception,  ///< one left the work
-            Died,       ///< of a signal, or it ended the process itself
-            TimeUp,
-            OutOfMemory,
-            Stopped
+            Answered,     ///< with the work's answer
+            Exception,    ///< one left the work
+            Died,         ///< of a signal, or it ended the process itself
+            TimeUp,       ///< it took longer than it may, and was ended
+            OutOfMemory,  ///< it took more memory than it may
+            Stopped       ///< it was told to stop
         };
-        End end{End::Died};
-        std::string text;  ///< the answer, or one line on what happened
+        End end{End::Died};  ///< how it ended
+        std::string text;    ///< the answer, or one line on what happened
     };
 
     /** \brief Does work in a process of its own, a copy of this one, and waits for its answer: whatever the work does

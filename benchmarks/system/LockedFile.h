@@ -15,7 +15,11 @@ namespace parking
         /** \brief Throws parking::Error naming the file when it cannot be written, or another process has it. */
         explicit LockedFile(std::string file);
         ~LockedFile();
+
+        /** \brief Takes over file and lock. */
         LockedFile(LockedFile &&other) noexcept;
+
+        /** \brief Exchanges file and lock. */
         LockedFile &operator=(LockedFile &&other) noexcept;
 
         /** \brief Keeps the first \e length bytes; what is written next follows them. Throws parking::Error. */
@@ -28,6 +32,7 @@ namespace parking
         /** \brief Gives the file another name, taking the place of what had it. Throws parking::Error. */
         void rename(const std::string &name);
 
+        /** \brief As given, or what rename() has made of it. */
         const std::string &name() const
         {
             return file_;

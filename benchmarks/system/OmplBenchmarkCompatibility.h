@@ -29,6 +29,7 @@ namespace parking
             return properties;
         }
 
+        /** \brief \e Validator itself, where this OMPL defines it: only a type that is complete has a size. */
         template <class Validator>
         auto validatorOfCurves(const ompl::base::SpaceInformationPtr &si, int /*preferred*/)
             -> decltype(sizeof(Validator), ompl::base::MotionValidatorPtr())
@@ -36,6 +37,7 @@ namespace parking
             return std::make_shared<Validator>(si);
         }
 
+        /** \brief The stand-in where this OMPL only has the name. */
         template <class Validator>
         ompl::base::MotionValidatorPtr validatorOfCurves(const ompl::base::SpaceInformationPtr &si, long /*otherwise*/)
         {

@@ -22,6 +22,7 @@ namespace parking
         Progress(const Progress &) = delete;
         Progress &operator=(const Progress &) = delete;
 
+        /** \brief A run begins: names what is under way. */
         void begin(const std::string &experiment, const std::string &planner);
 
         /** \brief \param seconds that the run took, with everything round it */

@@ -25,8 +25,9 @@ namespace parking_test
     class PolygonOracle
     {
     public:
-        using Real = long double;
+        using Real = long double;  ///< at least as precise as double
 
+        /** \brief Solid polygons, of any orientation, within \e bounds. */
         PolygonOracle(std::vector<parking::Polygon> obstacles, const parking::Box &bounds)
           : obstacles_(std::move(obstacles)),
             bounds_(bounds)
@@ -40,6 +41,7 @@ namespace parking_test
             }
         }
 
+        /** \brief The cells of \e grid that are occupied, those that are unknown too unless told otherwise. */
         explicit PolygonOracle(const parking::OccupancyGrid &grid, bool unknownIsOccupied = true)
           : grid_(grid),
             isGrid_(true),
@@ -47,6 +49,7 @@ namespace parking_test
         {
         }
 
+        /** \brief What the scenario has: a grid, or polygons within its bounds; in its local coordinates. */
         explicit PolygonOracle(const parking::Scenario &scenario)
           : PolygonOracle(scenario.grid ? PolygonOracle(*scenario.grid, scenario.unknownIsOccupied)
                                         : PolygonOracle(scenario.polygons, scenario.bounds))

@@ -13,10 +13,12 @@ namespace parking_test
     class Random
     {
     public:
+        /** \brief The same seed gives the same numbers. */
         explicit Random(std::uint64_t seed) : engine_(seed)
         {
         }
 
+        /** \brief Evenly distributed from \e low on, below \e high. */
         double between(double low, double high)
         {
             return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
@@ -34,11 +36,13 @@ namespace parking_test
             return static_cast<int>(index(static_cast<std::size_t>(count)));
         }
 
+        /** \brief True in this share of all calls. */
         bool chance(double probability)
         {
             return between(0.0, 1.0) < probability;
         }
 
+        /** \brief 64 random bits. */
         std::uint64_t bits()
         {
             return engine_();
@@ -51,6 +55,7 @@ namespace parking_test
             return chance(0.5) ? value : -value;
         }
 
+        /** \brief x and y between the two, in metres; any heading. */
         parking::Pose poseIn(double low, double high)
         {
             const double x = between(low, high), y = between(low, high);

@@ -13,8 +13,10 @@ namespace parking_test
     class RandomParking : public Random
     {
     public:
+        /** \brief The same seed gives the same cars, slots and paths. */
         using Random::Random;
 
+        /** \brief Within \e extent metres of the origin along both axes; any heading. */
         Pose pose(double extent)
         {
             return poseIn(-extent, extent);

@@ -17,6 +17,7 @@ namespace parking_test
     /** \brief A world with the oracle that judges it. */
     struct World
     {
+        /** \brief Polygons within \e box. */
         World(std::string worldName, const std::vector<parking::Polygon> &polygons, const parking::Box &box)
           : name(std::move(worldName)),
             obstacles(parking::ObstacleSet::fromPolygons(polygons, box)),
@@ -31,6 +32,7 @@ namespace parking_test
             edges.push_back({c, {a.x(), c.y()}});
         }
 
+        /** \brief A grid, outside of which nothing is free. */
         World(std::string worldName, const parking::OccupancyGrid &grid)
           : name(std::move(worldName)),
             obstacles(parking::ObstacleSet::fromGrid(grid)),
@@ -53,9 +55,9 @@ namespace parking_test
                         edges.push_back({corner(column, row), corner(column + 1, row + 1)});
         }
 
-        std::string name;
-        parking::ObstacleSet obstacles;
-        PolygonOracle oracle;
+        std::string name;                  ///< kind and seed
+        parking::ObstacleSet obstacles;    ///< as what is tested sees them
+        PolygonOracle oracle;              ///< says what is right
         parking::Box bounds;               ///< a box round the free world, in the coordinates of the poses
         std::vector<parking::Edge> edges;  ///< outlines (of cells: diagonals), to make poses that touch them
 
@@ -86,6 +88,7 @@ namespace parking_test
         }
     };
 
+    /** \brief A rectangle of \e length by \e width metres round \e pose, along its heading. */
     inline parking::Polygon rectangle(double length, double width, const parking::Pose &pose)
     {
         parking::Polygon polygon;

@@ -24,6 +24,7 @@ namespace parking
     class ImprovedAStarPlanner : public nav2_core::GlobalPlanner
     {
     public:
+        /** \brief A pose with the frame that it is given in. */
         using PoseStamped = geometry_msgs::msg::PoseStamped;
 
         // No function says override: which of the three createPlan() the base class has depends on the release, and

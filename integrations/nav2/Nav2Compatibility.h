@@ -21,7 +21,7 @@ namespace parking::nav2_compatibility
 #if __has_include(<nav2_ros_common/lifecycle_node.hpp>)
     using Node = nav2::LifecycleNode;  // after jazzy
 #else
-    using Node = rclcpp_lifecycle::LifecycleNode;
+    using Node = rclcpp_lifecycle::LifecycleNode;  ///< up to jazzy
 #endif
 
 #if __has_include(<nav2_core/planner_exceptions.hpp>)
@@ -37,13 +37,13 @@ namespace parking::nav2_compatibility
 #else
     // Humble has one for all, and tells them apart by their text alone.
     using nav2_core::PlannerException;
-    using GoalOccupied = PlannerException;
-    using GoalOutsideMapBounds = PlannerException;
-    using NoValidPathCouldBeFound = PlannerException;
-    using PlannerCancelled = PlannerException;
-    using PlannerTFError = PlannerException;
-    using PlannerTimedOut = PlannerException;
-    using StartOccupied = PlannerException;
-    using StartOutsideMapBounds = PlannerException;
+    using GoalOccupied = PlannerException;             ///< humble's only exception
+    using GoalOutsideMapBounds = PlannerException;     ///< likewise
+    using NoValidPathCouldBeFound = PlannerException;  ///< likewise
+    using PlannerCancelled = PlannerException;         ///< likewise
+    using PlannerTFError = PlannerException;           ///< likewise
+    using PlannerTimedOut = PlannerException;          ///< likewise
+    using StartOccupied = PlannerException;            ///< likewise
+    using StartOutsideMapBounds = PlannerException;    ///< likewise
 #endif
 }  // namespace parking::nav2_compatibility

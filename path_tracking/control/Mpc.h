@@ -41,14 +41,14 @@ namespace parking
     /** \brief Acceleration in m/s^2 (of the signed speed), steering angle in radians (at the end of the step). */
     struct MpcControl
     {
-        double acceleration{0.0};
-        double steering{0.0};
+        double acceleration{0.0};  ///< m/s^2, of the signed speed
+        double steering{0.0};      ///< radians, to the left positive
     };
 
     /** \brief Where the car should be at the end of a step, and what the timed path has there. */
     struct MpcReference
     {
-        Pose pose;
+        Pose pose;             ///< at the end of the step
         double speed{0.0};     ///< m/s, negative in reverse
         double steering{0.0};  ///< radians, to be commanded
     };
@@ -77,10 +77,10 @@ namespace parking
         bool usable{false};                ///< false: controls is empty and message says why
         std::vector<MpcControl> controls;  ///< one per step of the horizon, within all limits
         std::vector<Pose> predicted;       ///< the pose after each of them
-        int iterations{0};
-        double cost{0.0};
-        double solveTime{0.0};  ///< seconds of wall clock
-        std::string message;
+        int iterations{0};                 ///< steps of the solver, at most MpcParameters::maxIterations
+        double cost{0.0};                  ///< at the begin of the last step, up to a constant; without unit
+        double solveTime{0.0};             ///< seconds of wall clock
+        std::string message;               ///< why it is not usable; otherwise empty
     };
 
     /** \brief Model predictive control of the kinematic bicycle model (paper, "MPC Control Algorithm").
@@ -104,9 +104,14 @@ namespace parking
         /** \brief Throws parking::Error when \e vehicle or \e parameters are not valid. */
         Mpc(const Vehicle &vehicle, const MpcParameters &parameters);
         ~Mpc();
+
+        /** \brief Takes over the solver; what is moved from may only be assigned to or destroyed. */
         Mpc(Mpc &&) noexcept;
+
+        /** \brief As the constructor. */
         Mpc &operator=(Mpc &&) noexcept;
 
+        /** \brief The parameters as given. */
         const MpcParameters &parameters() const;
 
         /** \brief Forgets the last answer: the next problem starts from the reference's controls. */

@@ -25,15 +25,19 @@ namespace parking
     class MpcCost
     {
     public:
+        /** \brief Derivatives of the residuals: a row for each of them, a column for each unknown. */
         using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+        /** \brief Both must be valid (see Mpc); a problem has to be set before anything is evaluated. */
         MpcCost(const Vehicle &vehicle, const MpcParameters &parameters);
 
+        /** \brief Number of unknowns: speed and steering angle for each step. */
         Eigen::Index unknowns() const
         {
             return 2 * steps_;
         }
 
+        /** \brief Number of residuals: five for each step. */
         Eigen::Index residuals() const
         {
             return ROWS * steps_;

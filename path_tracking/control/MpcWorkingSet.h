@@ -10,8 +10,8 @@ namespace parking
     /** \brief The hard constraints on one quantity over a horizon: a box, and a bound on its change per step. */
     struct ChannelLimits
     {
-        double low{0.0};
-        double high{0.0};
+        double low{0.0};     ///< least value, in the quantity's unit: m/s or radians
+        double high{0.0};    ///< greatest value, likewise
         double change{0.0};  ///< per step, either sign
         double last{0.0};    ///< the value before the horizon; outside of the box it may return by \e change per step
     };
@@ -63,6 +63,7 @@ namespace parking
             }
         }
 
+        /** \brief Do both hold the same constraints? Then the same directions are free. */
         bool operator==(const WorkingSet &other) const
         {
             return direction_ == other.direction_;

@@ -20,8 +20,8 @@ namespace parking
     /** \brief How a path is driven. */
     struct TrackingParameters
     {
-        MpcParameters mpc;
-        ReferenceParameters reference;
+        MpcParameters mpc;              ///< of the controller on the legs, its period included
+        ReferenceParameters reference;  ///< how the path is made drivable
 
         // The timed path keeps below the car's limits, so that the controller has something left to correct with.
         double speedShare{0.95};          ///< of the car's speed limit, in (0, 1]
@@ -29,9 +29,9 @@ namespace parking
         double steeringRateShare{0.8};    ///< likewise
         double lateralAcceleration{1.0};  ///< m/s^2
 
-        EstimatorParameters estimator;
-        double steeringLag{0.0};  ///< seconds that the wheels lag behind their command; learnt from there on
-        double driveLag{0.0};     ///< seconds that the acceleration lags behind its command; learnt from there on
+        EstimatorParameters estimator;  ///< of the filter that tells where the car is
+        double steeringLag{0.0};        ///< seconds that the wheels lag behind their command; learnt from there on
+        double driveLag{0.0};           ///< seconds that the acceleration lags behind its command; learnt from there on
 
         double stopTolerance{0.005};      ///< metres before the end of a leg at which standing still counts as arrived
         double settleTime{1.5};           ///< seconds granted for that after the timed path has ended
@@ -49,6 +49,7 @@ namespace parking
         SpeedLimits limits(const Vehicle &vehicle) const;
     };
 
+    /** \brief What the controller is about. */
     enum class TrackingMode
     {
         Steering,  ///< standing, turning the wheels to where the leg begins, or to where they shall end
@@ -61,18 +62,18 @@ namespace parking
     /** \brief What the controller did and saw in one period. */
     struct TrackingStep
     {
-        Command command;
-        TrackingMode mode{TrackingMode::Steering};
-        std::size_t leg{0};
-        Pose estimate;             ///< of the car, filtered
-        double s{0.0};             ///< metres along the reference
-        double crossTrack{0.0};    ///< metres to the left of the reference, of the estimate
-        double headingError{0.0};  ///< radians
-        bool solved{false};        ///< was the optimiser asked?
-        bool solverFailed{false};  ///< and was its answer useless?
-        double solveTime{0.0};     ///< seconds
-        int iterations{0};
-        std::string event;  ///< empty, or what happened: a failure, the reason of a stop
+        Command command;                            ///< for the car in this period
+        TrackingMode mode{TrackingMode::Steering};  ///< after this period was decided
+        std::size_t leg{0};                         ///< index into the legs of the reference
+        Pose estimate;                              ///< of the car, filtered
+        double s{0.0};                              ///< metres along the reference
+        double crossTrack{0.0};                     ///< metres to the left of the reference, of the estimate
+        double headingError{0.0};                   ///< radians
+        bool solved{false};                         ///< was the optimiser asked?
+        bool solverFailed{false};                   ///< and was its answer useless?
+        double solveTime{0.0};                      ///< seconds
+        int iterations{0};                          ///< of the optimiser
+        std::string event;                          ///< empty, or what happened: a failure, the reason of a stop
     };
 
     /** \brief Drives a timed path or motion: model predictive control on the legs, steering at standstill between them.
@@ -90,6 +91,7 @@ namespace parking
     class TrackingController
     {
     public:
+        /** \brief What answers the problem of a period; its answer is checked, whatever it is. */
         using Solve = std::function<MpcSolution(const MpcProblem &)>;
 
         /** \brief Plans the drive along \e path from \e initialSteering.
@@ -105,16 +107,19 @@ namespace parking
         TrackingController(std::shared_ptr<const TimedReference> reference, const Vehicle &vehicle,
                            const TrackingParameters &parameters = {}, double initialSteering = 0.0, Solve solve = {});
 
+        /** \brief What is followed: the timed legs. */
         const TimedReference &reference() const
         {
             return *reference_;
         }
 
+        /** \brief The parameters as given. */
         const TrackingParameters &parameters() const
         {
             return parameters_;
         }
 
+        /** \brief What the controller is about since the last step(). */
         TrackingMode mode() const
         {
             return mode_;

@@ -7,7 +7,7 @@ namespace parking
     /** \brief What the car tells the controller. */
     struct Measurement
     {
-        Pose pose;
+        Pose pose;             ///< of the rear axle, world frame; a value that is not finite: not known
         double speed{0.0};     ///< m/s, negative in reverse
         double steering{0.0};  ///< radians, of the wheels
     };

@@ -10,8 +10,10 @@ namespace parking
     class ProfileReference final : public TimedReference
     {
     public:
+        /** \brief Takes over a path that is timed already. */
         explicit ProfileReference(SpeedProfile profile);
 
+        /** \brief The path with its speeds. */
         const SpeedProfile &profile() const
         {
             return profile_;

@@ -50,12 +50,13 @@ namespace parking
     /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
     struct ReferenceLeg
     {
-        int direction{1};
-        LegEnd end{LegEnd::Goal};
+        int direction{1};                    ///< 1 forwards, -1 in reverse
+        LegEnd end{LegEnd::Goal};            ///< why the car stands at its end
         double beginLength{0.0};             ///< metres since the begin of the path
         double endLength{0.0};               ///< metres since the begin of the path
         std::vector<SteeringKnot> steering;  ///< at least two, first at beginLength, last at endLength
 
+        /** \brief Metres driven on it. */
         double length() const
         {
             return endLength - beginLength;
@@ -91,6 +92,7 @@ namespace parking
             Throws parking::Error as makeDrivable() and validate() of the arguments do. */
         ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters = {});
 
+        /** \brief In the order of driving, at least one. */
         const std::vector<ReferenceLeg> &legs() const
         {
             return legs_;
@@ -102,6 +104,7 @@ namespace parking
             return path_;
         }
 
+        /** \brief The car that the path was prepared for. */
         const Vehicle &vehicle() const
         {
             return vehicle_;

@@ -56,11 +56,13 @@ namespace parking
         /** \brief Prepares \e path with default parameters and times it within the limits of \e vehicle. */
         SpeedProfile(const Path &path, const Vehicle &vehicle);
 
+        /** \brief The path that is timed, with its steering angles. */
         const ReferencePath &reference() const
         {
             return reference_;
         }
 
+        /** \brief What the profile keeps within. */
         const SpeedLimits &limits() const
         {
             return limits_;

@@ -34,6 +34,7 @@ namespace parking
     public:
         virtual ~TimedReference() = default;
 
+        /** \brief In the order of driving, at least one. */
         const std::vector<TimedLeg> &legs() const
         {
             return legs_;
@@ -90,8 +91,8 @@ namespace parking
         }
 
     protected:
-        std::vector<TimedLeg> legs_;
-        double finalStandstill_{0.0};
-        double finalSteering_{0.0};
+        std::vector<TimedLeg> legs_;   ///< see legs(); to be filled by the constructor of a derived class
+        double finalStandstill_{0.0};  ///< seconds, see finalStandstill()
+        double finalSteering_{0.0};    ///< radians, see finalSteering()
     };
 }  // namespace parking

@@ -9,9 +9,9 @@ namespace parking
         the commanded speed (the integral of the commanded acceleration) so when the drive's acceleration lags. */
     struct LagStep
     {
-        double ofCommand{1.0};
-        double ofBefore{0.0};
-        double ofValue{0.0};
+        double ofCommand{1.0};  ///< share of the command after the step
+        double ofBefore{0.0};   ///< share of the command before it
+        double ofValue{0.0};    ///< share of the value before it; the three add up to 1
 
         LagStep() = default;
 
@@ -64,6 +64,7 @@ namespace parking
         {
         }
 
+        /** \brief Seconds that the wheels lag behind, as far as is known. */
         double lag() const
         {
             return estimator_.lag();
@@ -89,6 +90,7 @@ namespace parking
         {
         }
 
+        /** \brief Seconds that the drive lags behind, as far as is known. */
         double lag() const
         {
             return estimator_.lag();

@@ -19,9 +19,9 @@ namespace parking
     /** \brief How a drive is simulated. */
     struct ClosedLoopParameters
     {
-        TrackingParameters tracking;
-        Disturbances disturbances;
-        double plantStep{0.005};  ///< seconds of integration
+        TrackingParameters tracking;  ///< of the controller
+        Disturbances disturbances;    ///< what makes the simulated car differ from the controller's model
+        double plantStep{0.005};      ///< seconds of integration
         /** Metres that the body moves at most between two collision checks. */
         double checkDistance{0.02};
         /** Seconds after which the drive is stopped: this share of the timed path's duration, and a minute. */
@@ -50,7 +50,7 @@ namespace parking
         Trajectory trajectory;            ///< the driven one, a point per period and one at the end
         std::vector<DriveRecord> log;     ///< a record per period
         std::vector<std::string> events;  ///< with their times: failures, stops
-        Evaluation evaluation;
+        Evaluation evaluation;            ///< figures of the drive
     };
 
     /** \brief Drives a simulated car along a path, or through a motion in time.
@@ -71,8 +71,13 @@ namespace parking
         /** \brief Throws parking::Error when \e vehicle or \e parameters are not valid. */
         ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters = {});
 
+        /** \brief Whom to ask how near obstacles are. Without a clearance and a validity nothing is checked. */
         void setClearance(Clearance clearance);
+
+        /** \brief Whom to ask, beside the clearance, whether a pose is free. */
         void setValidity(Validity validity);
+
+        /** \brief Who may stop the drive; empty: nobody. */
         void setMonitor(Monitor monitor);
         /** \brief Replaces the optimiser (see TrackingController). */
         void setSolve(TrackingController::Solve solve);

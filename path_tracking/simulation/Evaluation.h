@@ -12,11 +12,12 @@ namespace parking
     /** \brief Median, 99th percentile and maximum of a set of durations (nearest rank; 0 for an empty set). */
     struct TimeStatistics
     {
-        double median{0.0};
-        double p99{0.0};
-        double max{0.0};
+        double median{0.0};  ///< in the unit of the values
+        double p99{0.0};     ///< likewise
+        double max{0.0};     ///< likewise
     };
 
+    /** \brief Statistics of \e values, which need no order; in their unit. */
     TimeStatistics timeStatistics(std::vector<double> values);
 
     /** \brief The paper's evaluation parameters of a drive ("Evaluation Parameters"; planning time is the planner's),
@@ -42,11 +43,11 @@ namespace parking
         double cornerDeviation{0.0};      ///< metres between path and reference, where it has sharp corners
         /** Metres, least of the clearances along the drive; infinity without a clearance to ask. */
         double minClearance{std::numeric_limits<double>::infinity()};
-        std::size_t collisions{0};  ///< checked poses in collision
-        std::size_t checkedPoses{0};
-        std::size_t standstills{0};  ///< between legs
-        TimeStatistics solveTime;    ///< seconds per optimisation
-        std::size_t solves{0};
-        std::size_t solverFailures{0};
+        std::size_t collisions{0};      ///< checked poses in collision
+        std::size_t checkedPoses{0};    ///< 0 when there was nobody to ask
+        std::size_t standstills{0};     ///< between legs
+        TimeStatistics solveTime;       ///< seconds per optimisation
+        std::size_t solves{0};          ///< optimisations, one for each period on a leg
+        std::size_t solverFailures{0};  ///< of these, with an answer that was of no use
     };
 }  // namespace parking

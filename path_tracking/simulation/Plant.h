@@ -14,9 +14,10 @@ namespace parking
     /** \brief From one second of a drive to another. */
     struct TimeSpan
     {
-        double begin{0.0};
-        double end{0.0};
+        double begin{0.0};  ///< seconds since the first command
+        double end{0.0};    ///< seconds, the first moment behind it
 
+        /** \brief Does \e time, in seconds, lie in it? */
         bool contains(double time) const
         {
             return time >= begin && time < end;
@@ -57,12 +58,13 @@ namespace parking
         /** \brief What the car is really doing. */
         struct State
         {
-            Pose pose;
+            Pose pose;                 ///< of the rear axle; yaw wrapped
             double speed{0.0};         ///< m/s over ground
             double steering{0.0};      ///< radians, of the wheels, offset included
             double acceleration{0.0};  ///< m/s^2 over ground
         };
 
+        /** \brief At this moment. */
         State state() const;
 
         /** \brief The next measurement; noise advances with every call. */

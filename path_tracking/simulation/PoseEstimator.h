@@ -29,6 +29,7 @@ namespace parking
     class PoseEstimator
     {
     public:
+        /** \brief Throws parking::Error for invalid \e parameters. \param wheelbase metres */
         PoseEstimator(double wheelbase, const EstimatorParameters &parameters);
 
         /** \brief Begins with \e measurement. */
@@ -40,6 +41,7 @@ namespace parking
         /** \brief Takes over a measured pose. */
         void correct(const Pose &measured);
 
+        /** \brief Where the car is thought to be, of the rear axle. */
         const Pose &pose() const
         {
             return pose_;
@@ -57,11 +59,13 @@ namespace parking
             return steering_ + steeringOffset_;
         }
 
+        /** \brief As measured last, m/s, negative in reverse. */
         double measuredSpeed() const
         {
             return speed_;
         }
 
+        /** \brief As measured last, radians. */
         double measuredSteering() const
         {
             return steering_;

@@ -24,8 +24,8 @@ namespace parking
         wheelbase. */
     struct TimedMotion
     {
-        Pose start;
-        std::vector<MotionKnot> knots;
+        Pose start;                     ///< where the car stands at the first knot
+        std::vector<MotionKnot> knots;  ///< in order of time
 
         /** \brief Seconds from the first knot to the last; 0 without knots. */
         double duration() const
@@ -41,10 +41,12 @@ namespace parking
     /** \brief A short part of a motion along which speed and steering are linear in time. */
     struct MotionPart
     {
-        double begin;  ///< seconds
-        double end;    ///< seconds
-        MotionKnot from, to;
-        Pose before, after;  ///< yaw not wrapped
+        double begin;     ///< seconds
+        double end;       ///< seconds
+        MotionKnot from,  ///< at \e begin
+            to;           ///< at \e end
+        Pose before,      ///< at \e begin; yaw not wrapped
+            after;        ///< at \e end; yaw not wrapped
     };
 
     /** \brief Integrates \e motion (Runge-Kutta of fourth order) and calls \e visit with its parts in order, none of
@@ -72,7 +74,7 @@ namespace parking
         double time{0.0};              ///< T, seconds
         double controlEffort{0.0};     ///< integral of a^2 + (v w)^2, with the steering rate w
         double steeringIntegral{0.0};  ///< integral of the squared steering angle
-        std::size_t gearChanges{0};
+        std::size_t gearChanges{0};    ///< changes of direction
 
         /** \brief J. */
         double total() const

@@ -18,6 +18,7 @@ namespace parking
         double steeringRate{0.0};  ///< rad/s
     };
 
+    /** \brief A drive in time: its moments in order. */
     using Trajectory = std::vector<TrajectoryPoint>;
 
     /** \brief The trajectory as comma separated values: a line of names (t,x,y,yaw,v,a,steering,steering_rate), then a

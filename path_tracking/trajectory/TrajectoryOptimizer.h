@@ -25,10 +25,10 @@ namespace parking
         double step{0.3};  ///< seconds between two nodes, about
 
         // What of the car's limits is used, so that a controller has something left to correct with. In (0, 1].
-        double speedShare{1.0};
-        double accelerationShare{1.0};
-        double steeringShare{1.0};  ///< of the steering angle; where the path needs more the motion may fail
-        double steeringRateShare{1.0};
+        double speedShare{1.0};         ///< of the speed limit
+        double accelerationShare{1.0};  ///< of the acceleration limit, along the path
+        double steeringShare{1.0};      ///< of the steering angle; where the path needs more the motion may fail
+        double steeringRateShare{1.0};  ///< of the steering rate
 
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
         std::optional<double> finalSteering{0.0};    ///< likewise at the end
@@ -74,6 +74,7 @@ namespace parking
             Throws parking::Error for invalid options and a car whose limits are not positive and finite. */
         explicit TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options = {});
 
+        /** \brief The options as given. */
         const TrajectoryOptions &options() const
         {
             return options_;

@@ -76,5 +76,7 @@ extern "C"
 
     /** \brief The numbers of an output, until the next call that makes them anew. */
     const double *playground_output(int which);
+
+    /** \brief How many numbers playground_output() has for \e which. */
     std::size_t playground_output_size(int which);
 }

@@ -23,10 +23,12 @@ namespace parking::python
     class ScenarioHandle
     {
     public:
+        /** \brief Nothing is built yet. */
         explicit ScenarioHandle(Scenario scenario) : scenario_(std::make_shared<const Scenario>(std::move(scenario)))
         {
         }
 
+        /** \brief Obstacles, car, start and goals, in local coordinates. */
         const Scenario &scenario() const
         {
             return *scenario_;
@@ -35,6 +37,7 @@ namespace parking::python
         /** \brief The planner; null when \e interrupted, asked every 2 ms while it is made, says so. */
         const ScenarioPlanner *planner(const std::function<bool()> &interrupted) const;
 
+        /** \brief Made on the first call, which takes its time; from several threads it is made once. */
         const ScenarioPlanner &planner() const
         {
             return *planner({});
@@ -59,16 +62,17 @@ namespace parking::python
         mutable std::shared_future<LoadedPointer> loaded_;
     };
 
+    /** \brief Shared by all results, which outlive the Python object of their scenario. */
     using ScenarioPointer = std::shared_ptr<const ScenarioHandle>;
 
     /** \brief A trajectory in world coordinates, with what is known of it. */
     struct TrajectoryHandle
     {
-        Trajectory points;
-        double duration{0.0};
-        bool fallback{false};
-        std::string reason;
-        TpcapCost cost;
+        Trajectory points;     ///< in world coordinates, 0.05 s apart
+        double duration{0.0};  ///< seconds
+        bool fallback{false};  ///< is it the path with standstills?
+        std::string reason;    ///< why there is none better; empty otherwise
+        TpcapCost cost;        ///< TPCAP's
     };
 
     /** \brief What plan() and ParkingPlanner return have in common: a path in a scenario. */
@@ -77,15 +81,19 @@ namespace parking::python
     public:
         virtual ~PathHandle() = default;
 
+        /** \brief The scenario of the path. */
         const ScenarioHandle &scenario() const
         {
             return *scenario_;
         }
+
+        /** \brief The same, to be kept. */
         const ScenarioPointer &scenarioPointer() const
         {
             return scenario_;
         }
 
+        /** \brief Is there a path, exact or not? */
         bool hasPath() const
         {
             return hasPath_;
@@ -106,16 +114,23 @@ namespace parking::python
         const TrajectoryHandle &trajectory(const std::function<bool()> &interrupted) const;
 
     protected:
+        /** \brief The derived class sets \e hasPath_ and \e path_. */
         explicit PathHandle(ScenarioPointer scenario) : scenario_(std::move(scenario))
         {
         }
+
+        /** \brief The path in states at most 0.1 m apart, in local coordinates; empty without a path. */
         virtual SampledPath states() const = 0;
+
+        /** \brief Metres between body (or circle) and obstacles, the least along the path. */
         virtual double measureClearance() const = 0;
+
+        /** \brief What trajectory() keeps, in local coordinates. */
         virtual QuickestTrajectory optimize(const std::function<bool()> &interrupted) const = 0;
 
-        ScenarioPointer scenario_;
-        bool hasPath_{false};
-        Path path_;
+        ScenarioPointer scenario_;  ///< never null
+        bool hasPath_{false};       ///< see hasPath()
+        Path path_;                 ///< in local coordinates, see path()
 
     private:
         mutable std::mutex mutex_;            // of what is made without asking for signals
@@ -129,12 +144,16 @@ namespace parking::python
     class PlanHandle final : public PathHandle
     {
     public:
+        /** \brief \param parameters that were planned with */
         PlanHandle(ScenarioPointer scenario, ScenarioPlan plan, PlannerParameters parameters);
 
+        /** \brief What the search came to. */
         const ScenarioPlan &plan() const
         {
             return plan_;
         }
+
+        /** \brief What was planned with. */
         const PlannerParameters &parameters() const
         {
             return parameters_;
@@ -153,8 +172,10 @@ namespace parking::python
     class ParkingHandle final : public PathHandle
     {
     public:
+        /** \brief \e plan was made in \e scenario. */
         ParkingHandle(ScenarioPointer scenario, ParkingPlan plan);
 
+        /** \brief What planning came to, stage by stage. */
         const ParkingPlan &plan() const
         {
             return plan_;

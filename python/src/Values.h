@@ -24,12 +24,26 @@ namespace parking::python
     /** \brief Throws "FIELD must be RIGHT, not VALUE". */
     [[noreturn]] void failFor(const py::handle &value, const std::string &field, const std::string &right);
 
+    /** \brief Throws unless \e value is a number. */
     double numberFrom(const py::handle &value, const std::string &field);
+
+    /** \brief Throws unless \e value is True or False. */
     bool flagFrom(const py::handle &value, const std::string &field);
+
+    /** \brief Throws unless \e value is a whole number that is not negative. */
     std::size_t countFrom(const py::handle &value, const std::string &field);
+
+    /** \brief Throws unless \e value is a str. */
     std::string textFrom(const py::handle &value, const std::string &field);
+
+    /** \brief Throws unless \e value is three numbers: x and y in metres, yaw in radians. */
     Pose poseFrom(const py::handle &value, const std::string &field);
+
+    /** \brief Throws unless \e value is an array of n rows x, y, in metres. */
     Polygon polygonFrom(const py::handle &value, const std::string &field);
+
+    /** \brief A map from a 2-D array of whole numbers or bool, the first row lowest: 0 free, 1 occupied, -1 or 2
+        unknown. \param resolution metres of a cell \param origin of the first cell's corner */
     OccupancyGrid gridFrom(const py::handle &cells, double resolution, const Pose &origin);
 
     /** \brief An array of n rows of x, y, yaw. */
@@ -56,6 +70,7 @@ namespace parking::python
         }
     }
 
+    /** \brief The tuple x, y, yaw. */
     py::tuple toPython(const Pose &pose);
 
     /** \brief An array that shows memory of \e owner, without copying; read only. */
@@ -69,6 +84,8 @@ namespace parking::python
 
     /** \brief Values by the names of parameterTable(). */
     PlannerParameters parametersFrom(const py::dict &values);
+
+    /** \brief All parameters, by the names of parameterTable(). */
     py::dict toPython(const PlannerParameters &parameters);
 
     /** \brief The parameters as lines of a docstring. */

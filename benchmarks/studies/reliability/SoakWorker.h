@@ -30,11 +30,14 @@ namespace parking
     class SoakWorker
     {
     public:
+        /** \brief \param seed of all that is random in this worker \param queries counts those of all workers; must
+            outlive them */
         SoakWorker(const SoakSettings &settings, std::uint64_t seed, std::atomic<std::uint64_t> &queries);
 
         /** \brief Works until \e stop. */
         void work(const std::atomic<bool> &stop);
 
+        /** \brief What has been done so far. */
         SoakFigures figures() const;
 
     private:

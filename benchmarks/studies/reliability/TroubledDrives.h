@@ -13,7 +13,7 @@ namespace parking
     /** \brief What goes wrong on a drive, beside an obstacle that may appear. */
     enum class Trouble
     {
-        None,
+        None,       ///< a car and measurements as they should be
         Dropout,    ///< no pose is measured for 0.1 to 1.5 s, once or twice
         Stuck,      ///< the wheels stay where they are for 0.2 to 3 s
         Wheelbase,  ///< 3 % longer or shorter than the controller believes
@@ -21,19 +21,22 @@ namespace parking
         Delay,      ///< commands arrive 0.3 s late
         Several     ///< the last three together
     };
+
+    /** \brief Number of values that a Trouble has. */
     constexpr std::size_t TROUBLES = static_cast<std::size_t>(Trouble::Several) + 1;
 
+    /** \brief A few words for tables: "wheelbase wrong by 3 %". */
     std::string toString(Trouble trouble);
 
     /** \brief What came of one. */
     struct TroubledDrive
     {
-        Trouble trouble{Trouble::None};
-        ParkingStatus status{ParkingStatus::NoPath};
-        std::string message;
-        bool stands{false};    ///< at the end
-        bool appeared{false};  ///< did an obstacle appear on the way that was being driven?
-        double ahead{0.0};     ///< metres left to it then
+        Trouble trouble{Trouble::None};               ///< what went wrong
+        ParkingStatus status{ParkingStatus::NoPath};  ///< how it ended
+        std::string message;                          ///< one line, of the pipeline
+        bool stands{false};                           ///< at the end
+        bool appeared{false};                         ///< did an obstacle appear on the way that was being driven?
+        double ahead{0.0};                            ///< metres left to it then
         /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
            down as hard as this car can? */
         bool avoidable{false};

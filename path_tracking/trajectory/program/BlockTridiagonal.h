@@ -9,7 +9,9 @@ namespace parking
 {
     /** \brief Variables of one node of a motion program: see MotionProgram. */
     constexpr int NODE_SIZE = 6;
+    /** \brief A number for each variable of a node, in the order of NodeEntry. */
     using NodeVector = Eigen::Matrix<double, NODE_SIZE, 1>;
+    /** \brief A block that couples the variables of two nodes, or those of one. */
     using NodeMatrix = Eigen::Matrix<double, NODE_SIZE, NODE_SIZE>;
 
     /** \brief A symmetric matrix of blocks that couples neighbours only, and its Cholesky factorisation.
@@ -22,6 +24,7 @@ namespace parking
         /** \brief Gives the matrix \e size rows of blocks, all zero. */
         void reset(std::size_t size);
 
+        /** \brief Number of blocks on the diagonal. */
         std::size_t size() const
         {
             return diagonal.size();

@@ -11,10 +11,10 @@ namespace parking
     /** \brief A convex obstacle: corners counter-clockwise, and the lines of its sides. */
     struct ConvexPiece
     {
-        std::vector<Eigen::Vector2d> corners;
+        std::vector<Eigen::Vector2d> corners;  ///< metres, counter-clockwise, no two of them in one place
         std::vector<Eigen::Vector2d> normals;  ///< outwards, of unit length; side k leads from corner k to the next
         std::vector<double> offsets;           ///< normals[k] . p = offsets[k] on side k
-        Box box;
+        Box box;                               ///< round the corners
 
         /** \brief \e corners counter-clockwise; sides shorter than a micrometre are left out. */
         explicit ConvexPiece(std::vector<Eigen::Vector2d> corners);

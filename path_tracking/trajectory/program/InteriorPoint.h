@@ -11,11 +11,11 @@ namespace parking
     /** \brief How a MotionProgram is solved. */
     struct InteriorPointOptions
     {
-        double firstBarrier{5e-3};  ///< seconds; a large one forgets where the search began
-        double lastBarrier{2e-5};   ///< seconds
-        std::size_t mostIterations{150};
-        double jointTolerance{1e-6};  ///< metres and radians that joints may gape at the end
-        double limitTolerance{1e-7};  ///< by which inequalities may be missed at the end
+        double firstBarrier{5e-3};        ///< seconds; a large one forgets where the search began
+        double lastBarrier{2e-5};         ///< seconds
+        std::size_t mostIterations{150};  ///< steps, after which the search ends as it is
+        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end
+        double limitTolerance{1e-7};      ///< by which inequalities may be missed at the end
     };
 
     /** \brief How a search ended. */
@@ -30,11 +30,11 @@ namespace parking
     /** \brief What solveMotion() found. */
     struct InteriorPointResult
     {
-        InteriorPointStatus status{InteriorPointStatus::Infeasible};
-        std::vector<NodeVector> nodes;
-        std::size_t iterations{0};
-        double cost{0.0};
-        double gap{0.0};        ///< metres or radians, the widest at a joint
+        InteriorPointStatus status{InteriorPointStatus::Infeasible};  ///< what the nodes are good for
+        std::vector<NodeVector> nodes;                                ///< where the search ended
+        std::size_t iterations{0};                                    ///< steps taken
+        double cost{0.0};                                             ///< of the motion, as MotionWeights say
+        double gap{0.0};                                              ///< metres or radians, the widest at a joint
         double violation{0.0};  ///< of the inequality that holds least; 0 when all hold
     };
 

@@ -10,9 +10,9 @@ namespace parking
 {
     /** \brief Entries of the two nodes of an interval, those of its begin first. @{ */
     constexpr int PAIR_SIZE = 2 * NODE_SIZE;
-    using PairVector = Eigen::Matrix<double, PAIR_SIZE, 1>;
-    using PairMatrix = Eigen::Matrix<double, PAIR_SIZE, PAIR_SIZE>;
-    using GapRows = Eigen::Matrix<double, 3, PAIR_SIZE>;
+    using PairVector = Eigen::Matrix<double, PAIR_SIZE, 1>;          ///< a number for each entry
+    using PairMatrix = Eigen::Matrix<double, PAIR_SIZE, PAIR_SIZE>;  ///< a number for each two entries
+    using GapRows = Eigen::Matrix<double, 3, PAIR_SIZE>;  ///< derivatives of the gaps in x, y and yaw, a row each
     /** @} */
 
     /** \brief What an interval adds to the system of a MotionProgram, by the entries of its two nodes. */
@@ -23,7 +23,8 @@ namespace parking
         PairVector gradient{PairVector::Zero()};  ///< of the rest of the Lagrangian
         PairVector shift{PairVector::Zero()};     ///< right side of the system plus gradient of the Lagrangian
         /** What the curvature of the ways at the two ends (see IntervalModel) is multiplied with. @{ */
-        Eigen::Vector3d wayAtBegin{Eigen::Vector3d::Zero()}, wayAtEnd{Eigen::Vector3d::Zero()};
+        Eigen::Vector3d wayAtBegin{Eigen::Vector3d::Zero()},  ///< where the interval begins
+            wayAtEnd{Eigen::Vector3d::Zero()};                ///< the same where it ends
         /** @} */
 
         /** \brief Adds to an entry of the Hessian beside the diagonal and to its mirror image. */
@@ -40,10 +41,10 @@ namespace parking
         in these. */
     struct SpanTerms
     {
-        Eigen::Matrix<double, 12, 12> hessian{Eigen::Matrix<double, 12, 12>::Zero()};
-        Eigen::Matrix<double, 12, 1> gradient{Eigen::Matrix<double, 12, 1>::Zero()};
-        Eigen::Matrix<double, 12, 1> shift{Eigen::Matrix<double, 12, 1>::Zero()};
-        Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};  ///< gradient of the cost
+        Eigen::Matrix<double, 12, 12> hessian{Eigen::Matrix<double, 12, 12>::Zero()};  ///< of the rows
+        Eigen::Matrix<double, 12, 1> gradient{Eigen::Matrix<double, 12, 1>::Zero()};  ///< of the rows in the Lagrangian
+        Eigen::Matrix<double, 12, 1> shift{Eigen::Matrix<double, 12, 1>::Zero()};  ///< what they add to the right side
+        Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};   ///< gradient of the cost
 
         /** \brief Adds derivatives by the pose at \e fraction. */
         void add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,

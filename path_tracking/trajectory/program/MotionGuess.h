@@ -26,10 +26,13 @@ namespace parking
             \param window metres to either side over which the steering angle is averaged, positive */
         StretchGuess(const Path &path, const Vehicle &vehicle, double window);
 
+        /** \brief 1 forwards, -1 in reverse. */
         int direction() const
         {
             return direction_;
         }
+
+        /** \brief Seconds. */
         double duration() const
         {
             return points_.back().t;

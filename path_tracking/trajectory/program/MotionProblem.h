@@ -49,7 +49,7 @@ namespace parking
     /** \brief Where along an interval rows have to hold. */
     struct MotionCheckpoint
     {
-        std::size_t interval{0};
+        std::size_t interval{0};  ///< index into MotionProblem::directions
         double fraction{1.0};     ///< of the interval's time, above 0 and up to 1
         std::size_t firstRow{0};  ///< into the rows of the problem
         std::size_t lastRow{0};   ///< one behind
@@ -74,8 +74,8 @@ namespace parking
         of its ends. Intervals of one stretch last equally long. At a standstill the pose stays. */
     struct MotionProblem
     {
-        Vehicle vehicle;  ///< the limits, and the wheelbase
-        MotionWeights weights;
+        Vehicle vehicle;        ///< the limits, and the wheelbase
+        MotionWeights weights;  ///< what counts as the cost
         /** Metres beyond a row from which on it costs nothing to be near; nearer the price grows with the square of
             what is missing. */
         double clearance{0.0};
@@ -84,7 +84,7 @@ namespace parking
         std::vector<NodeVector> nodes;              ///< one more than intervals: where to begin
         std::vector<std::uint8_t> fixed;            ///< per node, bit by bit: entries that keep their value
         std::vector<MotionCheckpoint> checkpoints;  ///< by interval
-        std::vector<BodyRow> rows;
+        std::vector<BodyRow> rows;                  ///< demands on poses, grouped by checkpoint
 
         /** \brief Does this entry of a node keep its value? */
         bool isFixed(std::size_t node, int entry) const

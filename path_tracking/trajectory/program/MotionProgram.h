@@ -26,12 +26,16 @@ namespace parking
     class MotionProgram
     {
     public:
+        /** \brief Takes over a problem, and makes the inequalities of its limits. */
         explicit MotionProgram(MotionProblem problem);
 
+        /** \brief The problem as given. */
         const MotionProblem &problem() const
         {
             return problem_;
         }
+
+        /** \brief Number of intervals, one less than of nodes. */
         std::size_t intervals() const
         {
             return problem_.directions.size();
@@ -53,10 +57,13 @@ namespace parking
             joints eliminated: W + G^T (z / s) G + A^T A / \e softness. */
         void linearize(const std::vector<NodeVector> &nodes, const MotionDuals &duals, double barrier, double softness);
 
+        /** \brief The matrix of the linearisation, to be factorised by the caller. */
         BlockTridiagonal &system()
         {
             return system_;
         }
+
+        /** \brief The right side of the linear system, a vector for each node. */
         const std::vector<NodeVector> &right() const
         {
             return right_;

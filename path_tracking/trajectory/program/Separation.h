@@ -14,10 +14,11 @@ namespace parking
     /** \brief A line that keeps a body and a convex piece apart: a side of either. */
     struct Separator
     {
-        bool ofBody{false};
+        bool ofBody{false};    ///< of the body, and otherwise of the piece
         std::size_t piece{0};  ///< whose side it is, unless of the body
         std::size_t side{0};   ///< of the body: 0 front, 1 left, 2 rear, 3 right
 
+        /** \brief Are they the same side? */
         bool operator==(const Separator &other) const
         {
             return ofBody == other.ofBody && side == other.side && (ofBody || piece == other.piece);
@@ -27,10 +28,10 @@ namespace parking
     /** \brief Where separation is asked for: a pose of a guessed motion. */
     struct GuessedCheckpoint
     {
-        std::size_t interval{0};
-        double fraction{1.0};  ///< of the interval
-        Pose pose;
-        bool fixed{false};  ///< the pose keeps what it is: nothing is demanded of it
+        std::size_t interval{0};  ///< index into MotionProblem::directions
+        double fraction{1.0};     ///< of the interval
+        Pose pose;                ///< guessed there
+        bool fixed{false};        ///< the pose keeps what it is: nothing is demanded of it
     };
 
     /** \brief What SeparationPlan needs to know. */
