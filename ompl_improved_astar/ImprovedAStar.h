@@ -13,6 +13,11 @@
 #include <string>
 #include <vector>
 
+/** \namespace ompl
+    \brief OMPL's own namespace, to which this project adds one planner. */
+
+/** \namespace ompl::geometric
+    \brief OMPL's planners of paths without time, ImprovedAStar among them. */
 namespace ompl::geometric
 {
     /** \anchor gImprovedAStar
@@ -65,6 +70,7 @@ namespace ompl::geometric
     class ImprovedAStar : public base::Planner
     {
     public:
+        /** \brief A planner with the default parameters for the space of \e si, which setup() looks at. */
         explicit ImprovedAStar(const base::SpaceInformationPtr &si);
         ~ImprovedAStar() override;
 
@@ -76,8 +82,13 @@ namespace ompl::geometric
         void setProblemDefinition(const base::ProblemDefinitionPtr &pdef) override;
 
         using base::Planner::solve;
+
+        /** \brief Plans until the problem is solved, or shown to have no solution, or \e ptc says so.
+
+            A problem without solution is a status, not an exception. Throws ompl::Exception where setup() does. */
         base::PlannerStatus solve(const base::PlannerTerminationCondition &ptc) override;
 
+        /** \brief Forgets the query, and the memory and set-up with it; parameters stay. */
         void clear() override;
 
         /** \brief Forgets starts, goals and frontiers, but keeps memory and what depends on the space only. */
@@ -104,9 +115,10 @@ namespace ompl::geometric
         /** \brief What the last query did. */
         parking::search::SearchStatistics statistics() const;
 
-        /** \brief States and motions that were checked; of those, how many needed FCL (known with
-            parking::FclFootprintChecker only). */
+        /** \brief States and motions that were checked. */
         std::uint64_t checkedStates() const;
+
+        /** \brief How many of checkedStates() needed FCL; known with parking::FclFootprintChecker only, otherwise 0. */
         std::uint64_t exactChecks() const;
 
         /** \brief The best solution in exact form; nullptr without one. */

@@ -23,35 +23,43 @@
 
 namespace ompl::geometric
 {
-    // Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on a plain
-    // SE2 space a hundredth of the radius keeps the chord within a hundred-thousandth of the radius of the arc.
+    /** \brief Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on
+        a plain SE2 space a hundredth of the radius keeps the chord within a hundred-thousandth of the radius of the
+        arc. */
     constexpr double DENSE_SPACING = 0.01;
 
     /** What belongs to one query, and the memory that outlives it. */
     struct ImprovedAStar::Query
     {
-        std::optional<parking::CurveSpace> space;
+        std::optional<parking::CurveSpace> space;  ///< set by setup()
+
+        /** \brief With an FclFootprintChecker and a model that does not turn on the spot; otherwise null. */
         std::unique_ptr<parking::FootprintEnvironment> footprintEnvironment;
+
+        /** \brief The world where there is no footprintEnvironment, and for its last word. */
         std::unique_ptr<parking::StateSpaceEnvironment> stateEnvironment;
-        parking::search::PathPlanner planner;
-        parking::search::CarInSpace car;
-        bool turnsOnTheSpot{false};  ///< the motion model's paths do
-        bool begun{false};
-        parking::PlannerParameters parameters;  ///< those that the query was begun with
-        base::GoalPtr goal;                     ///< the one that the query was begun for
-        std::vector<parking::Pose> starts, goals;
-        std::optional<parking::Pose> fallbackTarget;
-        parking::search::PlanOutcome outcome{parking::search::PlanOutcome::Timeout};
-        std::string reason;
-        bool hasSolution{false};
-        parking::Path path;                 ///< the best one by the problem's objective
-        std::vector<parking::Pose> states;  ///< of it, for OMPL
-        base::Cost bestCost{std::numeric_limits<double>::infinity()};
+
+        parking::search::PathPlanner planner;         ///< does the planning
+        parking::search::CarInSpace car;              ///< what the planner has to know of car and space
+        bool turnsOnTheSpot{false};                   ///< the motion model's paths do
+        bool begun{false};                            ///< whether the planner was told of this query
+        parking::PlannerParameters parameters;        ///< those that the query was begun with
+        base::GoalPtr goal;                           ///< the one that the query was begun for
+        std::vector<parking::Pose> starts,            ///< valid ones, as far as they were read
+            goals;                                    ///< likewise
+        std::optional<parking::Pose> fallbackTarget;  ///< a goal to come near to when none is valid
+        parking::search::PlanOutcome outcome{parking::search::PlanOutcome::Timeout};  ///< of the last solve()
+        std::string reason;                                            ///< why there is no solution, where known
+        bool hasSolution{false};                                       ///< there is an exact one: path
+        parking::Path path;                                            ///< the best one by the problem's objective
+        std::vector<parking::Pose> states;                             ///< of it, for OMPL
+        base::Cost bestCost{std::numeric_limits<double>::infinity()};  ///< of path
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: length and closeness, in metres
         std::vector<parking::Pose> solution;       ///< what was reported last, when it was exact
-        base::SpaceInformationPtr si;
+        base::SpaceInformationPtr si;              ///< that of the planner
         std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
 
+        /** \brief A query that has not begun. */
         explicit Query(base::SpaceInformationPtr information) : si(std::move(information))
         {
         }
@@ -64,16 +72,19 @@ namespace ompl::geometric
             freeDataStates();
         }
 
+        /** \brief Is the space a plain SE2 space? */
         bool isPlain() const
         {
             return space->kind() == parking::SpaceKind::SE2;
         }
 
+        /** \brief Smallest turning radius in metres: the space's own or, on a plain SE2 space, the parameter. */
         double turningRadius() const
         {
             return isPlain() ? parameters.turningRadius : space->turningRadius();
         }
 
+        /** \brief How far apart the states of a path may be in this space. */
         parking::StateSpacing stateSpacing() const
         {
             const double radius = turningRadius();
@@ -82,6 +93,7 @@ namespace ompl::geometric
             return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius};
         }
 
+        /** \brief Ends the query; what depends on the space only is kept, and memory too. */
         void forget()
         {
             freeDataStates();
@@ -98,6 +110,7 @@ namespace ompl::geometric
             objective.reset();
         }
 
+        /** \brief Frees the states that planner data was given. */
         void freeDataStates()
         {
             for (std::vector<base::State *> &group : dataStates)

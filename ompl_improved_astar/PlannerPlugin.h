@@ -10,9 +10,9 @@ namespace parking
     /** \brief A planner that a plug-in offers to parking_plan and parking_benchmark. */
     struct PluginPlanner
     {
-        std::string name;     ///< in .cfg files and for --planner: letters, digits and _ . + -
-        std::string summary;  ///< one line for --help
-        ompl::base::PlannerAllocator allocate;
+        std::string name;                       ///< in .cfg files and for --planner: letters, digits and _ . + -
+        std::string summary;                    ///< one line for --help
+        ompl::base::PlannerAllocator allocate;  ///< makes the planner; must not be empty
         /** Does the planner go on improving its solution until the time is up? Then it is handed path length as its
             objective, whose isSatisfied() should be asked for each new best solution: that is how its cost over time is
             recorded. */
@@ -34,9 +34,9 @@ namespace parking
         The first two members are looked at before anything else of the library is used, and must not move. */
     struct PlannerPlugin
     {
-        int interfaceVersion;  ///< of this header
-        int omplVersion;       ///< that the plug-in was built with
-        void (*addPlanners)(PluginPlanners &planners);
+        int interfaceVersion;                           ///< of this header
+        int omplVersion;                                ///< that the plug-in was built with
+        void (*addPlanners)(PluginPlanners &planners);  ///< called once, adds all planners of the library
     };
 
     /** \brief Changes whenever anything in this header does. */

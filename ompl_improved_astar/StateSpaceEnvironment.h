@@ -66,6 +66,7 @@ namespace parking
             return headingMatters_;
         }
 
+        /** \brief States whose validity was asked for since construction, but by the motion validator. */
         std::uint64_t checkedStates() const
         {
             return checkedStates_;

@@ -9,9 +9,10 @@ namespace parking
         In which frame it lies is said where it is used. A rectangle at any angle is an OrientedBox. */
     struct Box
     {
-        Eigen::Vector2d min{0.0, 0.0};
-        Eigen::Vector2d max{0.0, 0.0};
+        Eigen::Vector2d min{0.0, 0.0};  ///< the lower left corner
+        Eigen::Vector2d max{0.0, 0.0};  ///< the upper right corner
 
+        /** \brief Lengths along x and y in metres; negative where max lies below min. */
         Eigen::Vector2d size() const
         {
             return max - min;

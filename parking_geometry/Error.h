@@ -10,6 +10,7 @@ namespace parking
     class Error : public std::runtime_error
     {
     public:
+        /** \brief An error that says \e message. */
         explicit Error(const std::string &message) : std::runtime_error(message)
         {
         }

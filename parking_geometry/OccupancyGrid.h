@@ -13,9 +13,9 @@ namespace parking
     /** \brief What a map says of a cell. A map that says nothing of it (Unknown) will never say more. */
     enum class Cell : std::uint8_t
     {
-        Free = 0,
-        Occupied = 1,
-        Unknown = 2
+        Free = 0,      ///< no obstacle in it
+        Occupied = 1,  ///< an obstacle, as large as the cell
+        Unknown = 2    ///< nothing was seen of it: an obstacle or not, as the user says
     };
 
     /** \brief A map of square cells.
@@ -36,10 +36,13 @@ namespace parking
         OccupancyGrid(std::size_t width, std::size_t height, double resolution, const Pose &origin = {},
                       Cell fill = Cell::Free);
 
+        /** \brief Number of columns. */
         std::size_t width() const
         {
             return width_;
         }
+
+        /** \brief Number of rows. */
         std::size_t height() const
         {
             return height_;
@@ -49,19 +52,26 @@ namespace parking
         {
             return resolution_;
         }
+
+        /** \brief The lower left corner of the map in the frame of its user: metres, radians. */
         const Pose &origin() const
         {
             return origin_;
         }
+
+        /** \brief Moves the map; the cells stay as they are. The pose must be finite, which is not checked. */
         void setOrigin(const Pose &origin)
         {
             origin_ = origin;
         }
 
+        /** \brief What is known of a cell, which must lie in the map: that is not checked. */
         Cell at(std::size_t column, std::size_t row) const
         {
             return cells_[row * width_ + column];
         }
+
+        /** \brief Changes a cell, which must lie in the map: that is not checked. */
         void set(std::size_t column, std::size_t row, Cell cell)
         {
             cells_[row * width_ + column] = cell;

@@ -10,25 +10,27 @@
 
 namespace parking
 {
+    /** \brief How a slot lies to the aisle or lane that it is entered from. */
     enum class SlotKind
     {
-        Perpendicular,
-        Parallel,
-        Angled
+        Perpendicular,  ///< at a right angle
+        Parallel,       ///< along it
+        Angled          ///< at ParkingSlot::angle
     };
 
+    /** \brief How a car may drive into a slot. */
     enum class SlotEntry
     {
-        Reverse,
-        Forward,
-        Either
+        Reverse,  ///< tail first
+        Forward,  ///< nose first
+        Either    ///< whichever works; reverse is tried first
     };
 
     /** \brief On which side of the aisle the slot lies, seen along ParkingSlot::aisleYaw(). */
     enum class SlotSide
     {
-        Right,
-        Left,
+        Right,  ///< on the right-hand side
+        Left,   ///< on the left-hand side
         Either  ///< not said: manoeuvres try the right side first, then the left
     };
 
@@ -40,11 +42,11 @@ namespace parking
         the lane beside it and a car ends with heading pose.yaw. */
     struct ParkingSlot
     {
-        SlotKind kind{SlotKind::Perpendicular};
-        Pose pose;           ///< centre of the slot
-        double length{5.0};  ///< metres along the parked car
-        double width{2.5};   ///< metres across the parked car
-        SlotEntry entry{SlotEntry::Reverse};
+        SlotKind kind{SlotKind::Perpendicular};  ///< how it lies to the aisle
+        Pose pose;                               ///< centre of the slot
+        double length{5.0};                      ///< metres along the parked car
+        double width{2.5};                       ///< metres across the parked car
+        SlotEntry entry{SlotEntry::Reverse};     ///< how it may be entered
 
         /** Angled slots: between +x of the pose and the aisle, radians in (0, pi/2]. Other kinds ignore it. */
         double angle{0.25 * PI};

@@ -2,8 +2,12 @@
 
 #include <cmath>
 
+/** \brief Everything of this project but the planner's own class, ompl::geometric::ImprovedAStar.
+
+    Units are metres, radians, seconds and what follows from them, unless a name says otherwise. */
 namespace parking
 {
+    /** \brief Half the circumference of the unit circle. */
     constexpr double PI = 3.14159265358979323846;
 
     /** \brief An angle brought into [-pi, pi]. \param angle radians, finite. */
@@ -23,6 +27,7 @@ namespace parking
         double yaw{0.0};  ///< radians, counter-clockwise from +x
     };
 
+    /** \brief Are all three numbers finite? */
     inline bool isFinite(const Pose &pose)
     {
         return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);

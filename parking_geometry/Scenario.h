@@ -25,16 +25,16 @@ namespace parking
         part of its body. */
     struct Scenario
     {
-        std::string name;
-        Vehicle vehicle;
-        Pose start;
-        std::vector<Pose> goals;            ///< at least one; several when the slot may be entered either way
-        std::optional<ParkingSlot> slot;    ///< present when the file described a slot
-        std::vector<Polygon> polygons;      ///< obstacles of a polygon world
-        std::optional<OccupancyGrid> grid;  ///< obstacles of a grid world
-        bool unknownIsOccupied{true};       ///< how unknown cells of the grid count
-        Box bounds;                         ///< local; for a grid world the box round the map
-        Eigen::Vector2d worldOffset{0.0, 0.0};
+        std::string name;                       ///< for titles and results
+        Vehicle vehicle;                        ///< the car that shall park
+        Pose start;                             ///< where the car stands, local
+        std::vector<Pose> goals;                ///< at least one; several when the slot may be entered either way
+        std::optional<ParkingSlot> slot;        ///< present when the file described a slot
+        std::vector<Polygon> polygons;          ///< obstacles of a polygon world
+        std::optional<OccupancyGrid> grid;      ///< obstacles of a grid world
+        bool unknownIsOccupied{true};           ///< how unknown cells of the grid count
+        Box bounds;                             ///< local; for a grid world the box round the map
+        Eigen::Vector2d worldOffset{0.0, 0.0};  ///< metres; where the local origin lies in the coordinates of the file
 
         /** \brief Expresses a local pose in the coordinates of the file. */
         Pose toWorld(const Pose &local) const

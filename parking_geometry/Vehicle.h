@@ -17,7 +17,7 @@ namespace parking
         Planning Competition of Automated Parking (TPCAP). */
     struct Vehicle
     {
-        std::string name{"tpcap"};
+        std::string name{"tpcap"};      ///< for results; one of vehicleNames() or of the user's own
         double wheelbase{2.8};          ///< rear axle to front axle
         double frontOverhang{0.96};     ///< front axle to front bumper
         double rearOverhang{0.929};     ///< rear axle to rear bumper

@@ -17,11 +17,13 @@ namespace parking
         /** \brief \param radius metres, positive; otherwise parking::Error */
         CircleChecker(ObstacleSet obstacles, double radius);
 
+        /** \brief Radius of the circle in metres. */
         double radius() const
         {
             return radius_;
         }
 
+        /** \brief What the circle must not touch. */
         const ObstacleSet &obstacles() const
         {
             return obstacles_;

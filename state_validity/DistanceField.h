@@ -43,14 +43,19 @@ namespace parking
         DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
                       double resolution);
 
+        /** \brief Side of a cell in metres. */
         double resolution() const
         {
             return resolution_;
         }
+
+        /** \brief Number of cells along the local x. */
         std::size_t columns() const
         {
             return columns_;
         }
+
+        /** \brief Number of cells along the local y. */
         std::size_t rows() const
         {
             return rows_;

@@ -28,6 +28,7 @@ namespace parking
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;
 
+        /** \brief How far from a queried point edges matter, in metres. */
         double reach() const
         {
             return reach_;

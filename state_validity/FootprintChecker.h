@@ -23,6 +23,7 @@ namespace parking
         std::uint64_t byEdges{0};        ///< decided by the separation from the obstacles' edges
         std::uint64_t byContactTest{0};  ///< within CONTACT_BAND of contact: decided by the contact test
 
+        /** \brief Adds up, tier by tier. */
         CheckCounts &operator+=(const CheckCounts &other);
     };
 
@@ -58,18 +59,25 @@ namespace parking
         FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
                          ContactTestMaker contact = {}, double fieldResolution = 0.0);
 
+        /** \brief The car, without the margin. */
         const Vehicle &vehicle() const
         {
             return vehicle_;
         }
+
+        /** \brief Metres by which the body is enlarged on each of its four sides. */
         double margin() const
         {
             return margin_;
         }
+
+        /** \brief What the body must not touch. */
         const ObstacleSet &obstacles() const
         {
             return obstacles_;
         }
+
+        /** \brief The distances that the first tier looks at. */
         const DistanceField &field() const
         {
             return field_;

@@ -16,8 +16,8 @@ namespace parking
     /** \brief A straight piece of an obstacle's outline, in local coordinates. */
     struct Edge
     {
-        Eigen::Vector2d from;
-        Eigen::Vector2d to;
+        Eigen::Vector2d from;  ///< one end, metres
+        Eigen::Vector2d to;    ///< the other end, metres
     };
 
     /** \brief The obstacles of a world, in the form that every collision test of this library starts from.
@@ -93,10 +93,14 @@ namespace parking
         {
             return cells_;
         }
+
+        /** \brief Cells in a row of cells(); 0 for a polygon world. */
         std::size_t columns() const
         {
             return columns_;
         }
+
+        /** \brief Rows of cells(); 0 for a polygon world. */
         std::size_t rows() const
         {
             return rows_;

@@ -9,9 +9,12 @@ namespace parking
     /** \brief A rectangle at a place in the local frame: centre, heading as cosine and sine, half lengths. */
     struct OrientedBox
     {
-        double x, y;
-        double cosine, sine;
-        double halfLength, halfWidth;
+        double x,           ///< of the centre, metres
+            y;              ///< of the centre, metres
+        double cosine,      ///< of the heading
+            sine;           ///< of the heading
+        double halfLength,  ///< metres from the centre to either end along the heading
+            halfWidth;      ///< metres from the centre to either side
     };
 
     /** \brief The body of a car whose rear axle is at \e pose. \param centreOffset of its middle ahead of the axle */

@@ -23,6 +23,7 @@ namespace parking::search
     class Frontier
     {
     public:
+        /** \brief Empty, and not usable before begin(). */
         explicit Frontier(Side side) : side_(side)
         {
         }
@@ -34,27 +35,37 @@ namespace parking::search
             \param turnsRatio each finer level gets so many times fewer turns */
         void begin(const std::string &openList, std::size_t levels, double turnsRatio);
 
+        /** \brief The end of the problem that it grows from. */
         Side side() const
         {
             return side_;
         }
 
+        /** \brief Adds a root that costs nothing and holds no cell; it is not yet open. */
         NodeIndex addRoot(const Pose &pose);
 
+        /** \brief The roots in the order in which they were added. */
         const std::vector<NodeIndex> &roots() const
         {
             return roots_;
         }
+
+        /** \brief The poses of roots(), in that order. */
         std::vector<Pose> rootPoses() const;
 
+        /** \brief All nodes; a NodeIndex is a position among them. */
         const std::vector<Node> &nodes() const
         {
             return nodes_;
         }
+
+        /** \brief A node to be changed. The reference holds until a node is added. */
         Node &node(NodeIndex index)
         {
             return nodes_[index];
         }
+
+        /** \brief A node. The reference holds until a node is added. */
         const Node &node(NodeIndex index) const
         {
             return nodes_[index];
@@ -76,10 +87,13 @@ namespace parking::search
             return static_cast<NodeIndex>(nodes_.size() - 1);
         }
 
+        /** \brief Puts a node into the list of that level of a queue; see OpenList::push(). */
         void push(std::size_t queue, std::size_t level, double f, double h, NodeIndex index)
         {
             queues_[queue].open[level]->push(f, h, index);
         }
+
+        /** \brief Takes the best entry out of such a list, which must not be empty. The entry may be stale. */
         OpenList::Entry pop(std::size_t queue, std::size_t level)
         {
             return queues_[queue].open[level]->pop();
@@ -109,6 +123,7 @@ namespace parking::search
         /** \brief The level whose turn it is among those of a queue with open nodes. */
         std::size_t chooseLevel(std::size_t queue) const;
 
+        /** \brief Notes that the level had its turn; chooseLevel() goes by that. */
         void countTurn(std::size_t queue, std::size_t level)
         {
             ++queues_[queue].turns[level];
@@ -119,6 +134,8 @@ namespace parking::search
         {
             return queues_.front().open;
         }
+
+        /** \brief The same, to be changed. */
         std::vector<std::unique_ptr<OpenList>> &openLists()
         {
             return queues_.front().open;
@@ -136,7 +153,7 @@ namespace parking::search
         NodeIndex bestClosed{NO_NODE};  ///< the closed node that the other side is joined with, or aims at
         double bestClosedCost{0.0};     ///< by which it is the best
         double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root
-        std::uint64_t expansionsWhenExhausted{0};
+        std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
         std::optional<Pose> aim;  ///< what its estimates count to, when it is not the other side's roots
 
     private:

@@ -13,12 +13,12 @@ namespace parking::search
     /** \brief What a heuristic is asked about in a query. */
     struct HeuristicQuery
     {
-        MotionEnvironment &environment;
-        const SearchParameters &parameters;
-        Side side;                         ///< of the poses that are asked about
-        const std::vector<Pose> &roots;    ///< of that side
-        const std::vector<Pose> &targets;  ///< of the other side; at least one
-        const StopFunction &stop;          ///< for what takes long; may be empty
+        MotionEnvironment &environment;      ///< the world
+        const SearchParameters &parameters;  ///< of the search
+        Side side;                           ///< of the poses that are asked about
+        const std::vector<Pose> &roots;      ///< of that side
+        const std::vector<Pose> &targets;    ///< of the other side; at least one
+        const StopFunction &stop;            ///< for what takes long; may be empty
     };
 
     /** \brief What it costs at least, or about, to get from a pose to the nearest of some targets: the interchangeable

@@ -17,8 +17,8 @@ namespace parking::search
     /** \brief A motion from a node and the pose that it leads to, not yet a node. */
     struct Successor
     {
-        Motion motion;
-        Pose pose;
+        Motion motion;         ///< from the node, as seen from the root outwards
+        Pose pose;             ///< where it leads to
         bool farthest{false};  ///< see Node::farthest
         double clear{-1.0};    ///< metres at its beginning known to keep the preferred clearance; negative: unknown
     };

@@ -20,8 +20,8 @@ namespace parking::search
     class Registry
     {
     public:
-        using Factory = std::function<std::unique_ptr<Part>()>;
-        using Entry = std::pair<std::string, Factory>;
+        using Factory = std::function<std::unique_ptr<Part>()>;  ///< makes a part
+        using Entry = std::pair<std::string, Factory>;           ///< a name and what makes the part
 
         /** \brief \param what the kind of part in an error message, for example "motion_model" */
         Registry(std::string what, std::initializer_list<Entry> entries) : what_(std::move(what)), entries_(entries)

@@ -54,6 +54,7 @@ namespace parking::search
     class Search
     {
     public:
+        /** \brief Empty, and not usable before begin(). */
         Search();
 
         /** \brief Forgets everything and begins a new query.
@@ -66,6 +67,8 @@ namespace parking::search
         {
             addRoot(Side::Start, pose);
         }
+
+        /** \brief The same for a goal; there is then no target of setTarget() any more. */
         void addGoal(const Pose &pose)
         {
             hasTarget_ = false;
@@ -91,11 +94,13 @@ namespace parking::search
             return full_;
         }
 
+        /** \brief Why the last run() ended with Exhausted; None when it did not. */
         Exhaustion exhaustion() const
         {
             return exhaustion_;
         }
 
+        /** \brief Has a path from a start to a goal been found? */
         bool hasSolution() const
         {
             return bestCost_ < std::numeric_limits<double>::infinity();
@@ -111,6 +116,7 @@ namespace parking::search
             return bestPath_;
         }
 
+        /** \brief The motion model of the query. */
         const MotionModel &model() const
         {
             return *model_;
@@ -123,6 +129,7 @@ namespace parking::search
             return parameters_.cost;
         }
 
+        /** \brief Has a goal been added? */
         bool hasGoal() const
         {
             return !frontier(Side::Goal).roots().empty();
@@ -162,11 +169,13 @@ namespace parking::search
             return prepared_ && frontier(Side::Start).isExhausted();
         }
 
+        /** \brief What has grown from that end. */
         const Frontier &frontier(Side side) const
         {
             return frontiers_[static_cast<std::size_t>(side)];
         }
 
+        /** \brief What was done since begin(). */
         const SearchStatistics &statistics() const;
 
         /** \brief Seconds spent on eagerObstacles. */

@@ -19,6 +19,7 @@ namespace parking::search
         double nearDistance{5.0};  ///< metres, straight
         double tieBreak{1e-3};     ///< p
 
+        /** \brief w + p at so many metres from the target. */
         double at(double distance) const
         {
             return (distance > nearDistance ? far : near) + tieBreak;
@@ -41,17 +42,17 @@ namespace parking::search
         unsigned int headingBins{72};         ///< cells of heading for steps of one metre
         double inscribedRadius{0.0};          ///< metres: no obstacle can be nearer to the rear axle than this
         Box bounds;                           ///< what the grids search, and eagerObstacles looks at beforehand
-        HeuristicWeights weights;
-        bool bidirectional{true};       ///< search from the goal and the start; otherwise from one side only
-        bool searchFromGoal{true};      ///< the side, when not bidirectional
-        bool adaptiveResolution{true};  ///< refine where coarse steps do not get through
-        bool analyticExpansion{true};   ///< join the two sides by curves
-        bool obstacleHeuristic{true};   ///< guide round obstacles by ObstacleHeuristic
-        bool detours{true};             ///< try other ways round obstacles when stuck
-        bool eagerObstacles{false};     ///< find out what is free before the search instead of during it
+        HeuristicWeights weights;             ///< how much estimates count
+        bool bidirectional{true};             ///< search from the goal and the start; otherwise from one side only
+        bool searchFromGoal{true};            ///< the side, when not bidirectional
+        bool adaptiveResolution{true};        ///< refine where coarse steps do not get through
+        bool analyticExpansion{true};         ///< join the two sides by curves
+        bool obstacleHeuristic{true};         ///< guide round obstacles by ObstacleHeuristic
+        bool detours{true};                   ///< try other ways round obstacles when stuck
+        bool eagerObstacles{false};           ///< find out what is free before the search instead of during it
         std::size_t maxMemory{std::size_t{512} << 20};  ///< bytes of nodes, cells and lists; the search stops there
-        CostModel cost;
-        SearchTuning tuning;
+        CostModel cost;                                 ///< what motions cost
+        SearchTuning tuning;                            ///< constants behind it all
     };
 
     /** \brief What a search did. */

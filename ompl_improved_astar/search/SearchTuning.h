@@ -77,10 +77,10 @@ namespace parking::search
 
         /** \name Improving until stopped
             @{ */
-        std::uint64_t expansionsPerRound{200};
-        double weightDecay{0.8};  ///< factor on the weights from round to round, down to 1
-        std::uint64_t shorteningsPerRound{3};
-        std::uint64_t leastRounds{50};  ///< before a search that finds nothing more may end
+        std::uint64_t expansionsPerRound{200};  ///< before the weights change
+        double weightDecay{0.8};                ///< factor on the weights from round to round, down to 1
+        std::uint64_t shorteningsPerRound{3};   ///< passes, each with other knots
+        std::uint64_t leastRounds{50};          ///< before a search that finds nothing more may end
         /** @} */
     };
 
@@ -89,11 +89,11 @@ namespace parking::search
         Fixed when the project is built: all planners of a process share the table. Chosen as those of SearchTuning. */
     struct CurveTableCells
     {
-        static constexpr double NEAR{1.5};        ///< within this the cells are finer
-        static constexpr double NEAR_SIDE{0.04};  ///< of a cell near the targets
-        static constexpr double FAR_SIDE{0.16};   ///< and farther away
-        static constexpr int NEAR_HEADINGS{180};
-        static constexpr int FAR_HEADINGS{60};
+        static constexpr double NEAR{1.5};                   ///< within this the cells are finer
+        static constexpr double NEAR_SIDE{0.04};             ///< of a cell near the targets
+        static constexpr double FAR_SIDE{0.16};              ///< and farther away
+        static constexpr int NEAR_HEADINGS{180};             ///< cells round the circle, near the targets
+        static constexpr int FAR_HEADINGS{60};               ///< and farther away
         static constexpr double FARTHEST{2047.0};            ///< columns and rows; what lies beyond is not tabulated
         static constexpr std::size_t SLOTS{1u << 15};        ///< lengths that are remembered
         static constexpr std::size_t FIRST_SLOTS{1u << 10};  ///< of them in use until there is more to remember

@@ -26,12 +26,20 @@ namespace parking
         double turn{0.0};       ///< radians turned on the spot, positive to the left; the other members are then 0
 
         PathPiece() = default;
+
+        /** \brief A drive.
+
+            \param curvatureAtBegin 1/m, positive to the left
+            \param signedLength metres, negative in reverse
+            \param change 1/m^2, the sharpness */
         PathPiece(double curvatureAtBegin, double signedLength, double change = 0.0)
           : curvature(curvatureAtBegin),
             length(signedLength),
             sharpness(change)
         {
         }
+
+        /** \brief The arc as a piece. */
         PathPiece(const Arc &arc) : curvature(arc.curvature), length(arc.length)
         {
         }
@@ -84,7 +92,7 @@ namespace parking
         those with which it is left). */
     struct PathState
     {
-        Pose pose;
+        Pose pose;              ///< of the rear axle; Path::sample() wraps the yaw
         double arcLength{0.0};  ///< metres driven since the start, never decreasing
         double curvature{0.0};  ///< 1/m, positive to the left
         int direction{1};       ///< 1 forwards, -1 in reverse
@@ -97,9 +105,9 @@ namespace parking
     /** \brief A part of a path between two cusps: driven in one direction, from piece \e first to before \e last. */
     struct Stretch
     {
-        std::size_t first{0};
-        std::size_t last{0};
-        int direction{1};  ///< 1 forwards, -1 in reverse
+        std::size_t first{0};  ///< index of its first piece in Path::pieces
+        std::size_t last{0};   ///< index of the piece behind its last one
+        int direction{1};      ///< 1 forwards, -1 in reverse
     };
 
     /** \brief A path in exact form: where it starts, and its pieces in the order in which they are driven.
@@ -108,8 +116,8 @@ namespace parking
         are never guessed back from samples. */
     struct Path
     {
-        Pose start;
-        std::vector<PathPiece> pieces;
+        Pose start;                     ///< pose of the rear axle at the beginning
+        std::vector<PathPiece> pieces;  ///< what is driven from there, in order
 
         /** \brief Metres driven, both directions counted positive. */
         double length() const;

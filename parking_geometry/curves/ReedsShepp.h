@@ -16,8 +16,8 @@ namespace parking
         start of its own. */
     struct ReedsSheppCurve
     {
-        std::array<Arc, 5> pieces{};
-        std::size_t count{0};
+        std::array<Arc, 5> pieces{};  ///< the first \e count of them are driven, in this order
+        std::size_t count{0};         ///< how many pieces; 0 from a pose to itself, and where there is no curve
         double length{std::numeric_limits<double>::infinity()};  ///< metres, both directions counted positive
 
         /** \brief Number of changes between forwards and reverse. */
@@ -44,11 +44,13 @@ namespace parking
         /** \brief \param turningRadius metres, positive and finite (otherwise parking::Error). */
         explicit ReedsShepp(double turningRadius, CurveFamily family = CurveFamily::ReedsShepp);
 
+        /** \brief Radius of all arcs in metres. */
         double turningRadius() const
         {
             return radius_;
         }
 
+        /** \brief Which curves are considered. */
         CurveFamily family() const
         {
             return family_;

@@ -12,44 +12,46 @@ namespace parking
     /** \brief Colours that mean the same in every figure of the project. */
     namespace svg_colour
     {
-        constexpr const char *FORWARD = "#2563eb";
-        constexpr const char *REVERSE = "#ea580c";
-        constexpr const char *START = "#334155";
-        constexpr const char *GOAL = "#059669";
-        constexpr const char *OBSTACLE = "#b4bdca";
-        constexpr const char *OBSTACLE_EDGE = "#66717f";
-        constexpr const char *UNKNOWN = "#e1e6ed";
+        constexpr const char *FORWARD = "#2563eb";        ///< driven forwards
+        constexpr const char *REVERSE = "#ea580c";        ///< driven in reverse
+        constexpr const char *START = "#334155";          ///< the car where it stands
+        constexpr const char *GOAL = "#059669";           ///< the car where it shall stand, and its slot
+        constexpr const char *OBSTACLE = "#b4bdca";       ///< inside of an obstacle
+        constexpr const char *OBSTACLE_EDGE = "#66717f";  ///< outline of an obstacle
+        constexpr const char *UNKNOWN = "#e1e6ed";        ///< cells of which nothing is known; outside of the map
+
+        /** \brief What a simulated car drove, where it stands beside what was planned. */
         constexpr const char *DRIVEN = "#be185d";
     }  // namespace svg_colour
 
     /** \brief How a shape is drawn. Widths and dashes in pixels. */
     struct SvgStyle
     {
-        std::string fill{"none"};
-        std::string stroke{"none"};
-        double strokeWidth{1.0};
-        double fillOpacity{1.0};
-        double strokeOpacity{1.0};
-        std::string dash;  ///< for example "6 4"; empty: solid
+        std::string fill{"none"};    ///< colour of the inside as in SVG
+        std::string stroke{"none"};  ///< colour of the outline as in SVG
+        double strokeWidth{1.0};     ///< of the outline
+        double fillOpacity{1.0};     ///< 0 (invisible) to 1
+        double strokeOpacity{1.0};   ///< 0 (invisible) to 1
+        std::string dash;            ///< for example "6 4"; empty: solid
     };
 
     /** \brief What lies above what on a map. */
     enum class SvgLayer
     {
-        Ground,
-        Obstacles,
-        Sweep,  ///< footprints along a path
-        Lines,
-        Cars,
-        Marks  ///< texts and symbols
+        Ground,     ///< lowest: unknown cells, the slot
+        Obstacles,  ///< polygons and occupied cells
+        Sweep,      ///< footprints along a path
+        Lines,      ///< paths
+        Cars,       ///< outlines of the car at start and goals
+        Marks       ///< texts and symbols
     };
 
     /** \brief An entry of the legend: a sample of the style beside its meaning. */
     struct SvgLegendEntry
     {
-        std::string label;
-        SvgStyle style;
-        bool line{false};  ///< the sample is a stroke, otherwise a box
+        std::string label;  ///< plain text; listed once
+        SvgStyle style;     ///< of the sample
+        bool line{false};   ///< the sample is a stroke, otherwise a box
     };
 
     /** \brief The map panel of a figure: shapes in metres, y up, at equal scale.
@@ -69,10 +71,14 @@ namespace parking
         {
             return view_;
         }
+
+        /** \brief Pixels across the panel. */
         double width() const
         {
             return width_;
         }
+
+        /** \brief Pixels down the panel; follows from the view. */
         double height() const
         {
             return height_;
@@ -83,6 +89,7 @@ namespace parking
             return scale_;
         }
 
+        /** \brief A closed shape. \param corners metres */
         void drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style);
 
         /** \brief An open line. */
@@ -99,6 +106,8 @@ namespace parking
 
         /** \brief Explains a style in the figure's legend; the same label is listed once. */
         void addLegend(const SvgLegendEntry &entry);
+
+        /** \brief What addLegend() was told, in that order. */
         const std::vector<SvgLegendEntry> &legend() const
         {
             return legend_;

@@ -10,29 +10,29 @@ namespace parking
     /** \brief A curve of a plot. Values that are not finite interrupt it. */
     struct SvgSeries
     {
-        std::string label;  ///< empty: not listed
-        std::vector<double> x;
+        std::string label;      ///< empty: not listed
+        std::vector<double> x;  ///< in the unit of the axis
         std::vector<double> y;  ///< as many as x
         std::string colour;     ///< empty: the next one of the palette
-        bool dashed{false};
+        bool dashed{false};     ///< drawn as dashes, otherwise solid
     };
 
     /** \brief A stretch of the x axis with a tinted background, for example where the car drives in reverse. */
     struct SvgBand
     {
-        double begin{0.0};
-        double end{0.0};
-        std::string colour;
+        double begin{0.0};   ///< value of x
+        double end{0.0};     ///< value of x, not less than begin
+        std::string colour;  ///< as in SVG; drawn pale
     };
 
     /** \brief A line plot: a panel below the map. */
     struct SvgPlot
     {
-        std::string title;
-        std::string xLabel;
-        std::string yLabel;
-        std::vector<SvgSeries> series;
-        std::vector<SvgBand> bands;
+        std::string title;                                ///< above the panel
+        std::string xLabel;                               ///< with the unit
+        std::string yLabel;                               ///< with the unit
+        std::vector<SvgSeries> series;                    ///< drawn in this order
+        std::vector<SvgBand> bands;                       ///< behind all series
         std::optional<std::pair<double, double>> xRange;  ///< without it: that of the values
         std::optional<std::pair<double, double>> yRange;  ///< without it: that of the values, with some room
         std::vector<double> limits;                       ///< values of y marked by dashed lines

@@ -19,7 +19,15 @@ namespace parking
     /** \brief The keys of a vehicle in files: name and the fields of Vehicle in snake case. */
     Vehicle vehicleFromYaml(const YamlMap &map);
 
-    // Readers of the formats, from text that is already in memory. \e file is named in errors.
+    /** \brief readTpcapCase() from text that is already in memory.
+
+        \param file named in errors
+        \param vehicle as for readVehicle(); empty: the car of TPCAP */
     Scenario parseTpcapCase(const std::string &file, const std::string &text, const std::string &vehicle);
+
+    /** \brief readYamlScenario() from text that is already in memory.
+
+        \param file named in errors, and where a vehicle file that it names is looked for
+        \param vehicle as for readVehicle(), in the place of the one that the text names; empty: that one */
     Scenario parseYamlScenario(const std::string &file, const std::string &text, const std::string &vehicle);
 }  // namespace parking

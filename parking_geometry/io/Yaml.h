@@ -29,16 +29,21 @@ namespace parking
             files of other programs, where more keys may stand than are read here. */
         void refuseMisspelt(const std::vector<std::string> &known) const;
 
+        /** \brief Is the key there, whatever its value? */
         bool has(const std::string &key) const;
 
-        // Each of these throws when the key is missing, and when its value is not of the kind.
-        YAML::Node node(const std::string &key) const;
-        std::string text(const std::string &key) const;
-        double number(const std::string &key) const;
-        bool flag(const std::string &key) const;
-        Pose pose(const std::string &key) const;
-        YamlMap map(const std::string &key) const;
+        /** \name Values
+            Each of these throws parking::Error when the key is missing, and when its value is not of the kind.
+            @{ */
+        YAML::Node node(const std::string &key) const;   ///< of any kind
+        std::string text(const std::string &key) const;  ///< a word or text, not empty
+        double number(const std::string &key) const;     ///< finite
+        bool flag(const std::string &key) const;         ///< true, yes, on, 1; false, no, off, 0
+        Pose pose(const std::string &key) const;         ///< a list x, y, yaw; the yaw is wrapped
+        YamlMap map(const std::string &key) const;       ///< called key in messages
+        /** @} */
 
+        /** \brief number(), or \e otherwise when the key is missing. */
         double numberOr(const std::string &key, double otherwise) const;
 
         /** \brief One of \e names, as its position among them. */
@@ -53,6 +58,7 @@ namespace parking
         /** \brief The same for the line on which the value of \e key stands. */
         [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
 
+        /** \brief The file that messages name. */
         const std::string &file() const
         {
             return file_;

@@ -19,9 +19,10 @@ namespace parking
         Pose parked;  ///< where the search begins
         std::vector<Pose>
             exits;  ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
-        Eigen::Vector2d min{0.0, 0.0}, max{0.0, 0.0};  ///< box, in the frame of the poses, within which to look
-        SlotEntry entry{SlotEntry::Reverse};           ///< Reverse or Forward
-        SlotSide side{SlotSide::Right};                ///< Right or Left
+        Eigen::Vector2d min{0.0, 0.0},        ///< lower left corner of the box within which to look, frame of the poses
+            max{0.0, 0.0};                    ///< its upper right corner, metres
+        SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
+        SlotSide side{SlotSide::Right};       ///< Right or Left
     };
 
     /** \brief The task for \e slot, entered that way.

@@ -30,9 +30,10 @@ namespace parking
         double preferredRadius{0.0};
     };
 
+    /** \brief Whether there is a manoeuvre, and otherwise what is in its way. */
     enum class ReverseParkingStatus
     {
-        Fits,
+        Fits,            ///< there is one
         SlotTooShort,    ///< parallel: R_min > R_max, the corner A of the car would hit the bound P of the slot
         SlotTooNarrow,   ///< no room beside the car, or (parallel) its tail would swing over the kerb
         AisleTooNarrow,  ///< no radius gets the car round within the aisle
@@ -42,7 +43,7 @@ namespace parking
     /** \brief A manoeuvre into a slot, or why there is none. */
     struct ReverseParkingResult
     {
-        ReverseParkingStatus status{ReverseParkingStatus::Blocked};
+        ReverseParkingStatus status{ReverseParkingStatus::Blocked};  ///< whether there is one, or what is missing
         std::string message;  ///< one line; what is missing, in centimetres, unless the manoeuvre fits
 
         SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
@@ -62,6 +63,7 @@ namespace parking
         double neededAisleWidth{0.0};  ///< metres: the narrowest aisle in which this slot can be entered in one sweep
         double missing{0.0};           ///< metres of what status names; 0 when it fits or is blocked
 
+        /** \brief Is there a manoeuvre? */
         bool fits() const
         {
             return status == ReverseParkingStatus::Fits;
@@ -103,11 +105,13 @@ namespace parking
         /** \brief One result per allowed entry and side: each one that fits is a goal the planner may choose. */
         std::vector<ReverseParkingResult> planAll(const ParkingSlot &slot, const FootprintQueries &world = {}) const;
 
+        /** \brief The car that manoeuvres are made for. */
         const Vehicle &vehicle() const
         {
             return vehicle_;
         }
 
+        /** \brief What was said beforehand. */
         const ReverseParkingOptions &options() const
         {
             return options_;

@@ -14,8 +14,10 @@ namespace parking
     struct Rectangle
     {
         Eigen::Vector2d place{0.0, 0.0};  ///< of its frame, metres
-        double cosine{1.0}, sine{0.0};    ///< of the heading of its frame
-        double rear{0.0}, front{0.0};     ///< metres along that heading; rear is negative behind the frame
+        double cosine{1.0},               ///< of the heading of its frame
+            sine{0.0};                    ///< of the same heading
+        double rear{0.0},                 ///< metres from the frame to its trailing side, negative behind the frame
+            front{0.0};                   ///< metres from the frame to its leading side
         double half{0.0};                 ///< metres to either side
 
         /** \brief A point in the frame of the rectangle. */
@@ -25,6 +27,7 @@ namespace parking
             return {cosine * off.x() + sine * off.y(), cosine * off.y() - sine * off.x()};
         }
 
+        /** \brief Its centre, in the coordinates of the world. */
         Eigen::Vector2d middle() const
         {
             return place + 0.5 * (rear + front) * Eigen::Vector2d(cosine, sine);
@@ -44,7 +47,8 @@ namespace parking
         /** \brief One of the straight lines of an outline. */
         struct Edge
         {
-            Eigen::Vector2d from, to;
+            Eigen::Vector2d from,  ///< one end, metres, in the coordinates of the world
+                to;                ///< the other end
         };
 
         Outlines() = default;

@@ -14,7 +14,7 @@ namespace parking
     /** \brief What may be wrong with a path. */
     enum class Fault
     {
-        None,
+        None,         ///< nothing is wrong
         NoPath,       ///< there is none: it has no state
         NotFinite,    ///< a number is missing or infinite, or so large that it is no place in the world
         WrongStart,   ///< it begins elsewhere than at the start
@@ -29,7 +29,7 @@ namespace parking
     /** \brief What the referee found. Without a path nothing is right, which is how it begins. */
     struct Verdict
     {
-        bool valid{false};
+        bool valid{false};              ///< nothing is wrong
         Fault fault{Fault::NoPath};     ///< the first one found; None when valid
         std::string reason{"no path"};  ///< what and where, in a few words; empty when valid
         std::size_t states{0};          ///< poses decided

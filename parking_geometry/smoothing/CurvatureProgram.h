@@ -50,8 +50,8 @@ namespace parking
         /** \brief Lateral deviations that the ends of the body may have at a node, metres; infinite for no limit. */
         struct Corridor
         {
-            double low{-std::numeric_limits<double>::infinity()};
-            double high{std::numeric_limits<double>::infinity()};
+            double low{-std::numeric_limits<double>::infinity()};  ///< to the right, usually negative
+            double high{std::numeric_limits<double>::infinity()};  ///< to the left
         };
 
         /** \brief Deviations at a node: y, psi and the curvature k itself. */
@@ -71,6 +71,7 @@ namespace parking
             states() is the solution; its y and psi are those of the linear model. */
         bool solve();
 
+        /** \brief What solve() found, one per node. */
         const std::vector<State> &states() const
         {
             return x_;

@@ -32,6 +32,7 @@ namespace parking
         std::size_t stops{0};  ///< joints that kept their jump of curvature: the car stops there to steer
         bool changed{false};   ///< false: it is what it was, for instance because it is one arc
 
+        /** \brief Can it be driven without stopping to steer? */
         bool isContinuous() const
         {
             return stops == 0;

@@ -20,6 +20,7 @@ namespace parking
     class StretchSmoother
     {
     public:
+        /** \brief For this car, whose parameters have to be valid. */
         explicit StretchSmoother(const Vehicle &vehicle);
 
         /** \brief Clearance in metres at a pose of the car, see FootprintQueries. */

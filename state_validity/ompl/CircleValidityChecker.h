@@ -35,17 +35,21 @@ namespace parking
 
         using ompl::base::StateValidityChecker::clearance;
         using ompl::base::StateValidityChecker::isValid;
+
+        /** \brief Does the position lie within the bounds of the space, with the circle round it free? */
         bool isValid(const ompl::base::State *state) const override;
 
         /** \brief The distance between the circle and the nearest obstacle; 0 when they touch. Exact up to a metre, a
             lower bound beyond. */
         double clearance(const ompl::base::State *state) const override;
 
+        /** \brief Radius of the circle in metres. */
         double radius() const
         {
             return circle_.radius();
         }
 
+        /** \brief What the circle must not touch. */
         const ObstacleSet &obstacles() const
         {
             return circle_.obstacles();

@@ -10,9 +10,9 @@ namespace parking
     /** \brief Which of OMPL's planar spaces a space is. */
     enum class SpaceKind
     {
-        SE2,
-        ReedsShepp,
-        Dubins
+        SE2,         ///< straight lines, along which the heading turns evenly
+        ReedsShepp,  ///< arcs at the turning radius, forwards and in reverse
+        Dubins       ///< the same, forwards only
     };
 
     /** \brief What OMPL's planar spaces do between two states, in the terms of this project.
@@ -26,6 +26,7 @@ namespace parking
             Throws ompl::Exception when it is neither an SE2, nor a Reeds-Shepp, nor a Dubins space. */
         explicit CurveSpace(const ompl::base::StateSpace &space);
 
+        /** \brief Which of them this one is. */
         SpaceKind kind() const
         {
             return kind_;

@@ -45,14 +45,19 @@ namespace parking
         FclFootprintChecker(const ompl::base::SpaceInformationPtr &si, const Scenario &scenario, double margin = 0.0);
 
         using ompl::base::StateValidityChecker::isValid;
+
+        /** \brief Does the state lie within the bounds of the space, with the enlarged body free? */
         bool isValid(const ompl::base::State *state) const override;
 
+        /** \brief A lower bound of the distance between the enlarged body and the obstacles in metres, as of
+            FootprintChecker::clearance(); 0 out of the bounds of the space. */
         double clearance(const ompl::base::State *state) const override;
 
         /** \brief The same; \e validStateAvailable becomes false and \e validState stays as it is. */
         double clearance(const ompl::base::State *state, ompl::base::State *validState,
                          bool &validStateAvailable) const override;
 
+        /** \brief What decides; it lives as long as this object. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;
@@ -71,6 +76,7 @@ namespace parking
             return counters_.sum();
         }
 
+        /** \brief Starts counts() from zero. */
         void resetCounts()
         {
             counters_.reset();

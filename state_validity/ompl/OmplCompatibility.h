@@ -17,7 +17,8 @@ namespace parking
         Overloads choose by what a type offers, never by a version number: packagers patch releases. */
     namespace ompl_compatibility
     {
-        // The shortest curve of a space is reedsShepp(from, to) or dubins(from, to) up to 1.6, later getPath(from, to).
+        /** \brief The shortest curve of a Reeds-Shepp space: reedsShepp(from, to), as up to OMPL 1.6. Call it with 0 as
+            the last argument, here and below, to get the overload that the release has. */
         template <class Space, class State>
         auto reedsSheppPath(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.reedsShepp(from, to))
@@ -25,6 +26,7 @@ namespace parking
             return space.reedsShepp(from, to);
         }
 
+        /** \brief The same as getPath(from, to), from OMPL 1.7 on. */
         template <class Space, class State>
         auto reedsSheppPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
             -> decltype(space.getPath(from, to))
@@ -32,6 +34,7 @@ namespace parking
             return space.getPath(from, to);
         }
 
+        /** \brief The shortest curve of a Dubins space: dubins(from, to), as up to OMPL 1.6. */
         template <class Space, class State>
         auto dubinsPath(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.dubins(from, to))
@@ -39,6 +42,7 @@ namespace parking
             return space.dubins(from, to);
         }
 
+        /** \brief The same as getPath(from, to), from OMPL 1.7 on. */
         template <class Space, class State>
         auto dubinsPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
             -> decltype(space.getPath(from, to))
@@ -46,13 +50,14 @@ namespace parking
             return space.getPath(from, to);
         }
 
-        // The kinds of a curve's pieces: a pointer to the first one, later a pointer to a vector of them.
+        /** \brief The kind of a piece of a curve, where the curve has a pointer to the first kind. */
         template <class Kind>
         Kind pieceKind(const Kind *kinds, std::size_t index)
         {
             return kinds[index];
         }
 
+        /** \brief The same where, in later releases, the curve has a pointer to a vector of kinds. */
         template <class Kind>
         Kind pieceKind(const std::vector<Kind> *kinds, std::size_t index)
         {
@@ -67,6 +72,7 @@ namespace parking
             return Status::INFEASIBLE;
         }
 
+        /** \brief The same for releases before 1.6. */
         template <class Status>
         Status infeasible(long /*otherwise*/)
         {
@@ -79,6 +85,7 @@ namespace parking
             __atomic_fetch_add(&counter, 1U, __ATOMIC_RELAXED);
         }
 
+        /** \brief The same where the counters are atomic. */
         template <class Integer>
         void countUp(std::atomic<Integer> &counter)
         {

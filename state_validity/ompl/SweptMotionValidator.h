@@ -30,7 +30,7 @@ namespace parking
     class SweptMotionValidator : public ompl::base::MotionValidator
     {
     public:
-        static constexpr double DEFAULT_TOLERANCE = 1e-3;
+        static constexpr double DEFAULT_TOLERANCE = 1e-3;  ///< metres
 
         /** \brief \param tolerance metres, positive; see above
 
@@ -43,6 +43,7 @@ namespace parking
             FclFootprintChecker (otherwise ompl::Exception). */
         explicit SweptMotionValidator(const ompl::base::SpaceInformationPtr &si, double tolerance = DEFAULT_TOLERANCE);
 
+        /** \brief Is \e s2 valid and the whole motion to it proven free? \e s1 is taken to be valid. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
 
         /** \brief The same. When the motion is not valid, \e lastValid becomes the fraction of the motion that is
@@ -50,16 +51,19 @@ namespace parking
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
                          std::pair<ompl::base::State *, double> &lastValid) const override;
 
+        /** \brief Metres by which the body is enlarged on the way; see above. */
         double tolerance() const
         {
             return tolerance_;
         }
 
+        /** \brief What motions are swept with. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;
         }
 
+        /** \brief The curves of the space. */
         const CurveSpace &curveSpace() const
         {
             return space_;
@@ -71,6 +75,7 @@ namespace parking
             return counters_.sum();
         }
 
+        /** \brief Starts counts() from zero. */
         void resetCounts()
         {
             counters_.reset();

@@ -16,6 +16,7 @@ namespace parking
     class TierCounters
     {
     public:
+        /** \brief Adds to what was counted so far, tier by tier. */
         void add(const CheckCounts &counts)
         {
             Line &line = lines_[lineOfThisThread()];
@@ -26,6 +27,7 @@ namespace parking
             add(line.byContactTest, counts.byContactTest);
         }
 
+        /** \brief What all threads have counted. */
         CheckCounts sum() const
         {
             CheckCounts counts;
@@ -37,6 +39,7 @@ namespace parking
             return counts;
         }
 
+        /** \brief Starts from zero. What others add meanwhile may be lost in part. */
         void reset()
         {
             for (Line &line : lines_)

@@ -8,12 +8,12 @@ namespace parking
         that starts along +x (direction 1) or -x (direction -1). */
     struct BoxSweep
     {
-        double halfLength;
-        double halfWidth;
-        double axle;       ///< x of the guided point, the rear axle, in the frame of the box
-        double curvature;  ///< 1/m, positive to the left
-        double direction;  ///< 1 forwards, -1 in reverse
-        double length;     ///< metres along the arc, not negative; curvature * length below pi
+        double halfLength;  ///< metres along x
+        double halfWidth;   ///< metres along y
+        double axle;        ///< x of the guided point, the rear axle, in the frame of the box
+        double curvature;   ///< 1/m, positive to the left
+        double direction;   ///< 1 forwards, -1 in reverse
+        double length;      ///< metres along the arc, not negative; curvature * length below pi
     };
 
     /** \brief How far beyond the end of a motion contacts are still reported by SweepFront and EdgeIndex, in metres:

@@ -13,18 +13,20 @@ namespace parking::search
     class CellTable
     {
     public:
-        static constexpr std::uint32_t NONE = 0xffffffffu;
+        static constexpr std::uint32_t NONE = 0xffffffffu;  ///< what find() gives for an empty cell
 
         CellTable() : slots_(1u << 12)
         {
         }
 
+        /** \brief Forgets all cells. */
         void clear()
         {
             ++generation_;
             size_ = 0;
         }
 
+        /** \brief The number that the cell holds; NONE when it is empty. */
         std::uint32_t find(std::uint64_t key) const
         {
             for (std::size_t i = place(key);; i = (i + 1) & (slots_.size() - 1))

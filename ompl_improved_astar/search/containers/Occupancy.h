@@ -10,8 +10,8 @@ namespace parking::search
         again does not change it. */
     enum class Occupancy : std::uint8_t
     {
-        Unknown,
-        Free,
-        Blocked
+        Unknown,  ///< not asked yet
+        Free,     ///< the car can be there
+        Blocked   ///< it cannot
     };
 }  // namespace parking::search

@@ -16,19 +16,21 @@ namespace parking::search
     class TiledGrid
     {
     public:
-        static constexpr std::int32_t TILE = 32;
-        static constexpr std::int32_t DIRECTORY = 128;
-        static constexpr std::int32_t REACH = TILE * DIRECTORY / 2;
+        static constexpr std::int32_t TILE = 32;                     ///< cells along the side of a tile
+        static constexpr std::int32_t DIRECTORY = 128;               ///< tiles along the side of the grid
+        static constexpr std::int32_t REACH = TILE * DIRECTORY / 2;  ///< cells from the origin to either side
 
         TiledGrid() : directory_(static_cast<std::size_t>(DIRECTORY) * DIRECTORY, 0)
         {
         }
 
+        /** \brief Does the cell lie within reach? False for what is no number. */
         static bool contains(double column, double row)
         {
             return column >= -REACH && row >= -REACH && column < REACH && row < REACH;
         }
 
+        /** \brief Does the cell lie within reach? */
         static bool contains(std::int32_t column, std::int32_t row)
         {
             return column >= -REACH && row >= -REACH && column < REACH && row < REACH;
@@ -78,6 +80,7 @@ namespace parking::search
             return touched_.size() * sizeof(Tile);
         }
 
+        /** \brief Forgets the values of all cells; memory is kept. */
         void clear()
         {
             for (const std::uint32_t place : touched_)

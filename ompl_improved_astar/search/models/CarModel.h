@@ -49,7 +49,7 @@ namespace parking::search
             return 3 * (known_[0].size() + known_[1].size()) * sizeof(Known);
         }
 
-        static constexpr std::size_t LEVELS = 7;
+        static constexpr std::size_t LEVELS = 7;  ///< of resolution, each with half the step of the one before
 
     private:
         /** Metres of a motion, signs left out, rounded down. */

@@ -13,8 +13,8 @@ namespace parking::search
     /** \brief From which end the pieces of a curve are swept. */
     enum class CurveEnd
     {
-        Start,
-        Goal
+        Start,  ///< the end where the curve begins
+        Goal    ///< the end where it ends
     };
 
     /** \brief Is the whole curve from \e from to \e to free? Both ends must be.

@@ -15,7 +15,8 @@ namespace parking::search
     /** \brief A step to a neighbour, in cells. */
     struct GridStep
     {
-        std::int32_t columns, rows;
+        std::int32_t columns,  ///< along x
+            rows;              ///< along y
     };
 
     /** \brief The paper's moves on a grid of positions ("Summary of Optimizations for Improved A* Algorithm").

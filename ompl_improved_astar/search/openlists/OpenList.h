@@ -21,18 +21,21 @@ namespace parking::search
         /** \brief A node that waits, with what it is ordered by. */
         struct Entry
         {
-            double f;
-            double h;
-            std::uint32_t sequence;
-            NodeIndex node;
+            double f;                ///< weighted cost of the whole way, the smallest first
+            double h;                ///< estimated cost of the way on, the smallest first among equal f
+            std::uint32_t sequence;  ///< insertion number, the smallest first among equal f and h
+            NodeIndex node;          ///< the node that waits
         };
 
         virtual ~OpenList() = default;
 
+        /** \brief Does no entry wait, stale ones included? */
         bool empty() const
         {
             return entries_.empty();
         }
+
+        /** \brief Number of entries, stale ones included. */
         std::size_t size() const
         {
             return entries_.size();
@@ -45,6 +48,7 @@ namespace parking::search
             sequence_ = 0;
         }
 
+        /** \brief Adds an entry. Neither f nor h may be NaN. */
         void push(double f, double h, NodeIndex node)
         {
             entries_.push_back({f, h, sequence_++, node});
@@ -89,6 +93,7 @@ namespace parking::search
         /** \brief Called when all may have changed. */
         virtual void arrange() = 0;
 
+        /** \brief What waits, in the order of the implementation. */
         std::vector<Entry> entries_;
 
     private:

@@ -15,43 +15,47 @@ namespace parking
     struct PlannerParameters
     {
         std::string parameterSet{"default"};  ///< a name only: parameterSet() makes the values that belong to it
-        std::string motionModel{"car"};
-        std::string heuristic{"default"};
-        double turningRadius{3.0};
-        double xyResolution{0.0};
-        unsigned int headingBins{72};
-        unsigned int steeringAngles{3};
-        bool bidirectional{true};
-        std::string searchFrom{"goal"};
-        std::string openList{"binary_heap"};
-        double heuristicWeightFar{2.5};
-        double heuristicWeightNear{2.5};
-        double nearGoalDistance{5.0};
-        double tieBreak{1e-3};
-        bool obstacleHeuristic{true};
-        bool detours{true};
-        std::string obstacleLoading{"lazy"};
-        bool adaptiveResolution{true};
-        bool analyticExpansion{true};
-        double reversePenalty{0.0};
-        double gearChangePenalty{0.5};
-        double steeringChangePenalty{0.1};
-        double clearanceWeight{0.0};
-        double preferredClearance{0.1};
-        double clearanceCost{10.0};
-        std::string smoothing{"bspline"};
-        bool shortening{true};
-        bool approximate{true};
-        bool anytime{false};
-        unsigned int maxMemoryMb{512};
+        std::string motionModel{"car"};       ///< motion_model: name of a search::MotionModel
+        std::string heuristic{"default"};     ///< heuristic: name of a search::Heuristic, or `default`
+        double turningRadius{3.0};            ///< turning_radius: metres, on a plain SE2 space only
+        double xyResolution{0.0};             ///< xy_resolution: metres, side of a cell; 0: chosen
+        unsigned int headingBins{72};         ///< heading_bins: cells round the circle
+        unsigned int steeringAngles{3};       ///< steering_angles: odd, straight included
+        bool bidirectional{true};             ///< bidirectional: search from both ends
+        std::string searchFrom{"goal"};       ///< search_from: goal or start, when from one end
+        std::string openList{"binary_heap"};  ///< open_list: name of a search::OpenList
+        double heuristicWeightFar{2.5};       ///< heuristic_weight_far: w far from the target
+        double heuristicWeightNear{2.5};      ///< heuristic_weight_near: w near it
+        double nearGoalDistance{5.0};         ///< near_goal_distance: metres, where w changes
+        double tieBreak{1e-3};                ///< tie_break: p, added to w
+        bool obstacleHeuristic{true};         ///< obstacle_heuristic: guide round obstacles
+        bool detours{true};                   ///< detours: try other ways when stuck
+        std::string obstacleLoading{"lazy"};  ///< obstacle_loading: lazy or eager
+        bool adaptiveResolution{true};        ///< adaptive_resolution: refine where needed
+        bool analyticExpansion{true};         ///< analytic_expansion: join by curves
+        double reversePenalty{0.0};           ///< reverse_penalty: extra cost per metre
+        double gearChangePenalty{0.5};        ///< gear_change_penalty: metres, per change
+        double steeringChangePenalty{0.1};    ///< steering_change_penalty: metres, straight to full lock
+        double clearanceWeight{0.0};          ///< clearance_weight: extra cost per metre in touch
+        double preferredClearance{0.1};       ///< preferred_clearance: metres
+        double clearanceCost{10.0};           ///< clearance_cost: extra cost per metre nearer
+        std::string smoothing{"bspline"};     ///< smoothing: bspline or none (grid models)
+        bool shortening{true};                ///< shortening: by curves
+        bool approximate{true};               ///< approximate: end near an unreachable goal
+        bool anytime{false};                  ///< anytime: improve until terminated
+        unsigned int maxMemoryMb{512};        ///< max_memory_mb: MB of the search
 
+        /** \brief The four weights in the form of the search. */
         search::HeuristicWeights weights() const
         {
             return {heuristicWeightFar, heuristicWeightNear, nearGoalDistance, tieBreak};
         }
     };
 
+    /** \brief Are all parameters equal? */
     bool operator==(const PlannerParameters &a, const PlannerParameters &b);
+
+    /** \brief Does any parameter differ? */
     inline bool operator!=(const PlannerParameters &a, const PlannerParameters &b)
     {
         return !(a == b);
@@ -60,16 +64,18 @@ namespace parking
     /** \brief The values that a parameter may have: a range of numbers, or a list of names. */
     struct ParameterValues
     {
-        double least{0.0};
-        double most{0.0};
-        double step{0.0};                              ///< between whole numbers; for others what suits a slider
-        bool zeroToo{false};                           ///< zero may lie below least
-        std::vector<std::string> (*names)(){nullptr};  ///< of a text
+        double least{0.0};    ///< smallest number
+        double most{0.0};     ///< largest number
+        double step{0.0};     ///< between whole numbers; for others what suits a slider
+        bool zeroToo{false};  ///< zero may lie below least
+        /** Lists the values of a text; nullptr for a number or a switch. */
+        std::vector<std::string> (*names)(){nullptr};
     };
 
     /** \brief One row of the table: all that there is to know of a parameter. */
     struct Parameter
     {
+        /** \brief A member of PlannerParameters of one of the kinds that parameters have. */
         using Member = std::variant<bool PlannerParameters::*, unsigned int PlannerParameters::*,
                                     double PlannerParameters::*, std::string PlannerParameters::*>;
 

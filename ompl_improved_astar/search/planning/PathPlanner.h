@@ -14,9 +14,9 @@ namespace parking::search
     /** \brief Parameters of PathPlanner. */
     struct PathPlannerParameters
     {
-        SearchParameters search;
-        bool shorten{true};   ///< replace parts of solutions by shorter curves, where the model has curves
-        bool anytime{false};  ///< keep improving until stopped
+        SearchParameters search;  ///< of the search
+        bool shorten{true};       ///< replace parts of solutions by shorter curves, where the model has curves
+        bool anytime{false};      ///< keep improving until stopped
     };
 
     /** \brief Told of every improvement: path and cost. Returns true when that is good enough and planning shall
@@ -29,6 +29,7 @@ namespace parking::search
     class PathPlanner
     {
     public:
+        /** \brief Why solve() came back. */
         enum class Outcome
         {
             Solved,     ///< there is a solution, and it will not be improved further
@@ -39,11 +40,14 @@ namespace parking::search
         /** \brief Begins a new query in \e environment, which must outlive it. */
         void begin(MotionEnvironment &environment, const PathPlannerParameters &parameters);
 
+        /** \brief Adds a start, which must be free. May be called between calls of solve(). */
         void addStart(const Pose &pose)
         {
             starts_.push_back(pose);
             search_.addStart(pose);
         }
+
+        /** \brief The same for a goal. */
         void addGoal(const Pose &pose)
         {
             search_.addGoal(pose);
@@ -59,14 +63,19 @@ namespace parking::search
             seen from the start: then what the frontiers have seen has to do. \return false when there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
+        /** \brief Is there a path from a start to a goal? */
         bool hasSolution() const
         {
             return bestCost_ < std::numeric_limits<double>::infinity();
         }
+
+        /** \brief The cheapest one, shortened; without pieces when there is none. */
         const Path &bestPath() const
         {
             return bestPath_;
         }
+
+        /** \brief What it costs, in metres and penalties (see CostModel); infinite without one. */
         double bestCost() const
         {
             return bestCost_;
@@ -78,15 +87,19 @@ namespace parking::search
         /** \brief Best cost over Search::lowerBound(), at least 1; infinite without a solution. */
         double suboptimalityBound();
 
+        /** \brief The search, to be changed: its bounds and weights. */
         Search &search()
         {
             return search_;
         }
+
+        /** \brief The search. */
         const Search &search() const
         {
             return search_;
         }
 
+        /** \brief What search and shortening did in this query. */
         SearchStatistics statistics() const;
 
     private:

@@ -27,6 +27,7 @@ namespace parking::search
     class PathShortener
     {
     public:
+        /** \brief What is referred to must outlive it. \param cost by which paths become cheaper */
         PathShortener(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost)
           : environment_(environment),
             curves_(curves),
@@ -43,6 +44,7 @@ namespace parking::search
         bool pass(Path &path, double spacing, double offset, double widest, CurveChoice choice,
                   const StopFunction &stop);
 
+        /** \brief Curves tried in all passes so far. */
         std::uint64_t connections() const
         {
             return connectionCount_;

@@ -31,9 +31,9 @@ namespace parking::search
     /** \brief A planning problem. */
     struct PlanRequest
     {
-        std::vector<Pose> starts;  ///< one or more; those that are not free are left out
-        std::vector<Pose> goals;   ///< likewise; the cheapest to reach is reached
-        CarInSpace car;
+        std::vector<Pose> starts;      ///< one or more; those that are not free are left out
+        std::vector<Pose> goals;       ///< likewise; the cheapest to reach is reached
+        CarInSpace car;                ///< what cannot be said by the parameters
         PlannerParameters parameters;  ///< turning_radius among them is not looked at: car has it
         StopFunction stop;             ///< asked now and then; true ends planning
         /** Planning ends after so many expansions, which depends on no clock; 0: it does not. */
@@ -55,7 +55,7 @@ namespace parking::search
     /** \brief What became of a request. */
     struct PlanResult
     {
-        PlanOutcome outcome{PlanOutcome::Timeout};
+        PlanOutcome outcome{PlanOutcome::Timeout};  ///< how it ended
         /** Why there is no solution: for Infeasible always, for Approximate where the goal was found out to be out of
             reach, and not only out of time. */
         std::string reason;
@@ -64,8 +64,8 @@ namespace parking::search
         double cost{std::numeric_limits<double>::infinity()};  ///< metres and penalties, of Solved
         /** cost over a bound that no path stays below, at least 1 (see Search::lowerBound()); infinite if unknown. */
         double suboptimalityBound{std::numeric_limits<double>::infinity()};
-        SearchStatistics statistics;
-        double loadingTime{0.0};  ///< seconds spent on finding out beforehand what is free
+        SearchStatistics statistics;  ///< what was done
+        double loadingTime{0.0};      ///< seconds spent on finding out beforehand what is free
     };
 
     /** \brief Plans in one call and without state: equal requests give equal results, from any thread.

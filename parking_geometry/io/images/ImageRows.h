@@ -28,8 +28,10 @@ namespace parking
         header announces, and one with more than 2^31 pixels. */
     void decodeImage(const std::string &file, const std::string &bytes, const ImageSink &sink);
 
-    // The two formats; bytes begin with their signature.
+    /** \brief decodeImage() for a PGM, with whose signature \e bytes must begin. */
     void decodePgm(const std::string &file, const std::string &bytes, const ImageSink &sink);
+
+    /** \brief decodeImage() for a PNG, with whose signature \e bytes must begin. */
     void decodePng(const std::string &file, const std::string &bytes, const ImageSink &sink);
 
     /** \brief Throws parking::Error when an image is of no size or absurdly large. */
