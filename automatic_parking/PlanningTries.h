@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+/** \brief Parts of ParkingPlanner that its users do not see. */
 namespace parking::planning
 {
     constexpr double SAME_POSE = 1e-6;  ///< metres and radians, as for joined()

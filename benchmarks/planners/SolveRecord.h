@@ -151,6 +151,7 @@ namespace parking
         virtual const PlannerFailure &failure() const = 0;
     };
 
+    /** \brief What templates of this project need and their users do not. */
     namespace detail
     {
         /** Has the planner a member reason()? */

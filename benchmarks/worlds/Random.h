@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <random>
 
+/** \brief What tests, fuzzers and studies share: random worlds, and oracles that results are compared with. */
 namespace parking_test
 {
     /** \brief Random numbers that are the same with every standard library: its distributions are not. */
