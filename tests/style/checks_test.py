@@ -133,7 +133,7 @@ class ChecksTest(unittest.TestCase):
                            check=True)
             self.assertEqual(self.run_check('readme_sample').returncode, 0)
 
-    def test_docstring_about_a_parameter_that_is_not_there(self):
+    def make_documented(self):
         if not shutil.which('doxygen'):
             self.skipTest('doxygen is not installed')
         shutil.copy(os.path.join(ROOT, 'Doxyfile'), self.root)
@@ -141,13 +141,37 @@ class ChecksTest(unittest.TestCase):
                      'docs/images/examples/park.svg', 'docs/theme/theme.css', 'path_tracking/Drive.h',
                      'automatic_parking/Park.h', 'benchmarks/Run.h', 'integrations/nav2/Plugin.h'):
             self.write(name, '')
+
+    def test_docstring_about_a_parameter_that_is_not_there(self):
+        self.make_documented()
         done = self.run_check('docs')
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.write('path_tracking/Drive.h', '/** \\brief A drive. */\nclass Drive\n{\npublic:\n'
                    '    /** \\param gone metres */\n    Drive(double length);\n};\n')
         self.expect_found('docs', 'path_tracking/Drive.h')
+
+    def test_public_name_without_a_docstring(self):
+        self.make_documented()
         self.write('path_tracking/Drive.h', '/** \\file */\nclass Drive\n{\npublic:\n    void go();\n};\n')
         self.expect_found('docs', 'Drive is not documented')
+        self.write('path_tracking/Drive.h', '/** \\brief A drive. */\nclass Drive\n{\npublic:\n'
+                   '    void go();\n};\n')
+        self.expect_found('docs', 'go() (function) of class Drive is not documented')
+        everything = ('/** \\brief Parts. */\nnamespace parts\n{\n/** \\brief Which way. */\nenum class Way\n{\n'
+                      'Ahead,  ///< forwards\nBack  ///< in reverse\n};\n/** \\brief Drives on. */\nvoid drive();\n'
+                      '/** \\brief A drive. */\nclass Drive\n{\nprivate:\nenum class State\n{\nOn\n};\n'
+                      'State state_;\n};\n}\n')
+        self.write('path_tracking/Drive.h', everything)
+        done = self.run_check('docs')
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.write('path_tracking/Drive.h', everything.replace('/** \\brief Parts. */', ''))
+        self.expect_found('docs', 'namespace parts is')
+        for docstring in ('/** \\brief Which way. */', '///< in reverse', '/** \\brief Drives on. */'):
+            everything = everything.replace(docstring, '')
+        self.write('path_tracking/Drive.h', everything)
+        done = self.run_check('docs')
+        for name in ('Way (enumeration)', 'Way::Back', 'drive()'):
+            self.assertIn(name, done.stdout)
 
     def test_files_ignored_by_git_do_not_count(self):
         if not shutil.which('git'):
