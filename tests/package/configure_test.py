@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What configuring by hand says on a machine that lacks something: one line that names the package.
+"""What configuring by hand says on a machine that lacks something: one line that names the package or the disk.
 
 usage: configure_test.py CMAKE CXX
 """
@@ -68,6 +68,16 @@ class ConfigureTest(unittest.TestCase):
         self.assertEqual(self.first_error('-DCMAKE_FIND_ROOT_PATH=' + self.folder, '-DCMAKE_SYSTEM_PROGRAM_PATH=',
                                           '-DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF', PATH=programs, CXX=''),
                          'there is no C++ compiler: install g++')
+
+    def test_full_disk_is_said_before_anything_is_built(self):
+        programs = os.path.join(self.folder, 'bin')
+        os.makedirs(programs)
+        with open(os.path.join(programs, 'df'), 'w', encoding='utf-8') as out:
+            out.write('#!/bin/sh\nprintf "Filesystem 1024-blocks Used Available Capacity Mounted on\\n"\n'
+                      'printf "/dev/disk 900000 880000 20480 98%% /\\n"\n')
+        os.chmod(out.name, 0o755)
+        self.assertRegex(self.first_error(PATH=programs + ':' + os.environ['PATH']),
+                         '/build1: 20 MB of disk are free, a build takes up to 1000 MB$')
 
 
 if __name__ == '__main__':
