@@ -6,6 +6,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/OmplCompatibility.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
 
@@ -32,6 +33,12 @@ namespace parking_test
 {
     namespace ob = ompl::base;
     namespace og = ompl::geometric;
+
+    /** \brief What solve() answers where nothing is left to try: up to OMPL 1.5 the same as when its time is up. */
+    inline ob::PlannerStatus::StatusType nothingLeft()
+    {
+        return parking::ompl_compatibility::infeasible<ob::PlannerStatus>(0);
+    }
 
     enum class Space
     {
