@@ -1,5 +1,8 @@
 """Drives as pages that move, for notebooks and browsers."""
 import html
+import numbers
+
+from ._core import Error
 
 
 class Animation:
@@ -25,6 +28,8 @@ def animate(self, title=None, height=760):
 
     title: plain text; height: pixels in a notebook. Returns an Animation.
     """
-    text = title if title is not None else self.scenario.name
+    if not isinstance(height, numbers.Real):
+        raise Error(f'height must be a number of pixels, not {height!r}')
+    text = str(title) if title is not None else self.scenario.name
     about = f'{self.length:.1f} m in {self.duration:.1f} s' if self.length is not None else ''
     return Animation(self._page(text, about), height)

@@ -1,5 +1,8 @@
 """Pictures with matplotlib, which is imported when the first one is drawn."""
 import math
+import numbers
+
+from ._core import Error
 
 FORWARD, REVERSE, CAR, OBSTACLE, SLOT = '#2563eb', '#ea580c', '#1e3a8a', '#64748b', '#16a34a'
 
@@ -57,6 +60,10 @@ def plot(self, path=None, axes=None, footprints=1.5):
     footprints: metres between outlines of the car, 0 for none. Returns the axes.
     """
     from matplotlib.figure import Figure
+    if not isinstance(footprints, numbers.Real):
+        raise Error(f'footprints must be a number of metres, not {footprints!r}')
+    if axes is not None and not hasattr(axes, 'add_patch'):
+        raise Error(f"axes must be matplotlib's, not {type(axes).__name__}")
     scenario = self.scenario
     figure = None
     if axes is None:

@@ -81,7 +81,10 @@ def read_runs(path):
     (seconds, cost).
     """
     import pandas
-    path = os.fspath(path)
+    try:
+        path = os.fsdecode(path)
+    except TypeError:
+        raise Error(f'path must be the path of a file or folder, not {path!r}') from None
     if os.path.isdir(path):
         whole = os.path.join(path, 'runs.jsonl')
         files = [whole] if os.path.exists(whole) else sorted(glob.glob(os.path.join(glob.escape(path), 'runs-*.jsonl')))

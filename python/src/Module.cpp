@@ -5,6 +5,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
+#include <exception>
+#include <string>
+
 #ifndef PARKING_VERSION
 #define PARKING_VERSION "unknown"
 #endif
@@ -18,6 +22,23 @@ PYBIND11_MODULE(_core, module)
     module.attr("__version__") = PARKING_VERSION;
     py::register_exception<parking::Error>(module, "Error", PyExc_ValueError).doc() =
         "A bad value or file: one line that names the field or the file and says what would be right.";
+    py::register_exception_translator(
+        [](std::exception_ptr thrown)
+        {
+            try
+            {
+                if (thrown)
+                    std::rethrow_exception(thrown);
+            }
+            catch (const parking::Error &error)
+            {
+                // Names of files may hold anything; the message is one line all the same.
+                std::string text = error.what();
+                std::replace_if(
+                    text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, '?');
+                PyErr_SetString(py::module_::import("improved_astar._core").attr("Error").ptr(), text.c_str());
+            }
+        });
     parking::python::addVehicles(module);
     parking::python::addScenarios(module);
     parking::python::addPlans(module);

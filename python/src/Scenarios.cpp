@@ -12,6 +12,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -54,10 +55,10 @@ namespace parking::python
 
         /** Start, goals and slot, car and name: what all worlds have in common. */
         Scenario problemFrom(const py::object &start, const py::object &goal, const py::object &slot,
-                             const py::object &vehicle, const std::string &name)
+                             const py::object &vehicle, const py::object &name)
         {
             Scenario scenario;
-            scenario.name = name;
+            scenario.name = textFrom(name, "name");
             scenario.vehicle = vehicleFrom(vehicle);
             scenario.start = poseFrom(start, "start");
             if (!goal.is_none())
@@ -89,7 +90,7 @@ namespace parking::python
         }
 
         ScenarioPointer fromPolygons(const py::object &polygons, const py::object &start, const py::object &goal,
-                                     const py::object &slot, const py::object &vehicle, const std::string &name)
+                                     const py::object &slot, const py::object &vehicle, const py::object &name)
         {
             Scenario scenario = problemFrom(start, goal, slot, vehicle, name);
             if (!py::isinstance<py::iterable>(polygons) || py::isinstance<py::str>(polygons))
@@ -102,10 +103,10 @@ namespace parking::python
 
         ScenarioPointer fromGrid(const py::object &grid, const py::object &start, const py::object &goal,
                                  const py::object &slot, const py::object &resolution, const py::object &origin,
-                                 const py::object &vehicle, const std::string &name, bool unknownIsOccupied)
+                                 const py::object &vehicle, const py::object &name, const py::object &unknownIsOccupied)
         {
             Scenario scenario = problemFrom(start, goal, slot, vehicle, name);
-            scenario.unknownIsOccupied = unknownIsOccupied;
+            scenario.unknownIsOccupied = flagFrom(unknownIsOccupied, "unknown_is_occupied");
             if (isFile(grid))
             {
                 if (!resolution.is_none() || !origin.is_none())
@@ -150,7 +151,7 @@ namespace parking::python
             if (!goal.is_none() || !slot.is_none())
             {
                 const Scenario other =
-                    problemFrom(toPython(scenario.start), goal, slot, py::cast(scenario.vehicle), "");
+                    problemFrom(toPython(scenario.start), goal, slot, py::cast(scenario.vehicle), py::str());
                 scenario.goals = other.goals;
                 scenario.slot = other.slot;
             }
@@ -165,6 +166,9 @@ namespace parking::python
             const Doubles rows = posesFrom(poses, "poses");
             py::array_t<Result> answers(rows.shape(0));
             const double *data = rows.data();
+            for (py::ssize_t i = 0; i < rows.size(); ++i)
+                if (!std::isfinite(data[i]))
+                    throw Error("poses: row " + std::to_string(i / 3) + " is not finite");
             Result *to = answers.mutable_data();
             const auto count = static_cast<std::size_t>(rows.shape(0));
             const Eigen::Vector2d offset = self.scenario().worldOffset;

@@ -70,9 +70,9 @@ namespace parking::python
 
     bool flagFrom(const py::handle &value, const std::string &field)
     {
-        if (!py::isinstance<py::bool_>(value))
+        if (!py::isinstance<py::bool_>(value) && !py::isinstance(value, py::module_::import("numpy").attr("bool_")))
             failFor(value, field, "True or False");
-        return py::cast<bool>(value);
+        return value.cast<bool>();
     }
 
     std::size_t countFrom(const py::handle &value, const std::string &field)

@@ -82,6 +82,12 @@ WRONG = [
     (lambda: ia.check(world(), [[0, 0, 0], [0, 1, 0]]), 'no arc joins rows 0 and 1'),
     (lambda: ia.check(world(), [[0, 0, 0], [NAN, 1, 0]]), 'row 1 is not finite'),
     (lambda: ia.check(3, [[0, 0, 0]]), 'scenario must be a Scenario, not 3'),
+    (lambda: world(name=3), "name must be a str, not 3"),
+    (lambda: ia.Scenario.read('no\nsuch.yaml'), 'no?such.yaml'),
+    (lambda: world().is_free([[0, 0, 0], [0, NAN, 0]]), 'poses: row 1 is not finite'),
+    (lambda: world().clearance_at([[INF, 0, 0]]), 'poses: row 0 is not finite'),
+    (lambda: ia.plan(world()).animate(height='tall'), "height must be a number of pixels, not 'tall'"),
+    (lambda: ia.read_runs(None), 'path must be the path of a file or folder, not None'),
     (lambda: world().is_free([1, 2, 3]), 'poses must be an array of n rows (x, y, yaw)'),
     (lambda: ia.read_runs('no/such/folder'), 'no/such/folder: there is no such file or folder'),
     (lambda: ia.read_runs(__file__), 'bad_input_test.py'),
@@ -97,6 +103,19 @@ def test_says_what_is_wrong(number):
     assert expected in text
     assert '\n' not in text
     assert isinstance(caught.value, ValueError)
+
+
+def test_bad_pictures_are_refused():
+    pytest.importorskip('matplotlib')
+    result = ia.plan(world())
+    for values, expected in (({'footprints': 'all'}, 'footprints must be a number'), ({'axes': 3}, "axes must be matplotlib's")):
+        with pytest.raises(ia.Error, match=expected):
+            result.plot(**values)
+
+
+def test_numbers_of_numpy_are_numbers():
+    result = ia.plan(world(), heading_bins=numpy.int64(36), detours=numpy.bool_(False), gear_change_penalty=numpy.float32(1))
+    assert result and not result.parameters['detours'] and result.parameters['heading_bins'] == 36
 
 
 def test_what_cannot_be_is_a_result_and_no_error():
