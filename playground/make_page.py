@@ -3,6 +3,7 @@
 usage: make_page.py ROOT VERSION CORE.js PAGE.html
 """
 import base64
+import hashlib
 import json
 import os
 import sys
@@ -10,6 +11,23 @@ import sys
 SCRIPTS = ['formats.js', 'scene.js', 'view.js', 'draw.js', 'charts.js', 'planner.js', 'tools.js', 'panels.js', 'main.js']
 SCENES = ['perpendicular', 'parallel', 'angled45', 'narrow_parallel', 'tight_parallel', 'narrow_perpendicular',
           'dead_end_aisle', 'multi_storey', 'underground_garage', 'perceived_street', 'unreachable']
+
+
+# What the page is made of, apart from the compiler.
+FOLDERS = ['automatic_parking', 'ompl_improved_astar', 'parking_geometry', 'path_tracking', 'state_validity', 'playground',
+           os.path.join('benchmarks', 'scenarios')]
+
+
+def sources(root):
+    """Tells pages apart that were made of other sources."""
+    names = sorted(os.path.join(place, name) for folder in FOLDERS for place, _, files in os.walk(os.path.join(root, folder))
+                   for name in files if name.endswith(('.h', '.cpp', '.js', '.css', '.html', '.py', '.yaml', '.pgm')))
+    whole = hashlib.sha256()
+    for name in names:
+        whole.update(os.path.relpath(name, root).encode() + b'\0')
+        with open(name, 'rb') as stream:
+            whole.update(hashlib.sha256(stream.read()).digest())
+    return whole.hexdigest()[:16]
 
 
 def text(*parts):
@@ -43,6 +61,7 @@ def main(root, version, core, page):
         '/*@WORKER@*/': in_script(text(core) + '\n' + text(folder, 'worker.js')),
         '/*@SCRIPT@*/': in_script('\n'.join(text(folder, name) for name in SCRIPTS)),
         '@VERSION@': version,
+        '@SOURCES@': sources(root),
     }
     content = text(folder, 'index.html')
     for mark, replacement in marks.items():

@@ -3,7 +3,7 @@
 (async () => {
   const { byId, notice } = Panels, canvas = byId('view');
   const show = { footprints: true, tree: false, heuristic: false, clearance: false, charts: true };
-  let answer = null, compareWith = '', optimising = false, soon = false, mode = 'drive', playing = false, stamp = 0, time = null, drawn = false, planning = 0, sentMap = null, settled = 0;
+  let answer = null, compareWith = '', optimising = false, soon = false, mode = 'drive', playing = false, stamp = 0, time = null, drawn = false, planning = 0, shown = 0, settled = 0, quick = null;
 
   const bundled = JSON.parse(byId('scenes').textContent);
   const fileOf = async name => {
@@ -109,37 +109,40 @@
     byId('play').innerHTML = playing ? '&#10074;&#10074; Pause' : '&#9654; Play';
   }
 
-  // Planning. While something is dragged: quick plans, the rest when it comes to rest.
+  // Planning. While something is dragged: quick plans that give up early, the rest when it comes to rest.
+  const QUICK = 0.1;  // seconds
+  const limitOf = whole => Math.min(whole ? 30 : QUICK, Math.max(0.05, Number(byId('limit').value) || 1));
   function question(whole) {
-    const scene = Scene.current, limit = Math.min(30, Math.max(0.05, Number(byId('limit').value) || 1));
+    const scene = Scene.current, limit = limitOf(whole);
     const parameters = [{ ...Panels.parameters }];
     if (compareWith) parameters.push({ parameter_set: compareWith });
-    return { kind: 'plan', numbers: Planner.numbersOf(scene), cells: scene.map ? scene.map.cells : null, parameters, seconds: limit, trace: show.tree || show.heuristic || mode === 'search' ? 20000 : 0, trajectory: whole ? 2 : 0 };
+    return { kind: 'plan', numbers: Planner.numbersOf(scene), cells: scene.map ? scene.map.cells : null, parameters, seconds: limit, hasty: !whole, trace: show.tree || show.heuristic || mode === 'search' ? 20000 : 0, trajectory: whole ? 2 : 0 };
   }
   async function replan(whole) {
     const mine = ++planning, scene = Scene.current;
     document.body.dataset.busy = 'yes';
     const asked = performance.now(), found = await Planner.ask(question(whole));
-    if (!found) return;
-    if (whole && mine === planning) delete document.body.dataset.busy;
+    // Two workers: what is older than what is shown comes too late.
+    if (!found || mine < shown || (whole && mine !== planning)) return;
+    shown = mine;
+    if (whole) delete document.body.dataset.busy; else quick = found;
     document.body.dataset.planned = String(performance.now() - asked);
     if (!found.ok) { answer = { message: found.message, goals: found.goals, bounds: found.bounds, plans: null }; Panels.wrong(found.message); redraw(); return; }
     // A drive that is known stays until the path is another.
     answer = found;
     if (found.goals) Panels.goals = found.goals;
-    Panels.verdict(found.plans[0], Number(byId('limit').value));
+    Panels.verdict(found.plans[0], limitOf(whole), whole);
     Panels.figures(found.plans[0], found.plans[1], duration() || NaN);
-    byId('hint').textContent = Tools.dragging ? '' : scene === Scene.current ? 'Drag the car, the goal or an obstacle. The plan follows.' : '';
     document.body.dataset.answers = String(Number(document.body.dataset.answers || 0) + 1);
     if (whole) document.body.dataset.whole = String(mine);
-    if (whole && mine === planning) optimising = false;
+    if (whole) optimising = false;
     if (soon && drive()) { soon = false; notice(''); actions.play(); }
     if (mode === 'drive' && time !== null && !playing) time = Math.min(time, duration());
     redraw();
   }
   function changed(what) {
     const scene = Scene.current;
-    if (what !== 'changed') { Panels.showVehicle(); Panels.showSlot(); }
+    if (what !== 'changed') { Panels.showVehicle(); Panels.showSlot(); } else byId('hint').hidden = true;
     if (what === 'opened') { Tools.reset(); fit(); }
     time = null; playing = false; soon = false; optimising = true;
     replan(false);
@@ -158,7 +161,7 @@
     // What lies round the problem, not the whole street.
     const near = [box[0] - 6, box[1] - 6, box[2] + 6, box[3] + 6];
     for (const [x, y] of scene.polygons.flat()) include([Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))]);
-    if (scene.map) { const [x, y] = scene.map.origin; include([x, y]); include([x + scene.map.columns * scene.map.resolution, y + scene.map.rows * scene.map.resolution]); }
+    if (scene.map) { const [x, y] = scene.map.origin, { columns, rows, resolution } = scene.map; for (const [u, v] of [[x, y], [x + columns * resolution, y + rows * resolution]]) include([Math.min(near[2] + 6, Math.max(near[0] - 6, u)), Math.min(near[3] + 6, Math.max(near[1] - 6, v))]); }
     View.fit(box, canvas.clientWidth / (compareWith ? 2 : 1), canvas.clientHeight);
     redraw();
   }
@@ -172,7 +175,7 @@
       if (Scene.current) Scene.remember();
       Scene.replace(await Formats.open([...files], Panels.vehicles));
       byId('scene').value = '';
-    } catch (error) { notice(error.message); Panels.say(error.message); }
+    } catch (error) { notice(error.message); }
   }
 
   // Links: the scene, what is changed of the parameters, the view; deflated where the browser can.
@@ -189,15 +192,22 @@
     return location.href;
   }
   async function openLink(hash) {
-    const bytes = fromBase64(hash.slice(1)), content = hash[0] === 'z' ? await through(bytes, new DecompressionStream('deflate-raw')) : bytes;
-    const found = JSON.parse(new TextDecoder().decode(content));
+    const damaged = () => { throw new Error('it is damaged or cut short'); };
+    const decoded = async () => {
+      const bytes = fromBase64(hash.slice(1)), content = hash[0] === 'z' ? await through(bytes, new DecompressionStream('deflate-raw')) : bytes;
+      return JSON.parse(new TextDecoder().decode(content));
+    };
+    const found = await decoded().catch(damaged);
+    if (!found || typeof found !== 'object') damaged();
     if (found.parameters) Panels.parameters = Object.fromEntries(Object.entries(found.parameters).filter(([name]) => Panels.knows(name)).map(([name, value]) => [name, String(value)]));
     if (Panels.sets.includes(found.compare)) { compareWith = found.compare; byId('compare').value = compareWith; byId('other-name').textContent = compareWith; }
     if (found.bundled && bundled.order.includes(found.bundled)) return openBundled(found.bundled);
     // Through the reader of files, which checks everything.
     const scene = found.scene;
-    if (!scene || typeof scene !== 'object') throw new Error('the link holds no scene');
-    const text = Formats.toYaml({ name: String(scene.name || 'scene'), vehicle: scene.vehicle, start: scene.start, goals: scene.goals, slot: scene.slot, polygons: scene.polygons, map: null });
+    if (!scene || typeof scene !== 'object') throw new Error('it holds no scene');
+    const written = () => Formats.toYaml({ name: String(scene.name || 'scene'), vehicle: scene.vehicle, start: scene.start, goals: scene.goals, slot: scene.slot, polygons: scene.polygons, map: null });
+    let text = '';
+    try { text = written(); } catch (error) { damaged(); }
     Scene.replace(await Formats.readScenario('link.yaml', text, Panels.vehicles, async () => undefined));
     byId('scene').value = '';
   }
@@ -239,7 +249,7 @@
     ablation: async () => {
       const rows = [];
       for (const name of Panels.sets) {
-        const found = await Planner.ask({ ...question(false), parameters: [{ parameter_set: name }], trace: 0 });
+        const found = await Planner.ask({ ...question(false), seconds: limitOf(true), hasty: false, parameters: [{ parameter_set: name }], trace: 0 });
         if (found && found.ok) { rows.push([name, found.plans[0].summary]); Panels.ablation(rows); }
       }
       replan(true);
@@ -271,7 +281,10 @@
     const entries = [['forward', 'forwards'], ['reverse', 'reverse']];
     if (show.tree || show.heuristic || mode === 'search') entries.push(['tree-start', "the start's tree"], ['tree-goal', "the goal's tree"]);
     if (mode === 'drive') entries.push(['drive', 'driven']);
-    byId('legend').replaceChildren(...entries.map(([colour, name]) => Panels.element('li', {}, Panels.element('i', { style: `background:var(--${colour})` }), name)));
+    const swatch = (background, name, width = 16) => Panels.element('li', {}, Panels.element('i', { style: `background:${background};width:${width}px` }), name);
+    const shades = (from, to) => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map(share => `hsl(${from + share * (to - from)} 82% 48%)`).join(', ')})`;
+    byId('legend').replaceChildren(...entries.map(([colour, name]) => swatch(`var(--${colour})`, name)),
+      ...(show.heuristic ? [swatch(shades(200, 10), 'left to go by the heuristic: little to much', 40)] : []), ...(show.clearance ? [swatch(shades(0, 130), 'room: none to 0.8 m', 40)] : []));
   }
   for (const box of document.querySelectorAll('[data-show]')) box.addEventListener('change', () => {
     show[box.dataset.show] = box.checked;
@@ -320,5 +333,5 @@
     if (/^#[zj]/.test(location.hash)) await openLink(location.hash.slice(1)); else await openBundled('perpendicular');
   } catch (error) { notice('The link cannot be read: ' + error.message); await openBundled('perpendicular'); }
   // For tests and the curious.
-  window.playground = { Scene, View, Planner, Formats, Panels, Tools, Draw, svg, pathTable, link, get answer() { return answer; }, show, setMode, openBundled, openFiles, openLink, get time() { return time; } };
+  window.playground = { Scene, View, Planner, Formats, Panels, Tools, Draw, svg, pathTable, link, get answer() { return answer; }, get quick() { return quick; }, show, setMode, openBundled, openFiles, openLink, get time() { return time; } };
 })();

@@ -20,12 +20,13 @@ const Panels = (() => {
 
   const OUTCOMES = ['Parked', 'Only near the goal', 'No way', 'Out of time', 'The start is blocked', 'The goal is blocked'];
   const fixed = (value, digits, unit = '') => Number.isFinite(value) ? value.toFixed(digits) + unit : '\u2013';
-  function verdict(plan, limit) {
-    const outcome = plan.summary[0];
-    byId('status').textContent = OUTCOMES[outcome];
-    byId('verdict').className = outcome === 0 ? '' : outcome === 1 ? 'near' : 'wrong';
-    const s = plan.summary;
-    say(outcome === 0 ? `${fixed(s[1], 2)} m, ${s[2]} change${s[2] === 1 ? '' : 's'} of direction, ${fixed(s[3], 2)} m of room \u00b7 ${fixed(s[10], 1)} ms` : outcome === 3 ? `nothing found within ${limit} s` : plan.message);
+  const room = metres => !Number.isFinite(metres) ? '\u2013' : metres < 0.1 ? fixed(1000 * metres, 0, ' mm') : fixed(metres, 2, ' m');
+  // A plan that was made in haste and did not get ready says nothing yet.
+  function verdict(plan, limit, whole) {
+    const s = plan.summary, outcome = s[0], unready = !whole && outcome !== 0 && s[10] >= 900 * limit;
+    byId('status').textContent = unready ? 'Looking' : OUTCOMES[outcome];
+    byId('verdict').className = outcome === 0 ? '' : outcome === 1 || unready ? 'near' : 'wrong';
+    say(unready ? 'for a way \u2026' : outcome === 0 ? `${fixed(s[1], 2)} m, ${s[2]} change${s[2] === 1 ? '' : 's'} of direction, ${room(s[3])} of room \u00b7 ${fixed(s[10], 1)} ms` : outcome === 3 ? `nothing found within ${limit} s` : plan.message);
   }
   function wrong(message) {
     byId('status').textContent = 'Not a scene';
@@ -34,9 +35,10 @@ const Panels = (() => {
     byId('figures').tBodies[0].replaceChildren();
   }
   function figures(plan, other, duration) {
-    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['least clearance', fixed(p[3], 3, ' m')], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 2, ' ms')], ['expansions', fixed(p[6], 0)], ['motions tried', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
+    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['least clearance', room(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions tried', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
     const mine = rows(plan.summary, duration), theirs = other ? rows(other.summary, NaN) : null;
-    byId('figures').tBodies[0].replaceChildren(...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), ...(theirs ? [element('td', { style: 'text-align:right' }, value), element('td', {}, theirs[i][1])] : [element('td', {}, value)]))));
+    const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right'))] : [];
+    byId('figures').tBodies[0].replaceChildren(...head, ...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), element('td', {}, value), ...(theirs ? [element('td', {}, theirs[i][1])] : []))));
   }
 
   const NAMES = { wheelbase: 'wheelbase, m', front_overhang: 'front overhang, m', rear_overhang: 'rear overhang, m', width: 'width, m', max_steering_angle: 'steering angle, rad', max_speed: 'speed, m/s', max_acceleration: 'acceleration, m/s\u00b2', max_steering_rate: 'steering rate, rad/s' };
@@ -112,7 +114,7 @@ const Panels = (() => {
   byId('defaults').addEventListener('click', () => { chosen = {}; showParameters(); onParameters(); });
 
   function ablation(rows) {
-    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, name), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], 1))));
+    const body = rows.map(([name, p]) => element('tr', {}, element('td', {}, name), element('td', {}, OUTCOMES[p[0]] === 'Parked' ? fixed(p[1], 2) : '\u2013'), element('td', {}, fixed(p[2], 0)), element('td', {}, String(p[6])), element('td', {}, fixed(p[10], p[10] < 10 ? 1 : 0))));
     byId('table-wrap').replaceChildren(element('table', {}, element('thead', {}, element('tr', {}, ...['set', 'm', 'cusps', 'expanded', 'ms'].map(each => element('th', {}, each)))), element('tbody', {}, ...body)));
   }
 

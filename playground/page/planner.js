@@ -1,50 +1,57 @@
-// The page's side of the worker: the newest question is asked when the one before is answered.
+// The page's side of the workers: of each, the newest question is asked when the one before is answered.
 
 const Planner = (() => {
   const source = document.getElementById('worker').textContent;
   const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
-  let worker, busy = null, waiting = null, count = 0, ready = null, onReady = null, patience = 0;
-  const about = new Promise(resolve => { onReady = resolve; });
+  let count = 0;
 
-  function begin() {
-    worker = new Worker(address);
-    worker.onmessage = event => {
-      const answer = event.data;
-      if (answer.kind === 'ready') { ready = answer; onReady(answer); send(); return; }
-      if (answer.kind === 'broken') { onReady({ broken: answer.message }); return; }
-      clearTimeout(patience);
-      const asked = busy;
-      busy = null;
-      if (answer.broken) { worker.terminate(); ready = null; begin(); }
-      if (asked) asked.resolve({ ...answer, stale: waiting !== null, question: asked.question });
-      send();
-    };
-    worker.onerror = event => { event.preventDefault(); onReady({ broken: event.message }); };
-  }
+  function employ() {
+    let worker = null, busy = null, waiting = null, ready = null, onReady = null, patience = 0;
+    const about = new Promise(resolve => { onReady = resolve; });
 
-  function send() {
-    if (busy || !waiting || !ready) return;
-    busy = waiting;
-    waiting = null;
-    worker.postMessage(busy.question);
-    // Should it not come back long after its limit (a huge map, say), it is begun anew.
-    patience = setTimeout(() => {
-      const asked = busy;
-      worker.terminate();
-      busy = null; ready = null;
-      begin();
-      asked.resolve({ ok: false, id: asked.question.id, message: 'the planner did not answer in time', question: asked.question });
-    }, 1000 * (15 + 6 * asked(busy.question)));
-  }
-  const asked = question => (question.seconds * 2 + (question.trajectory || 0)) * question.parameters.length;
+    function begin() {
+      worker = new Worker(address);
+      worker.onmessage = event => {
+        const answer = event.data;
+        if (answer.kind === 'ready') { ready = answer; onReady(answer); send(); return; }
+        if (answer.kind === 'broken') { onReady({ broken: answer.message }); return; }
+        clearTimeout(patience);
+        const asked = busy;
+        busy = null;
+        if (answer.broken) { worker.terminate(); ready = null; begin(); }
+        if (asked) asked.resolve({ ...answer, stale: waiting !== null, question: asked.question });
+        send();
+      };
+      worker.onerror = event => { event.preventDefault(); onReady({ broken: event.message }); };
+    }
 
-  // Resolves with the answer; with undefined when a newer question took its place.
-  function ask(question) {
-    return new Promise(resolve => {
-      if (waiting) waiting.resolve(undefined);
-      waiting = { question: { ...question, id: ++count }, resolve };
-      send();
-    });
+    function send() {
+      if (busy || !waiting || !ready) return;
+      busy = waiting;
+      waiting = null;
+      worker.postMessage(busy.question);
+      // Should it not come back long after its limit (a huge map, say), it is begun anew.
+      patience = setTimeout(() => {
+        const asked = busy;
+        worker.terminate();
+        busy = null; ready = null;
+        begin();
+        asked.resolve({ ok: false, id: asked.question.id, message: 'the planner did not answer in time', question: asked.question });
+      }, 1000 * (15 + 6 * asked(busy.question)));
+    }
+    const asked = question => (question.seconds * 2 + (question.trajectory || 0)) * question.parameters.length;
+
+    // Resolves with the answer; with undefined when a newer question took its place.
+    function ask(question) {
+      return new Promise(resolve => {
+        if (!worker) begin();
+        if (waiting) waiting.resolve(undefined);
+        waiting = { question: { ...question, id: ++count }, resolve };
+        send();
+      });
+    }
+
+    return { about, ask, begin };
   }
 
   function numbersOf(scene) {
@@ -66,6 +73,8 @@ const Planner = (() => {
     return Float64Array.from(all);
   }
 
-  begin();
-  return { about, ask, numbersOf };
+  // What follows the pointer must not wait for a drive that is being optimised.
+  const hasty = employ(), patient = employ();
+  hasty.begin();
+  return { about: hasty.about, ask: question => (question.hasty ? hasty : patient).ask(question), numbersOf };
 })();
