@@ -14,15 +14,6 @@ namespace parking::search
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
-
-        struct Later
-        {
-            template <class Entry>
-            bool operator()(const Entry &a, const Entry &b) const
-            {
-                return a.key > b.key;
-            }
-        };
     }  // namespace
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
@@ -121,9 +112,8 @@ namespace parking::search
 
     void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)
     {
-        const std::uint64_t f = bitsOf(g + estimate(column, row));
-        open_.push_back({(f << 32) | (0xffffffffu - bitsOf(g)), column, row});
-        std::push_heap(open_.begin(), open_.end(), Later());
+        const float f = g + estimate(column, row);
+        open_.push(f, {(static_cast<std::uint64_t>(bitsOf(f)) << 32) | (0xffffffffu - bitsOf(g)), column, row});
     }
 
     void ObstacleHeuristic::addTarget(double x, double y)
@@ -143,9 +133,7 @@ namespace parking::search
     {
         while (!open_.empty())
         {
-            std::pop_heap(open_.begin(), open_.end(), Later());
-            settled = open_.back();
-            open_.pop_back();
+            settled = open_.pop();
             CellState &state = states_.at(settled.column, settled.row);
             if (state.settled)
                 continue;

@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/containers/MonotoneQueue.h"
 #include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 
@@ -83,7 +84,7 @@ namespace parking::search
         /** \brief Bytes of cells and open list at the most, while the list grows. */
         std::size_t bytes() const
         {
-            return states_.bytes() + 3 * open_.size() * sizeof(Entry);
+            return states_.bytes() + 2 * open_.bytes();
         }
 
     private:
@@ -121,7 +122,7 @@ namespace parking::search
         Eigen::Vector2d origin_{0.0, 0.0};
         float towardColumn_{0.0f}, towardRow_{0.0f};
         TiledGrid<CellState> states_;
-        std::vector<Entry> open_;
+        MonotoneQueue<Entry> open_;
         std::uint64_t settled_{0};
         bool stopped_{false};   // the last answer is what it is for want of time
         bool leftGrid_{false};  // a target or a way lies beyond the reach of the grid

@@ -10,8 +10,9 @@ namespace parking::search
 {
     namespace
     {
+        constexpr std::size_t PARTS_OF_A_SPAN = 8;
         constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
-    }
+    }                                        // namespace
 
     void PathShortener::priceCloseness(const std::vector<Piece> &before)
     {
@@ -145,8 +146,14 @@ namespace parking::search
         bool improved = false;
         pieces_.clear();
         cut(path, spacing, offset);
-        for (std::size_t span = pieces_.size() - 1; span >= 2; --span)
-            for (std::size_t i = 0; i + span < pieces_.size(); ++i)
+        // Wide parts are tried at every so many knots only: there are many of them on a long path, most of them cannot
+        // be replaced, and what is missed by a knot is found by a narrower part.
+        const auto stride = [](std::size_t span)
+        {
+            return std::max<std::size_t>(1, span / PARTS_OF_A_SPAN);
+        };
+        for (std::size_t span = pieces_.size() - 1; span >= 2; span -= stride(span))
+            for (std::size_t i = 0; i + span < pieces_.size(); i += stride(span))
             {
                 if (stop && (connectionCount_ & 15u) == 0 && stop())
                     return improved;
