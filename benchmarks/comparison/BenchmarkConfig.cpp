@@ -225,7 +225,7 @@ namespace parking
         /** Maps and vehicles are YAML files too: a scenario is one that has a start. */
         bool isScenario(const fs::path &file)
         {
-            if (file.extension() == ".csv")
+            if (file.extension() == ".csv" || file.extension() == ".mat")
                 return true;
             if (file.extension() != ".yaml" && file.extension() != ".yml")
                 return false;
@@ -358,7 +358,7 @@ namespace parking
         else
             return {path.string()};
         if (files.empty())
-            throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, or .csv files)");
+            throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, .csv or .mat files)");
         std::sort(files.begin(), files.end(), naturallyBefore);
         return files;
     }

@@ -1,7 +1,7 @@
 #include "benchmarks/comparison/Experiment.h"
 
+#include "benchmarks/formats/ScenarioFormat.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
@@ -103,19 +103,7 @@ namespace parking
 
         Scenario readWithOptions(const std::string &file, const ProblemOptions &options)
         {
-            Scenario scenario = readScenario(file, {options.vehicle});
-            const auto local = [&scenario](const Pose &pose) -> Pose
-            {
-                return {pose.x - scenario.worldOffset.x(), pose.y - scenario.worldOffset.y(), wrapAngle(pose.yaw)};
-            };
-            if (options.start)
-                scenario.start = local(*options.start);
-            if (options.goal)
-            {
-                scenario.goals = {local(*options.goal)};
-                scenario.slot.reset();
-            }
-            return scenario;
+            return readAnyScenario(file, {options.vehicle, options.start, options.goal});
         }
 
         void setBounds(const Problem &problem, const ProblemOptions &options)
@@ -215,7 +203,7 @@ namespace parking
             if (!common.name.empty() && config.scenarios.size() > 1)
                 throw Error(config.file + ": 'name' in [problem] is for a single scenario, and there are " +
                             std::to_string(config.scenarios.size()));
-            const std::string base = word(common.name.empty() ? readScenario(file).name : common.name);
+            const std::string base = word(common.name.empty() ? readWithOptions(file, common).name : common.name);
             scenarios.push_back(base);
             std::vector<Experiment> variants;
             for (std::size_t i = 0; i < config.planners.size(); ++i)

@@ -1,5 +1,6 @@
 // parking_plan: plans one scenario. docs/comparison.md says how.
 
+#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/planners/PluginLoader.h"
 #include "benchmarks/programs/PlanOptions.h"
 #include "benchmarks/programs/PlanResult.h"
@@ -49,7 +50,7 @@ namespace
         const Problem problem = [&]
         {
             const LongStep step("reading " + options.scenario);
-            return Problem(readScenario(options.scenario, {options.vehicle}), settings);
+            return Problem(readAnyScenario(options.scenario, {options.vehicle, {}, {}}), settings);
         }();
         PlanResult result;
         result.planner = entry.name;

@@ -1,6 +1,7 @@
 #include "benchmarks/queries/Queries.h"
 
 #include "benchmarks/comparison/BenchmarkConfig.h"
+#include "benchmarks/formats/YamlFormat.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/referee/FreeSpace.h"
@@ -177,28 +178,9 @@ namespace parking
 
     std::string queryText(const QueryWorld &world, const Query &query, const std::string &map)
     {
-        const Vehicle &car = world.scenario.vehicle;
-        std::string text =
-            "vehicle: {name: '" + oneLine(car.name) + "', wheelbase: " + formatNumber(car.wheelbase) +
-            ", front_overhang: " + formatNumber(car.frontOverhang) +
-            ", rear_overhang: " + formatNumber(car.rearOverhang) + ", width: " + formatNumber(car.width) +
-            ", max_steering_angle: " + formatNumber(car.maxSteeringAngle) +
-            ", max_speed: " + formatNumber(car.maxSpeed) + ", max_acceleration: " + formatNumber(car.maxAcceleration) +
-            ", max_steering_rate: " + formatNumber(car.maxSteeringRate) + "}\n";
-        text += "start: " + numbers(query.start) + "\ngoal: " + numbers(query.goal) + "\n";
-        if (world.scenario.grid)
-            return text + "map: " + map +
-                   "\nunknown_is_occupied: " + (world.scenario.unknownIsOccupied ? "true" : "false") + "\n";
-        text += "polygons:";
-        for (const Polygon &polygon : world.scenario.polygons)
-        {
-            text += "\n  - [";
-            for (std::size_t i = 0; i < polygon.size(); ++i)
-                text +=
-                    (i > 0 ? ", [" : "[") + formatNumber(polygon[i].x()) + ", " + formatNumber(polygon[i].y()) + "]";
-            text += "]";
-        }
-        return text + (world.scenario.polygons.empty() ? " []\n" : "\n");
+        const Scenario &scenario = world.scenario;
+        return yamlText(scenario.vehicle, query.start, query.goal, scenario.polygons, scenario.grid ? map : "",
+                        scenario.unknownIsOccupied);
     }
 
     std::string mapYaml(const OccupancyGrid &grid, const std::string &image)

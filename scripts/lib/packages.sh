@@ -25,6 +25,7 @@ nlohmann-json3-dev           | build | writes results as JSON
 libpng-dev                   | build | reads maps in PNG
 libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
 libsqlite3-dev               | build | SQLite: the database of a comparison
+libmatio-dev                 | build | MATLAB files: CommonParking's cases and results; without it the rest builds
 python3                      | build page | reports from the database; checks of the tests
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with

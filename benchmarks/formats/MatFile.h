@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace parking
+{
+    /** \brief A value as MATLAB has it. */
+    struct MatValue
+    {
+        enum class Kind
+        {
+            Numbers,  ///< of any class, as doubles
+            Logical,
+            Text,
+            Struct,  ///< one; of an array of them the first
+            Cell
+        };
+
+        Kind kind{Kind::Numbers};
+        std::size_t rows{0}, columns{0};                       ///< of numbers
+        std::vector<double> numbers;                           ///< column by column
+        std::string text;                                      ///< of a text
+        std::vector<std::pair<std::string, MatValue>> fields;  ///< of a struct
+        std::vector<MatValue> cells;                           ///< of a cell array
+
+        static MatValue number(double value);
+        static MatValue logical(bool value);
+        static MatValue row(std::vector<double> values);
+        static MatValue column(std::vector<double> values);
+        static MatValue of(std::string text);
+        static MatValue structure(std::vector<std::pair<std::string, MatValue>> fields);
+        static MatValue cell(std::vector<MatValue> cells);
+        static MatValue empty();
+
+        /** \brief The field of this name; null when there is none. */
+        const MatValue *field(const std::string &name) const;
+    };
+
+    /** \brief Can this build read and write such files? It takes libmatio. */
+    bool hasMatFiles();
+
+    /** \brief A variable of a MATLAB 5 file (what MATLAB's `save` has written since version 5, but for `-v7.3`).
+
+        Throws parking::Error with one line for a file that is damaged, of another version, or has no such variable. */
+    MatValue readMat(const std::string &file, const std::string &variable);
+
+    /** \brief Writes one variable as a MATLAB 5 file, whole or not at all. Throws parking::Error. */
+    void writeMat(const std::string &file, const std::string &variable, const MatValue &value);
+}  // namespace parking

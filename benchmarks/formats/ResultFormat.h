@@ -1,0 +1,56 @@
+#pragma once
+
+#include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
+#include "path_tracking/trajectory/Trajectory.h"
+
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What `parking_plan --json` has written of a run, in the coordinates of the scenario's file. */
+    struct StoredResult
+    {
+        std::string planner;
+        std::string status;
+        double planningTime{0.0};  ///< seconds, of the first run
+        int caseId{1};             ///< for formats that number their problems
+        Vehicle vehicle;
+        Path path;              ///< its pieces are the arcs between the states of the file
+        Trajectory trajectory;  ///< the optimised one, or the driven one where there is no other; may be empty
+
+        bool isSolved() const
+        {
+            return status == "exact";
+        }
+    };
+
+    /** \brief Reads a result. Throws parking::Error with one line for what is no result, or has no path. */
+    StoredResult readResult(const std::string &file);
+
+    /** \brief Does the file begin like JSON? */
+    bool looksLikeResult(const std::string &file);
+
+    /** \brief A kind of file in which results are handed in. A format is one source file, and a line in
+        resultFormats(). */
+    struct ResultFormat
+    {
+        const char *name, *extension, *text;  ///< as of ScenarioFormat
+        /** \brief Writes \e file whole or not at all. Throws parking::Error; also when the result lacks what the format
+            needs. */
+        void (*write)(const StoredResult &result, const std::string &file);
+        /** \brief What is wrong with a written file by the rules of those who read it; empty when nothing is. */
+        std::string (*check)(const StoredResult &result, const std::string &file);
+    };
+
+    const std::vector<ResultFormat> &resultFormats();
+
+    /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
+    const ResultFormat &resultFormat(const std::string &name);
+
+    // The formats. @{
+    ResultFormat commonParkingPath();
+    ResultFormat commonParkingTrajectory();
+    ResultFormat tpcapTrajectory();  // @}
+}  // namespace parking

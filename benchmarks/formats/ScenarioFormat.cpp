@@ -1,0 +1,120 @@
+#include "benchmarks/formats/ScenarioFormat.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/Text.h"
+#include "state_validity/ObstacleSet.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr std::size_t BEGIN = 4096;  // bytes by which a format is recognised
+        constexpr double WALL = 1.0;         // metres
+    }                                        // namespace
+
+    const std::vector<ScenarioFormat> &scenarioFormats()
+    {
+        static const std::vector<ScenarioFormat> formats{commonParkingFormat(), benchMrFormat(), tpcapFormat(),
+                                                         yamlFormat()};
+        return formats;
+    }
+
+    const ScenarioFormat &scenarioFormat(const std::string &name)
+    {
+        std::vector<std::string> names;
+        for (const ScenarioFormat &format : scenarioFormats())
+        {
+            if (format.name == name)
+                return format;
+            names.emplace_back(format.name);
+        }
+        throw Error(unknownName("format", name, names));
+    }
+
+    const ScenarioFormat &formatOf(const std::string &file)
+    {
+        std::array<char, BEGIN> buffer{};
+        std::error_code failed;
+        std::ifstream stream(file, std::ios::binary);
+        if (std::filesystem::is_directory(file, failed) || !stream)
+            return scenarioFormats().back();  // whose reader says what is wrong
+        stream.read(buffer.data(), BEGIN);
+        const std::string_view begin(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+        for (const ScenarioFormat &format : scenarioFormats())
+            if (format.recognizes(begin))
+                return format;
+        return scenarioFormats().back();
+    }
+
+    const ScenarioFormat &formatForName(const std::string &file)
+    {
+        const std::string extension = std::filesystem::path(file).extension().string();
+        std::string known;
+        for (const ScenarioFormat &format : scenarioFormats())
+        {
+            if (extension == format.extension)
+                return format;
+            known += (known.empty() ? "" : ", ") + std::string(format.extension);
+        }
+        throw Error(inQuotes(file) + ": the name says no format; name one with --to, or end it with one of " + known);
+    }
+
+    Scenario readAnyScenario(const std::string &file, const FormatOptions &options)
+    {
+        return formatOf(file).read(file, options);
+    }
+
+    Scenario withOptions(Scenario scenario, const FormatOptions &options)
+    {
+        const auto local = [&scenario](const Pose &pose) -> Pose
+        {
+            return {pose.x - scenario.worldOffset.x(), pose.y - scenario.worldOffset.y(), wrapAngle(pose.yaw)};
+        };
+        if (options.start)
+            scenario.start = local(*options.start);
+        if (options.goal)
+        {
+            scenario.goals = {local(*options.goal)};
+            scenario.slot.reset();
+        }
+        return scenario;
+    }
+
+    std::vector<Polygon> obstaclePolygons(const Scenario &scenario)
+    {
+        std::vector<Polygon> polygons = scenario.polygons;
+        if (scenario.grid)
+        {
+            const ObstacleSet obstacles = ObstacleSet::fromGrid(*scenario.grid, scenario.unknownIsOccupied);
+            const Box &map = obstacles.bounds();
+            const auto add = [&](const Eigen::Vector2d &low, const Eigen::Vector2d &high)
+            {
+                Polygon polygon;
+                for (const Eigen::Vector2d &corner :
+                     {low, Eigen::Vector2d(high.x(), low.y()), high, Eigen::Vector2d(low.x(), high.y())})
+                {
+                    const Pose place = compose(obstacles.frame(), {corner.x(), corner.y(), 0.0});
+                    polygon.emplace_back(place.x, place.y);
+                }
+                polygons.push_back(std::move(polygon));
+            };
+            for (const Box &box : obstacles.rectangles())
+                add(box.min, box.max);
+            // Nobody leaves a map: a wall round it.
+            const Eigen::Vector2d thick(WALL, WALL);
+            add(map.min - thick, {map.max.x() + WALL, map.min.y()});
+            add({map.min.x() - WALL, map.max.y()}, map.max + thick);
+            add({map.min.x() - WALL, map.min.y()}, {map.min.x(), map.max.y()});
+            add({map.max.x(), map.min.y()}, {map.max.x() + WALL, map.max.y()});
+        }
+        for (Polygon &polygon : polygons)
+            for (Eigen::Vector2d &corner : polygon)
+                corner += scenario.worldOffset;
+        return polygons;
+    }
+}  // namespace parking

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "parking_geometry/Scenario.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace parking
+{
+    /** \brief What a file does not say, or shall say otherwise. */
+    struct FormatOptions
+    {
+        std::string vehicle;              ///< name or file; empty: the file's, or the format's
+        std::optional<Pose> start, goal;  ///< in the coordinates of the file
+    };
+
+    /** \brief A kind of file that holds a parking problem. A format is one source file, and a line in
+        scenarioFormats(). */
+    struct ScenarioFormat
+    {
+        const char *name;       ///< one word, for --to
+        const char *extension;  ///< of files that are written: ".yaml"
+        const char *text;       ///< one line for --help
+        /** \brief Is this the beginning of such a file? */
+        bool (*recognizes)(std::string_view begin);
+        /** \brief Throws parking::Error with one line naming the file. */
+        Scenario (*read)(const std::string &file, const FormatOptions &options);
+        /** \brief Writes \e file whole or not at all. Throws parking::Error; also for what the format cannot hold. */
+        void (*write)(const Scenario &scenario, const std::string &file);
+    };
+
+    /** \brief All formats; the last one is what a file is taken for that none recognizes. */
+    const std::vector<ScenarioFormat> &scenarioFormats();
+
+    /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
+    const ScenarioFormat &scenarioFormat(const std::string &name);
+
+    /** \brief The format of a file, recognised by its content. */
+    const ScenarioFormat &formatOf(const std::string &file);
+
+    /** \brief The format that a file to be written has by its name. Throws parking::Error listing what there is. */
+    const ScenarioFormat &formatForName(const std::string &file);
+
+    /** \brief Reads a scenario in any format. Throws parking::Error. */
+    Scenario readAnyScenario(const std::string &file, const FormatOptions &options = {});
+
+    /** \brief Start and goal of \e options put into a scenario that was read. */
+    Scenario withOptions(Scenario scenario, const FormatOptions &options);
+
+    /** \brief The obstacles as polygons in the coordinates of the file: cells merged into rectangles. */
+    std::vector<Polygon> obstaclePolygons(const Scenario &scenario);
+
+    // The formats, each in a file of its own. @{
+    ScenarioFormat yamlFormat();
+    ScenarioFormat tpcapFormat();
+    ScenarioFormat benchMrFormat();
+    ScenarioFormat commonParkingFormat();  // @}
+}  // namespace parking
