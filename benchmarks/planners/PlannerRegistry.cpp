@@ -1,7 +1,9 @@
 #include "benchmarks/planners/PlannerRegistry.h"
 
+#include "benchmarks/planners/KinodynamicPlanner.h"
 #include "benchmarks/planners/ReedsSheppPlanner.h"
 #include "benchmarks/planners/SolveRecord.h"
+#include "benchmarks/planners/TextbookHybridAStar.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
@@ -26,6 +28,20 @@
 #include <ompl/geometric/planners/sbl/SBL.h>
 #include <ompl/geometric/planners/sst/SST.h>
 #include <ompl/util/Exception.h>
+
+// Newer than some of the versions of OMPL that the project builds with.
+#if __has_include(<ompl/geometric/planners/informedtrees/EITstar.h>)
+#include <ompl/geometric/planners/informedtrees/EITstar.h>
+#define PARKING_HAVE_EITSTAR
+#endif
+#if __has_include(<ompl/geometric/planners/rrt/AORRTC.h>)
+#include <ompl/geometric/planners/rrt/AORRTC.h>
+#define PARKING_HAVE_AORRTC
+#endif
+#if __has_include(<ompl/geometric/planners/lazyinformedtrees/BLITstar.h>)
+#include <ompl/geometric/planners/lazyinformedtrees/BLITstar.h>
+#define PARKING_HAVE_BLITSTAR
+#endif
 
 #include <algorithm>
 #include <cctype>
@@ -144,6 +160,8 @@ namespace parking
         registry.add(entry<og::ImprovedAStar>("improved_astar", "improved A* of this project"));
         registry.add(entry<og::ImprovedAStar>("hybrid_astar", "Hybrid A*: the same core with its improvements off",
                                               false, {{"parameter_set", "hybrid_astar"}}));
+        registry.add(entry<TextbookHybridAStar>("textbook_hybrid_astar",
+                                                "Hybrid A* as it is usually written, on a uniform lattice"));
         registry.add(entry<ReedsSheppPlanner>("reeds_shepp", "the bare Reeds-Shepp curve, checked"));
         registry.add(entry<og::RRTstar>("RRTstar", "OMPL's RRT*", true));
         registry.add(entry<og::InformedRRTstar>("InformedRRTstar", "OMPL's Informed RRT*", true));
@@ -163,6 +181,18 @@ namespace parking
         registry.add(entry<og::EST>("EST", "OMPL's EST"));
         registry.add(entry<og::BiEST>("BiEST", "OMPL's bidirectional EST"));
         registry.add(entry<og::SST>("SST", "OMPL's SST", true));
+#ifdef PARKING_HAVE_EITSTAR
+        registry.add(entry<og::EITstar>("EITstar", "OMPL's EIT*", true));
+#endif
+#ifdef PARKING_HAVE_AORRTC
+        registry.add(entry<og::AORRTC>("AORRTC", "OMPL's AORRTC", true));
+#endif
+#ifdef PARKING_HAVE_BLITSTAR
+        registry.add(entry<og::BLITstar>("BLITstar", "OMPL's BLIT*", true));
+#endif
+        registry.add(entry<ControlRRT>("control_RRT", "OMPL's RRT of controls, with the bicycle model"));
+        registry.add(entry<ControlSST>("control_SST", "OMPL's SST of controls, to the first solution"));
+        registry.add(entry<ControlKPIECE1>("control_KPIECE1", "OMPL's KPIECE of controls"));
         // The names that OMPL.app's files use.
         registry.addAlias("kpiece", "KPIECE1");
         registry.addAlias("bkpiece", "BKPIECE1");

@@ -294,6 +294,17 @@ class Shards(BenchmarkTest):
         self.assertEqual(self.records(*parts), self.records('whole/runs.jsonl'))
         self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
 
+    def test_shards_with_isolation_are_one_run_too(self):
+        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
+        self.benchmark('set.cfg', '--output', 'apart', '--quiet', '--isolate')
+        for i in (1, 2, 3):
+            self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--isolate', '--shard', '%d/3' % i)
+        self.benchmark('set.cfg', '--output', 'parts', '--merge')
+        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/runs-*.jsonl')))
+        self.assertEqual(self.records(*parts), self.records('apart/runs.jsonl'))
+        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('apart/benchmark.db'))
+        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+
     def test_a_shard_that_is_missing(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--shard', '1/2')
         done = self.benchmark('set.cfg', '--output', 'out', '--merge', status=1)

@@ -182,6 +182,7 @@ class ScenariosTest(ConvertTest):
         self.assertEqual(self.planned('scene.svg')['status'], 'exact')
         self.needs_mat_files()
         self.write('case.csv', CASE)
+        os.mkdir(self.path('cases'))
         self.convert('case.csv', 'cases/Case07.mat')
         result = self.planned('cases/Case07.mat')
         self.assertEqual((result['status'], result['vehicle']['max_steering_angle']), ('exact', 0.7))

@@ -1,0 +1,202 @@
+#include "benchmarks/planners/KinodynamicPlanner.h"
+
+#include "parking_geometry/Pose.h"
+#include "state_validity/ompl/CurveSpace.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <ompl/base/goals/GoalStates.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/control/PathControl.h>
+#include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/rrt/RRT.h>
+#include <ompl/control/planners/sst/SST.h>
+#include <ompl/control/spaces/RealVectorControlSpace.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Exception.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr unsigned LONGEST_CONTROL = 10;  // steps
+        constexpr unsigned CURVATURE = 0, DIRECTION = 1;
+
+        /** Of curvature -1, 0 and 1 times the largest, and direction -1 and 1. */
+        class BangBang : public oc::ControlSampler
+        {
+        public:
+            explicit BangBang(const oc::ControlSpace *space) : oc::ControlSampler(space)
+            {
+            }
+
+            void sample(oc::Control *control) override
+            {
+                double *values = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+                values[CURVATURE] = rng_.uniformInt(-1, 1);
+                values[DIRECTION] = rng_.uniformBool() ? 1.0 : -1.0;
+            }
+        };
+
+        /** Reached by whoever can drive on to one of its states along the space's own curve. */
+        class WithinReach : public ob::GoalStates
+        {
+        public:
+            WithinReach(const ob::SpaceInformationPtr &si, double reach) : ob::GoalStates(si), reach_(reach)
+            {
+                setThreshold(reach);
+            }
+
+            const ob::State *drivableFrom(const ob::State *state) const
+            {
+                for (std::size_t i = 0; i < getStateCount(); ++i)
+                    if (si_->distance(state, getState(i)) <= reach_ && si_->checkMotion(state, getState(i)))
+                        return getState(i);
+                return nullptr;
+            }
+
+            bool isSatisfied(const ob::State *state) const override
+            {
+                return drivableFrom(state) != nullptr;
+            }
+
+            bool isSatisfied(const ob::State *state, double *distance) const override
+            {
+                *distance = distanceGoal(state);
+                return *distance <= reach_ && isSatisfied(state);
+            }
+
+        private:
+            double reach_;
+        };
+    }  // namespace
+
+    KinodynamicPlanner::KinodynamicPlanner(const ob::SpaceInformationPtr &si, const std::string &name,
+                                           const Maker &maker)
+      : ob::Planner(si, name)
+    {
+        specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
+        specs_.directed = true;
+        declareParam<double>("goal_reach", this, &KinodynamicPlanner::setGoalReach, &KinodynamicPlanner::getGoalReach,
+                             "0.5:0.5:20.");
+        declareParam<double>("step", this, &KinodynamicPlanner::setStep, &KinodynamicPlanner::getStep, "0.05:0.05:1.");
+
+        auto controls = std::make_shared<oc::RealVectorControlSpace>(si->getStateSpace(), 2);
+        ob::RealVectorBounds bounds(2);
+        bounds.setLow(-1.0);
+        bounds.setHigh(1.0);
+        controls->setBounds(bounds);
+        controls->setControlSamplerAllocator([](const oc::ControlSpace *space)
+                                             { return std::make_shared<BangBang>(space); });
+        controls_ = std::make_shared<oc::SpaceInformation>(si->getStateSpace(), controls);
+        planner_ = maker(controls_);
+        params_.include(planner_->params());
+    }
+
+    ob::PlannerStatus KinodynamicPlanner::solve(const ob::PlannerTerminationCondition &ptc)
+    {
+        checkValidity();
+        const CurveSpace space(*si_->getStateSpace());
+        if (space.kind() != SpaceKind::ReedsShepp)
+            throw ompl::Exception(getName(), "plans in a Reeds-Shepp space only");
+        if (!(goalReach_ > 0.0 && step_ > 0.0))
+            throw ompl::Exception(getName(), "goal_reach and step must be positive");
+        pis_.restart();
+        auto problem = std::make_shared<ob::ProblemDefinition>(controls_);
+        while (const ob::State *start = pis_.nextStart())
+            problem->addStartState(start);
+        if (problem->getStartStateCount() == 0)
+            return ob::PlannerStatus::INVALID_START;
+        auto goal = std::make_shared<WithinReach>(si_, goalReach_);
+        for (const ob::State *state = pis_.nextGoal(ptc); state != nullptr; state = pis_.nextGoal())
+            goal->addState(state);
+        if (!goal->hasStates())
+            return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
+        problem->setGoal(goal);
+        // Content with the first solution, where a planner asks.
+        auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(controls_);
+        objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::infinity()));
+        problem->setOptimizationObjective(objective);
+
+        const double curvature = 1.0 / space.turningRadius();
+        const double outside = si_->getStateSpace()->as<ob::SE2StateSpace>()->getBounds().high[0] + 1.0;
+        const ob::SpaceInformation *geometric = si_.get();  // lives as long as this planner
+        controls_->setStateValidityChecker([geometric](const ob::State *state) { return geometric->isValid(state); });
+        controls_->setStatePropagator(
+            [geometric, curvature, outside](const ob::State *from, const oc::Control *control, double length,
+                                            ob::State *to)
+            {
+                const double *values = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+                Pose pose = advance(poseOf(from), std::round(values[CURVATURE]) * curvature,
+                                    values[DIRECTION] < 0.0 ? -length : length);
+                ob::State *reached = geometric->cloneState(from);
+                setPose(reached, pose);
+                // A step that touches something on its way ends outside of the world, which nobody takes for valid.
+                if (!geometric->satisfiesBounds(reached) || !geometric->checkMotion(from, reached))
+                    pose.x = outside;
+                geometric->freeState(reached);
+                setPose(to, pose);
+            });
+        controls_->setPropagationStepSize(step_);
+        controls_->setMinMaxControlDuration(1, LONGEST_CONTROL);
+        controls_->setup();
+        planner_->setProblemDefinition(problem);
+        planner_->clear();
+        planner_->setup();
+        planner_->solve(ptc);
+
+        const auto *found = dynamic_cast<const oc::PathControl *>(problem->getSolutionPath().get());
+        if (found == nullptr || found->getStateCount() == 0)
+            return ob::PlannerStatus::TIMEOUT;
+        auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
+        oc::PathControl steps(*found);
+        steps.interpolate();  // a state for each step: arcs of several could have a shorter curve between their ends
+        for (const ob::State *state : steps.getStates())
+            path->append(state);
+        const ob::State *last = path->getStates().back();
+        const ob::State *end = goal->drivableFrom(last);
+        if (end != nullptr && si_->distance(last, end) > 0.0)
+            path->append(end);
+        ob::PlannerSolution solution(path);
+        solution.setPlannerName(getName());
+        if (end == nullptr)
+            solution.setApproximate(goal->distanceGoal(last));
+        pdef_->addSolutionPath(solution);
+        return end != nullptr ? ob::PlannerStatus::EXACT_SOLUTION : ob::PlannerStatus::APPROXIMATE_SOLUTION;
+    }
+
+    void KinodynamicPlanner::clear()
+    {
+        ob::Planner::clear();
+        planner_->clear();
+    }
+
+    void KinodynamicPlanner::getPlannerData(ob::PlannerData &data) const
+    {
+        ob::Planner::getPlannerData(data);
+        if (planner_->getProblemDefinition())
+            planner_->getPlannerData(data);
+    }
+
+    ControlRRT::ControlRRT(const ob::SpaceInformationPtr &si)
+      : KinodynamicPlanner(si, "control_RRT", [](const auto &controls) { return std::make_shared<oc::RRT>(controls); })
+    {
+    }
+
+    ControlSST::ControlSST(const ob::SpaceInformationPtr &si)
+      : KinodynamicPlanner(si, "control_SST", [](const auto &controls) { return std::make_shared<oc::SST>(controls); })
+    {
+    }
+
+    ControlKPIECE1::ControlKPIECE1(const ob::SpaceInformationPtr &si)
+      : KinodynamicPlanner(si, "control_KPIECE1",
+                           [](const auto &controls) { return std::make_shared<oc::KPIECE1>(controls); })
+    {
+    }
+}  // namespace parking

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+#include <ompl/control/SpaceInformation.h>
+
+#include <functional>
+#include <memory>
+
+namespace parking
+{
+    /** \brief A planner of OMPL's control space (RRT, SST, KPIECE) behind the interface of a geometric one, with the
+        bicycle model.
+
+        Its controls are a curvature and a direction: full lock to the left, straight ahead, full lock to the right,
+        forwards or in reverse. A drive with one of them is an arc that the Reeds-Shepp space has, too, so that its path
+        is judged like any other. Each step is checked along its whole length by the motion validator of the space.
+
+        Planners of controls do not reach a pose. They are done when the space's own curve from a state to a goal is
+        free and no longer than `goal_reach` metres; that curve ends the path. */
+    class KinodynamicPlanner : public ompl::base::Planner
+    {
+    public:
+        /** \brief Makes the planner that plans in control space. */
+        using Maker = std::function<ompl::base::PlannerPtr(const ompl::control::SpaceInformationPtr &)>;
+
+        /** \brief Takes Reeds-Shepp spaces; with any other solve() throws ompl::Exception. */
+        KinodynamicPlanner(const ompl::base::SpaceInformationPtr &si, const std::string &name, const Maker &maker);
+
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
+        using ompl::base::Planner::solve;
+
+        void clear() override;
+
+        void getPlannerData(ompl::base::PlannerData &data) const override;
+
+        /** \brief Metres that the curve to the goal is long at most. @{ */
+        void setGoalReach(double metres)
+        {
+            goalReach_ = metres;
+        }
+        double getGoalReach() const
+        {
+            return goalReach_;
+        }  // @}
+
+        /** \brief Metres of a step of a control; a control lasts for one to ten of them. @{ */
+        void setStep(double metres)
+        {
+            step_ = metres;
+        }
+        double getStep() const
+        {
+            return step_;
+        }  // @}
+
+    private:
+        double goalReach_{5.0};
+        double step_{0.3};
+        ompl::control::SpaceInformationPtr controls_;
+        ompl::base::PlannerPtr planner_;
+    };
+
+    /** \brief OMPL's control-space RRT, SST and KPIECE1, to the first solution. @{ */
+    class ControlRRT : public KinodynamicPlanner
+    {
+    public:
+        explicit ControlRRT(const ompl::base::SpaceInformationPtr &si);
+    };
+    class ControlSST : public KinodynamicPlanner
+    {
+    public:
+        explicit ControlSST(const ompl::base::SpaceInformationPtr &si);
+    };
+    class ControlKPIECE1 : public KinodynamicPlanner
+    {
+    public:
+        explicit ControlKPIECE1(const ompl::base::SpaceInformationPtr &si);
+    };  // @}
+}  // namespace parking

@@ -1,0 +1,68 @@
+"""The example that wraps a program as a planner: paths, nonsense, programs that fail or hang, and nothing else is lost."""
+
+import json
+import os
+import time
+
+from programs import SOURCE, ProgramTest, bundled, main
+
+PLUGIN = os.environ['PARKING_EXTERNAL']
+STRAIGHT = os.path.join(SOURCE, 'examples', 'plugin', 'straight_planner.py')
+OPEN = 'start: [0, 0, 0]\ngoal: [9, 2, 0.3]\npolygons:\n  - [[-8, -8], [-6, -8], [-6, -7]]\n'
+
+
+class External(ProgramTest):
+    def outcome(self, command, scenario='open.yaml', status=0, limit=20):
+        self.write('open.yaml', OPEN)
+        return self.planned(scenario, '--plugin', PLUGIN, '--planner', 'external', '--set', 'command=' + command,
+                            '--time-limit', limit, status=status)
+
+    def test_a_program_in_another_language(self):
+        result = self.outcome('python3 ' + STRAIGHT)
+        self.assertEqual((result['status'], result['recheck']['valid']), ('exact', True))
+        self.assertEqual((result['path'][-1]['x'], result['path'][-1]['y']), (9.0, 2.0))
+
+    def test_what_is_asked_is_a_scenario(self):
+        self.outcome(f'tee {self.path("asked.yaml")} | python3 {STRAIGHT}')
+        self.assertEqual(self.planned('asked.yaml')['status'], 'exact')
+        # A map goes out as rectangles, and a path through walls is not believed.
+        result = self.outcome('python3 ' + STRAIGHT, bundled('underground_garage'), status=4)
+        self.assertEqual(result['status'], 'invalid_path')
+        self.assertEqual(result['recheck']['fault'], 'collision')
+
+    def test_programs_that_find_nothing_or_hang(self):
+        self.assertEqual(self.outcome('true', status=4)['status'], 'infeasible')
+        begin = time.monotonic()
+        self.assertEqual(self.outcome('sleep 1000', status=4, limit=0.5)['status'], 'timeout')
+        self.assertEqual(self.outcome('yes ""', status=4)['status'], 'exception')  # it does not stop printing
+        self.assertLess(time.monotonic() - begin, 60.0)
+
+    def test_in_a_comparison_each_is_an_outcome_of_its_runs(self):
+        self.write('open.yaml', OPEN)
+        commands = {'good': 'python3 ' + STRAIGHT, 'nonsense': 'echo the way is long', 'numbers': 'echo 1 2',
+                    'fails': 'exit 3', 'missing': './no_such_program', 'hangs': 'sleep 1000',
+                    'elsewhere': 'echo 1e300 0 0; echo 0 0 0', 'half': 'head -c 10 >/dev/null; python3 -c "print(0,0,0)"'}
+        text = '[problem]\nscenario = open.yaml\n[benchmark]\ntime_limit = 2\nrun_count = 1\n[planner]\nreeds_shepp=\n'
+        for name, command in commands.items():
+            text += f'external=\nexternal.name={name}\nexternal.command={command}\n'
+        self.write('set.cfg', text)
+        done = self.benchmark('set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet')
+        found = {}
+        with open(self.path('out/runs.jsonl')) as stream:
+            next(stream)
+            for line in stream:
+                run = json.loads(line)
+                found[run['planner']] = (run['figures']['outcome'], run['figures']['success'], run.get('reason', ''))
+        self.assertEqual(len(found), 1 + len(commands))
+        self.assertTrue(found['reeds_shepp'][1] and found['good'][1])
+        self.assertFalse(any(found[name][1] for name in commands if name != 'good'))
+        for name, words in (('nonsense', 'line 1 of the program is no pose'), ('numbers', 'no pose'),
+                            ('fails', 'status 3'), ('missing', 'status 127')):
+            self.assertEqual(found[name][0], 6)  # an exception
+            self.assertIn(words, found[name][2])
+            self.assertIn(words, done.stdout)
+        self.assertEqual(found['hangs'][0], 2)  # the time was up
+
+
+if __name__ == '__main__':
+    main()
