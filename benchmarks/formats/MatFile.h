@@ -10,29 +10,39 @@ namespace parking
     /** \brief A value as MATLAB has it. */
     struct MatValue
     {
+        /** rief What it is. */
         enum class Kind
         {
             Numbers,  ///< of any class, as doubles
-            Logical,
-            Text,
-            Struct,  ///< one; of an array of them the first
-            Cell
+            Logical,  ///< yes or no, as numbers
+            Text,     ///< an array of characters
+            Struct,   ///< one; of an array of them the first
+            Cell      ///< a list of values
         };
 
-        Kind kind{Kind::Numbers};
-        std::size_t rows{0}, columns{0};                       ///< of numbers
+        Kind kind{Kind::Numbers};                              ///< which of the members below counts
+        std::size_t rows{0};                                   ///< of numbers
+        std::size_t columns{0};                                ///< of numbers
         std::vector<double> numbers;                           ///< column by column
         std::string text;                                      ///< of a text
         std::vector<std::pair<std::string, MatValue>> fields;  ///< of a struct
         std::vector<MatValue> cells;                           ///< of a cell array
 
+        /** \brief One number. */
         static MatValue number(double value);
+        /** \brief Yes or no. */
         static MatValue logical(bool value);
+        /** \brief Numbers side by side. */
         static MatValue row(std::vector<double> values);
+        /** \brief Numbers below each other. */
         static MatValue column(std::vector<double> values);
+        /** \brief A text. */
         static MatValue of(std::string text);
+        /** \brief A struct of one. */
         static MatValue structure(std::vector<std::pair<std::string, MatValue>> fields);
+        /** \brief A cell array in a row. */
         static MatValue cell(std::vector<MatValue> cells);
+        /** \brief A matrix of nothing. */
         static MatValue empty();
 
         /** \brief The field of this name; null when there is none. */

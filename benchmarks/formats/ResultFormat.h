@@ -12,14 +12,15 @@ namespace parking
     /** \brief What `parking_plan --json` has written of a run, in the coordinates of the scenario's file. */
     struct StoredResult
     {
-        std::string planner;
-        std::string status;
+        std::string planner;       ///< its name
+        std::string status;        ///< exact, approximate, ...
         double planningTime{0.0};  ///< seconds, of the first run
         int caseId{1};             ///< for formats that number their problems
-        Vehicle vehicle;
-        Path path;              ///< its pieces are the arcs between the states of the file
-        Trajectory trajectory;  ///< the optimised one, or the driven one where there is no other; may be empty
+        Vehicle vehicle;           ///< the car
+        Path path;                 ///< its pieces are the arcs between the states of the file
+        Trajectory trajectory;     ///< the optimised one, or the driven one where there is no other; may be empty
 
+        /** \brief Does the path end at the goal? */
         bool isSolved() const
         {
             return status == "exact";
@@ -36,7 +37,9 @@ namespace parking
         resultFormats(). */
     struct ResultFormat
     {
-        const char *name, *extension, *text;  ///< as of ScenarioFormat
+        const char *name;       ///< one word, for --to
+        const char *extension;  ///< ".mat"
+        const char *text;       ///< one line for --help
         /** \brief Writes \e file whole or not at all. Throws parking::Error; also when the result lacks what the format
             needs. */
         void (*write)(const StoredResult &result, const std::string &file);
@@ -44,13 +47,16 @@ namespace parking
         std::string (*check)(const StoredResult &result, const std::string &file);
     };
 
+    /** \brief All formats of results. */
     const std::vector<ResultFormat> &resultFormats();
 
     /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
     const ResultFormat &resultFormat(const std::string &name);
 
-    // The formats. @{
+    /** \brief CommonParking's path. */
     ResultFormat commonParkingPath();
+    /** \brief CommonParking's trajectory. */
     ResultFormat commonParkingTrajectory();
-    ResultFormat tpcapTrajectory();  // @}
+    /** \brief A table of a trajectory. */
+    ResultFormat tpcapTrajectory();
 }  // namespace parking

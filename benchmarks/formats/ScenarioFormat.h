@@ -12,8 +12,9 @@ namespace parking
     /** \brief What a file does not say, or shall say otherwise. */
     struct FormatOptions
     {
-        std::string vehicle;              ///< name or file; empty: the file's, or the format's
-        std::optional<Pose> start, goal;  ///< in the coordinates of the file
+        std::string vehicle;        ///< name or file; empty: the file's, or the format's
+        std::optional<Pose> start;  ///< in the coordinates of the file
+        std::optional<Pose> goal;   ///< likewise
     };
 
     /** \brief A kind of file that holds a parking problem. A format is one source file, and a line in
@@ -52,9 +53,12 @@ namespace parking
     /** \brief The obstacles as polygons in the coordinates of the file: cells merged into rectangles. */
     std::vector<Polygon> obstaclePolygons(const Scenario &scenario);
 
-    // The formats, each in a file of its own. @{
+    /** \brief This project's own. */
     ScenarioFormat yamlFormat();
+    /** \brief TPCAP's cases. */
     ScenarioFormat tpcapFormat();
+    /** \brief Bench-MR's scenes. */
     ScenarioFormat benchMrFormat();
-    ScenarioFormat commonParkingFormat();  // @}
+    /** \brief CommonParking's cases. */
+    ScenarioFormat commonParkingFormat();
 }  // namespace parking

@@ -26,32 +26,37 @@ namespace parking
         /** \brief Takes Reeds-Shepp spaces; with any other solve() throws ompl::Exception. */
         KinodynamicPlanner(const ompl::base::SpaceInformationPtr &si, const std::string &name, const Maker &maker);
 
+        /** \brief Plans in control space until there is a solution, or \e ptc says stop. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
         using ompl::base::Planner::solve;
 
+        /** \brief Forgets the search. */
         void clear() override;
 
+        /** \brief The graph of the other planner. */
         void getPlannerData(ompl::base::PlannerData &data) const override;
 
-        /** \brief Metres that the curve to the goal is long at most. @{ */
+        /** \brief Metres that the curve to the goal is long at most. */
         void setGoalReach(double metres)
         {
             goalReach_ = metres;
         }
+        /** \brief See setGoalReach(). */
         double getGoalReach() const
         {
             return goalReach_;
-        }  // @}
+        }
 
-        /** \brief Metres of a step of a control; a control lasts for one to ten of them. @{ */
+        /** \brief Metres of a step of a control; a control lasts for one to ten of them. */
         void setStep(double metres)
         {
             step_ = metres;
         }
+        /** \brief See setStep(). */
         double getStep() const
         {
             return step_;
-        }  // @}
+        }
 
     private:
         double goalReach_{5.0};
@@ -60,20 +65,25 @@ namespace parking
         ompl::base::PlannerPtr planner_;
     };
 
-    /** \brief OMPL's control-space RRT, SST and KPIECE1, to the first solution. @{ */
+    /** \brief OMPL's control-space RRT, to the first solution. */
     class ControlRRT : public KinodynamicPlanner
     {
     public:
+        /** \brief See KinodynamicPlanner. */
         explicit ControlRRT(const ompl::base::SpaceInformationPtr &si);
     };
+    /** \brief OMPL's control-space SST, to the first solution. */
     class ControlSST : public KinodynamicPlanner
     {
     public:
+        /** \brief See KinodynamicPlanner. */
         explicit ControlSST(const ompl::base::SpaceInformationPtr &si);
     };
+    /** \brief OMPL's control-space KPIECE1, to the first solution. */
     class ControlKPIECE1 : public KinodynamicPlanner
     {
     public:
+        /** \brief See KinodynamicPlanner. */
         explicit ControlKPIECE1(const ompl::base::SpaceInformationPtr &si);
-    };  // @}
+    };
 }  // namespace parking

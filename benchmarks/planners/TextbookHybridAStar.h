@@ -14,8 +14,10 @@ namespace parking
     class TextbookHybridAStar : public ompl::base::Planner
     {
     public:
+        /** \brief With parameters as people have them. */
         explicit TextbookHybridAStar(const ompl::base::SpaceInformationPtr &si);
 
+        /** \brief Searches until there is a solution, nothing is left, or \e ptc says stop. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
         using ompl::base::Planner::solve;
 

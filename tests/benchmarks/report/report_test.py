@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import made_results
 from made_results import MAKE_REPORT, REPORT, record
@@ -101,6 +102,22 @@ class FiguresTest(Folder):
         self.assertEqual(row[2], '55.0 ms 20.0 ms – ∞')
         self.assertEqual(row[3], '32.5 ms – ∞')
         self.assertEqual(row[4], '24.50 m 21.00 – ∞')
+
+    def test_tables_and_curve_for_documents(self):
+        runs = made_results.random_records(3, 4, 5, seed=3)
+        made_results.write(self.folder, runs)
+        done = subprocess.run([sys.executable, '-B', os.path.join(made_results.REPORT, 'results_page'), self.folder, '--svg',
+                               self.path('curve.svg'), '--planner', 'planner_1'], capture_output=True, text=True, check=True)
+        rows = {cells[1]: cells for cells in ([cell.strip() for cell in line.split('|')] for line in done.stdout.splitlines())
+                if len(cells) > 2}
+        for planner in range(4):
+            own = [each for each in runs if each['planner'] == f'planner_{planner}']
+            good = sum(each['figures']['success'] for each in own)
+            self.assertEqual(rows[f'planner_{planner}'][2], f'{good} of {len(own)}')
+        self.assertEqual(sum(name.startswith('problem_') for name in rows), 3)
+        with open(self.path('curve.svg'), encoding='utf-8') as stream:
+            curve = stream.read()
+        self.assertEqual(len(xml.etree.ElementTree.fromstring(curve).findall('.//{*}polyline')), 4)
 
     def test_random_results_against_an_independent_computation(self):
         runs = made_results.random_records(3, 4, 23, seed=7)
