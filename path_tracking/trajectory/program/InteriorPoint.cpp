@@ -71,7 +71,7 @@ namespace parking
                         result.status = InteriorPointStatus::Interrupted;
                         break;
                     }
-                    program_.linearize(nodes_, duals_, barrier_, SOFTNESS);
+                    program_.linearize(duals_, barrier_, SOFTNESS);
                     if (lowerBarrier())
                     {
                         result.status = InteriorPointStatus::Converged;
@@ -132,7 +132,7 @@ namespace parking
             /** Lowers the barrier as often as its problem is solved. \return whether the last one is */
             bool lowerBarrier()
             {
-                bool lowered = false;
+                const double before = barrier_;
                 while (error(barrier_) <= 10.0 * barrier_)
                 {
                     if (barrier_ <= options_.lastBarrier)
@@ -143,10 +143,9 @@ namespace parking
                     }
                     barrier_ = std::max(options_.lastBarrier, 0.2 * barrier_);
                     penalty_ = 1.0;
-                    lowered = true;
                 }
-                if (lowered)
-                    program_.linearize(nodes_, duals_, barrier_, SOFTNESS);
+                if (barrier_ != before)
+                    program_.changeBarrier(duals_, before, barrier_);
                 return false;
             }
 

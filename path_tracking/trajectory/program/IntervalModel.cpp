@@ -13,13 +13,6 @@ namespace parking
         constexpr int YAW0 = NODE_YAW, YAW1 = SECOND + NODE_YAW;
         constexpr int PHI0 = NODE_STEERING, PHI1 = SECOND + NODE_STEERING;
 
-        /** Weights of begin, way at the begin, end and way at the end in the Hermite polynomial. */
-        Eigen::Vector4d hermite(double t)
-        {
-            const double t2 = t * t, t3 = t2 * t;
-            return {1.0 - 3.0 * t2 + 2.0 * t3, t - 2.0 * t2 + t3, 3.0 * t2 - 2.0 * t3, t3 - t2};
-        }
-
         /** The entry that turns the way of x, y or yaw at the begin. */
         int angleOf(int e)
         {
@@ -27,29 +20,57 @@ namespace parking
         }
     }  // namespace
 
-    void SpanTerms::add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,
-                        const Eigen::Vector3d &poseShift, const Eigen::Vector3d &poseCost)
+    NodeAngles::NodeAngles(const NodeVector &node)
+      : cosine(std::cos(node[NODE_YAW])),
+        sine(std::sin(node[NODE_YAW])),
+        tangent(std::tan(node[NODE_STEERING]))
     {
-        const Eigen::Vector4d w = hermite(fraction);
+    }
+
+    Eigen::Vector4d hermiteWeights(double t)
+    {
+        const double t2 = t * t, t3 = t2 * t;
+        return {1.0 - 3.0 * t2 + 2.0 * t3, t - 2.0 * t2 + t3, 3.0 * t2 - 2.0 * t3, t3 - t2};
+    }
+
+    void SpanTerms::add(const Eigen::Vector4d &w, const Eigen::Matrix3d &poseHessian,
+                        const Eigen::Vector3d &poseGradient, const Eigen::Vector3d &poseShift,
+                        const Eigen::Vector3d &poseCost)
+    {
         const Eigen::Matrix4d square = w * w.transpose();
         for (int e = 0; e < 3; ++e)
         {
             gradient.segment<4>(4 * e) += poseGradient[e] * w;
             shift.segment<4>(4 * e) += poseShift[e] * w;
             cost.segment<4>(4 * e) += poseCost[e] * w;
-            for (int f = 0; f < 3; ++f)
+            for (int f = 0; f <= e; ++f)
                 hessian.block<4, 4>(4 * e, 4 * f) += poseHessian(e, f) * square;
         }
     }
 
+    void SpanTerms::complete()
+    {
+        hessian.block<4, 4>(0, 4) = hessian.block<4, 4>(4, 0).transpose();
+        hessian.block<4, 4>(0, 8) = hessian.block<4, 4>(8, 0).transpose();
+        hessian.block<4, 4>(4, 8) = hessian.block<4, 4>(8, 4).transpose();
+    }
+
     IntervalModel::IntervalModel(int direction, double wheelbase, const NodeVector &begin, const NodeVector &end)
+      : IntervalModel(direction, wheelbase, begin, end, NodeAngles(begin), NodeAngles(end))
+    {
+    }
+
+    IntervalModel::IntervalModel(int direction, double wheelbase, const NodeVector &begin, const NodeVector &end,
+                                 const NodeAngles &atBegin, const NodeAngles &atEnd)
       : direction_(direction),
         wheelbase_(wheelbase),
         duration_(begin[NODE_DURATION]),
         a_(begin),
         b_(end),
-        begin_(wayOf(begin)),
-        end_(wayOf(end)),
+        atBegin_(atBegin),
+        atEnd_(atEnd),
+        begin_(wayOf(begin, atBegin)),
+        end_(wayOf(end, atEnd)),
         speed_(0.5 * (begin[NODE_SPEED] + end[NODE_SPEED])),
         steering_(0.5 * (begin[NODE_STEERING] + end[NODE_STEERING])),
         yaw_(0.5 * (begin[NODE_YAW] + end[NODE_YAW]) + (begin_.way[2] - end_.way[2]) / 8.0),
@@ -59,9 +80,9 @@ namespace parking
     {
     }
 
-    IntervalModel::Way IntervalModel::wayOf(const NodeVector &node) const
+    IntervalModel::Way IntervalModel::wayOf(const NodeVector &node, const NodeAngles &angles) const
     {
-        const double c = std::cos(node[NODE_YAW]), s = std::sin(node[NODE_YAW]), t = std::tan(node[NODE_STEERING]);
+        const double c = angles.cosine, s = angles.sine, t = angles.tangent;
         const Eigen::Vector3d towards(c, s, t / wheelbase_), turned(-s, c, (1.0 + t * t) / wheelbase_);
         const double v = node[NODE_SPEED], way = direction_ * duration_ * v;
         return {way * towards, direction_ * v * towards, direction_ * duration_ * towards, way * turned};
@@ -120,18 +141,46 @@ namespace parking
         const double turning = m[2] * tangent_ / wheelbase_;
         const double turning1 = m[2] * (1.0 + tangent_ * tangent_) / wheelbase_;
         const double turning2 = 2.0 * turning1 * tangent_;
-        PairVector speed = PairVector::Zero(), steering = speed, duration = speed;
-        speed[V0] = speed[V1] = 0.5;
-        steering[PHI0] = steering[PHI1] = 0.5;
-        duration[H] = 1.0;
-        const PairVector yaw = yawRow();
-        const PairVector byYaw = v * across * duration + h * across * speed - 0.5 * h * v * along * yaw;
-        const PairVector bySteering =
-            v * turning1 * duration + h * turning1 * speed + 0.5 * h * v * turning2 * steering;
-        const PairVector bySpeed = (along + turning) * duration;
-        const PairMatrix half =
-            byYaw * yaw.transpose() + bySteering * steering.transpose() + bySpeed * speed.transpose();
-        terms.hessian += half + half.transpose();
+        // All of it is between seven entries: the yaw in the middle depends on every one of them, speed and steering
+        // there on two each.
+        enum
+        {
+            D,
+            SPEED0,
+            SPEED1,
+            YAW_0,
+            YAW_1,
+            STEER0,
+            STEER1
+        };
+        constexpr std::array<int, 7> ENTRIES{H, V0, V1, YAW0, YAW1, PHI0, PHI1};
+        const PairVector row = yawRow();
+        std::array<double, 7> yaw{}, byYaw{}, bySteering{};
+        for (std::size_t i = 0; i < ENTRIES.size(); ++i)
+        {
+            yaw[i] = row[ENTRIES[i]];
+            byYaw[i] = -0.5 * h * v * along * yaw[i];
+        }
+        byYaw[D] += v * across;
+        byYaw[SPEED0] += 0.5 * h * across;
+        byYaw[SPEED1] += 0.5 * h * across;
+        bySteering[D] = v * turning1;
+        bySteering[SPEED0] = bySteering[SPEED1] = 0.5 * h * turning1;
+        bySteering[STEER0] = bySteering[STEER1] = 0.25 * h * v * turning2;
+        const double bySpeed = along + turning;
+        std::array<std::array<double, 7>, 7> half;
+        for (std::size_t i = 0; i < ENTRIES.size(); ++i)
+        {
+            for (std::size_t k = 0; k < ENTRIES.size(); ++k)
+                half[i][k] = byYaw[i] * yaw[k];
+            half[i][STEER0] += 0.5 * bySteering[i];
+            half[i][STEER1] += 0.5 * bySteering[i];
+        }
+        half[D][SPEED0] += 0.5 * bySpeed;
+        half[D][SPEED1] += 0.5 * bySpeed;
+        for (std::size_t i = 0; i < ENTRIES.size(); ++i)
+            for (std::size_t k = 0; k < ENTRIES.size(); ++k)
+                terms.hessian(ENTRIES[i], ENTRIES[k]) += half[i][k] + half[k][i];
         terms.wayAtBegin -= prices / 6.0;
         terms.wayAtEnd -= prices / 6.0;
         // The yaw in the middle depends on the ways, too.
@@ -139,15 +188,13 @@ namespace parking
         terms.wayAtEnd[2] -= h * v * across / 8.0;
     }
 
-    Eigen::Vector3d IntervalModel::poseAt(double fraction) const
+    Eigen::Vector3d IntervalModel::poseAt(const Eigen::Vector4d &w) const
     {
-        const Eigen::Vector4d w = hermite(fraction);
         return w[0] * a_.head<3>() + w[1] * begin_.way + w[2] * b_.head<3>() + w[3] * end_.way;
     }
 
-    Eigen::Vector3d IntervalModel::poseStep(double fraction, const PairVector &step) const
+    Eigen::Vector3d IntervalModel::poseStep(const Eigen::Vector4d &w, const PairVector &step) const
     {
-        const Eigen::Vector4d w = hermite(fraction);
         const Eigen::Vector3d angles0(step[YAW0], step[YAW0], step[PHI0]), angles1(step[YAW1], step[YAW1], step[PHI1]);
         const Eigen::Vector3d begin =
             begin_.byDuration * step[H] + begin_.bySpeed * step[V0] + begin_.byAngle.cwiseProduct(angles0);
@@ -191,6 +238,23 @@ namespace parking
             terms.hessian.col(by.entry) += by.value * half.row(by.quantity).transpose();
     }
 
+    PairVector IntervalModel::carried(const Eigen::Matrix<double, 12, 1> &by) const
+    {
+        PairVector sum = PairVector::Zero();
+        for (int e = 0; e < 3; ++e)
+        {
+            const int angle = angleOf(e);
+            sum[e] += by[4 * e];
+            sum[H] += begin_.byDuration[e] * by[4 * e + 1] + end_.byDuration[e] * by[4 * e + 3];
+            sum[V0] += begin_.bySpeed[e] * by[4 * e + 1];
+            sum[angle] += begin_.byAngle[e] * by[4 * e + 1];
+            sum[SECOND + e] += by[4 * e + 2];
+            sum[V1] += end_.bySpeed[e] * by[4 * e + 3];
+            sum[SECOND + angle] += end_.byAngle[e] * by[4 * e + 3];
+        }
+        return sum;
+    }
+
     void IntervalModel::addWayCurvature(IntervalTerms &terms) const
     {
         if (direction_ == 0.0)
@@ -202,7 +266,8 @@ namespace parking
             const NodeVector &node = begin ? a_ : b_;
             const int first = begin ? 0 : SECOND, yaw = first + NODE_YAW, v = first + NODE_SPEED;
             const int phi = first + NODE_STEERING;
-            const double c = std::cos(node[NODE_YAW]), s = std::sin(node[NODE_YAW]), t = std::tan(node[NODE_STEERING]);
+            const NodeAngles &angles = begin ? atBegin_ : atEnd_;
+            const double c = angles.cosine, s = angles.sine, t = angles.tangent;
             const double along = d * (m[0] * c + m[1] * s), across = d * (m[1] * c - m[0] * s);
             const double turning1 = d * m[2] * (1.0 + t * t) / wheelbase_, speed = node[NODE_SPEED];
             terms.couple(H, v, along + d * m[2] * t / wheelbase_);
@@ -278,7 +343,7 @@ namespace parking
     {
         const Eigen::Vector3d pose =
             IntervalModel(directions[interval], vehicle.wheelbase, nodes[interval], nodes[interval + 1])
-                .poseAt(fraction);
+                .poseAt(hermiteWeights(fraction));
         return {pose[0], pose[1], pose[2]};
     }
 }  // namespace parking

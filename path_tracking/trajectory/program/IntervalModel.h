@@ -15,6 +15,19 @@ namespace parking
     using GapRows = Eigen::Matrix<double, 3, PAIR_SIZE>;  ///< derivatives of the gaps in x, y and yaw, a row each
     /** @} */
 
+    /** \brief What of a node's yaw and steering angle is needed again and again. */
+    struct NodeAngles
+    {
+        explicit NodeAngles(const NodeVector &node);
+
+        double cosine, sine;  ///< of the yaw
+        double tangent;       ///< of the steering angle
+    };
+
+    /** \brief Weights of begin, way at the begin, end and way at the end (see IntervalModel) in the cubic Hermite
+        polynomial that leads through an interval. */
+    Eigen::Vector4d hermiteWeights(double fraction);
+
     /** \brief What an interval adds to the system of a MotionProgram, by the entries of its two nodes. */
     struct IntervalTerms
     {
@@ -46,9 +59,14 @@ namespace parking
         Eigen::Matrix<double, 12, 1> shift{Eigen::Matrix<double, 12, 1>::Zero()};  ///< what they add to the right side
         Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};   ///< gradient of the cost
 
-        /** \brief Adds derivatives by the pose at \e fraction. */
-        void add(double fraction, const Eigen::Matrix3d &poseHessian, const Eigen::Vector3d &poseGradient,
-                 const Eigen::Vector3d &poseShift, const Eigen::Vector3d &poseCost);
+        /** \brief Adds derivatives by the pose at hermiteWeights(). Of the Hessian only the blocks on and below the
+            diagonal are added to: see complete(). */
+        void add(const Eigen::Vector4d &weights, const Eigen::Matrix3d &poseHessian,
+                 const Eigen::Vector3d &poseGradient, const Eigen::Vector3d &poseShift,
+                 const Eigen::Vector3d &poseCost);
+
+        /** \brief Fills the blocks of the Hessian above the diagonal. */
+        void complete();
     };
 
     /** \brief An interval between two nodes: where it leads, what it costs, and all first and second derivatives.
@@ -62,6 +80,10 @@ namespace parking
         /** \brief \param direction 1, -1, or 0 at a standstill */
         IntervalModel(int direction, double wheelbase, const NodeVector &begin, const NodeVector &end);
 
+        /** \brief The same, with the angles of the nodes at hand. */
+        IntervalModel(int direction, double wheelbase, const NodeVector &begin, const NodeVector &end,
+                      const NodeAngles &atBegin, const NodeAngles &atEnd);
+
         /** \brief How far x, y and yaw of the end are from where the begin leads: 0 when the interval is driven. */
         Eigen::Vector3d gaps() const;
 
@@ -71,14 +93,17 @@ namespace parking
         /** \brief Adds the second derivatives of \e prices . gaps(), those of the ways at the ends excepted. */
         void addGapCurvature(const Eigen::Vector3d &prices, IntervalTerms &terms) const;
 
-        /** \brief x, y and yaw at a fraction of the interval: the cubic Hermite polynomial. */
-        Eigen::Vector3d poseAt(double fraction) const;
+        /** \brief x, y and yaw within the interval, by hermiteWeights(). */
+        Eigen::Vector3d poseAt(const Eigen::Vector4d &weights) const;
 
         /** \brief The change of poseAt() when the nodes change by \e step. */
-        Eigen::Vector3d poseStep(double fraction, const PairVector &step) const;
+        Eigen::Vector3d poseStep(const Eigen::Vector4d &weights, const PairVector &step) const;
 
         /** \brief Adds what rows demand. */
         void addSpan(const SpanTerms &span, IntervalTerms &terms) const;
+
+        /** \brief A gradient by the quantities of a SpanTerms as one by the entries of the nodes. */
+        PairVector carried(const Eigen::Matrix<double, 12, 1> &spanGradient) const;
 
         /** \brief Adds the second derivatives of the ways at the ends, as often as \e terms say. To be called last. */
         void addWayCurvature(IntervalTerms &terms) const;
@@ -96,12 +121,13 @@ namespace parking
             Eigen::Vector3d way, byDuration, bySpeed, byAngle;
         };
 
-        Way wayOf(const NodeVector &node) const;
+        Way wayOf(const NodeVector &node, const NodeAngles &angles) const;
         PairVector yawRow() const;
         void addEffort(double weight, IntervalTerms &terms) const;
 
         double direction_, wheelbase_, duration_;
         NodeVector a_, b_;
+        NodeAngles atBegin_, atEnd_;
         Way begin_, end_;
         double speed_, steering_, yaw_;  // in the middle
         double cosine_, sine_, tangent_;

@@ -53,6 +53,9 @@ namespace parking
                 ++p;
             firstCheckpoint_.push_back(p);
         }
+        for (const MotionCheckpoint &point : problem_.checkpoints)
+            weights_.push_back(hermiteWeights(point.fraction));
+        poses_.resize(problem_.checkpoints.size());
         jointRows_.resize(intervals());
         rowGradients_.resize(problem_.rows.size());
     }
@@ -91,11 +94,6 @@ namespace parking
             limits_.push_back({{H, H, H}, {1.0, 0.0, 0.0}, -problem_.leastDuration});
     }
 
-    IntervalModel MotionProgram::model(const std::vector<NodeVector> &nodes, std::size_t k) const
-    {
-        return {problem_.directions[k], problem_.vehicle.wheelbase, nodes[k], nodes[k + 1]};
-    }
-
     Eigen::Vector4d MotionProgram::jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
                                             std::size_t k) const
     {
@@ -106,38 +104,46 @@ namespace parking
     }
 
     double MotionProgram::evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
-                                   std::vector<double> &values) const
+                                   std::vector<double> &values)
     {
         double cost = 0.0;
-        joints.resize(intervals());
-        values.resize(inequalities());
+        joints_.resize(intervals());
+        values_.resize(inequalities());
+        angles_.clear();
+        for (const NodeVector &node : nodes)
+            angles_.emplace_back(node);
+        models_.clear();
         for (std::size_t k = 0; k < intervals(); ++k)
         {
-            const IntervalModel interval = model(nodes, k);
+            const IntervalModel &interval = models_.emplace_back(problem_.directions[k], problem_.vehicle.wheelbase,
+                                                                 nodes[k], nodes[k + 1], angles_[k], angles_[k + 1]);
             cost += interval.cost(problem_.weights);
-            joints[k] = jointsOf(interval, nodes, k);
+            joints_[k] = jointsOf(interval, nodes, k);
             const PairVector pair = pairOf(nodes, k);
             for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
-                values[i] = limits_[i].slope(pair) + limits_[i].constant;
+                values_[i] = limits_[i].slope(pair) + limits_[i].constant;
             for (std::size_t p = firstCheckpoint_[k]; p < firstCheckpoint_[k + 1]; ++p)
             {
                 const MotionCheckpoint &point = problem_.checkpoints[p];
-                const Eigen::Vector3d pose = interval.poseAt(point.fraction);
+                const Eigen::Vector3d pose = interval.poseAt(weights_[p]);
                 const double c = std::cos(pose[2]), s = std::sin(pose[2]);
+                poses_[p] = {pose, c, s};
                 for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
                 {
                     const double value = problem_.rows[r].value(pose[0], pose[1], c, s);
-                    values[limits_.size() + r] = value;
+                    values_[limits_.size() + r] = value;
                     cost += 0.5 * nearnessOf(point, value).price * (problem_.clearance - value);
                 }
             }
         }
+        joints = joints_;
+        values = values_;
         return cost;
     }
 
-    void MotionProgram::addJoints(const IntervalModel &model, std::size_t k, const Eigen::Vector4d &joints,
-                                  const MotionDuals &duals, double softness, IntervalTerms &terms)
+    void MotionProgram::addJoints(std::size_t k, const MotionDuals &duals, double softness, IntervalTerms &terms)
     {
+        const IntervalModel &model = models_[k];
         const Eigen::Vector4d &prices = duals.joints[k];
         JointRows &rows = jointRows_[k];
         rows.topRows<3>() = model.gapRows();
@@ -157,19 +163,18 @@ namespace parking
         }
         model.addGapCurvature(prices.head<3>(), terms);
         terms.gradient += rows.transpose() * prices;
-        terms.shift -= rows.transpose() * (joints / softness);
+        terms.shift -= rows.transpose() * (joints_[k] / softness);
         terms.hessian += rows.transpose().lazyProduct(rows) / softness;
     }
 
-    void MotionProgram::addLimitTerms(std::size_t k, const PairVector &pair, const MotionDuals &duals, double barrier,
+    void MotionProgram::addLimitTerms(std::size_t k, const MotionDuals &duals, double barrier,
                                       IntervalTerms &terms) const
     {
         for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
         {
             const Limit &limit = limits_[i];
             const double z = duals.prices[i], s = duals.slacks[i], sigma = z / s;
-            const double value = limit.slope(pair) + limit.constant;
-            const double shift = barrier / s - sigma * (value - s) - z;
+            const double shift = barrier / s - sigma * (values_[i] - s) - z;
             for (std::size_t p = 0; p < 3; ++p)
             {
                 if (limit.coefficient[p] == 0.0)
@@ -191,8 +196,7 @@ namespace parking
         return {growth * (problem_.clearance - value), growth};
     }
 
-    void MotionProgram::addRowTerms(const IntervalModel &model, std::size_t k, const MotionDuals &duals, double barrier,
-                                    IntervalTerms &terms)
+    void MotionProgram::addRowTerms(std::size_t k, const MotionDuals &duals, double barrier, IntervalTerms &terms)
     {
         if (firstCheckpoint_[k] == firstCheckpoint_[k + 1])
             return;
@@ -200,15 +204,14 @@ namespace parking
         for (std::size_t p = firstCheckpoint_[k]; p < firstCheckpoint_[k + 1]; ++p)
         {
             const MotionCheckpoint &point = problem_.checkpoints[p];
-            const Eigen::Vector3d pose = model.poseAt(point.fraction);
-            const double c = std::cos(pose[2]), s = std::sin(pose[2]);
+            const auto &[pose, c, s] = poses_[p];
             Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
             Eigen::Vector3d gradient = Eigen::Vector3d::Zero(), shift = gradient, cost = gradient;
             for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
             {
                 const std::size_t i = limits_.size() + r;
                 const double z = duals.prices[i], slack = duals.slacks[i], sigma = z / slack;
-                const double value = problem_.rows[r].value(pose[0], pose[1], c, s);
+                const double value = values_[i];
                 const Nearness near = nearnessOf(point, value);
                 const Eigen::Vector3d g = derive(problem_.rows[r], pose, c, s, -z - near.price, hessian);
                 rowGradients_[r] = g;
@@ -217,9 +220,10 @@ namespace parking
                 cost -= near.price * g;
                 shift += (barrier / slack - sigma * (value - slack) - z) * g;
             }
-            span.add(point.fraction, hessian, gradient, shift, cost);
+            span.add(weights_[p], hessian, gradient, shift, cost);
         }
-        model.addSpan(span, terms);
+        span.complete();
+        models_[k].addSpan(span, terms);
     }
 
     void MotionProgram::scatter(std::size_t k, const IntervalTerms &terms)
@@ -254,25 +258,51 @@ namespace parking
             }
     }
 
-    void MotionProgram::linearize(const std::vector<NodeVector> &nodes, const MotionDuals &duals, double barrier,
-                                  double softness)
+    void MotionProgram::linearize(const MotionDuals &duals, double barrier, double softness)
     {
-        system_.reset(nodes.size());
-        right_.assign(nodes.size(), NodeVector::Zero());
+        const std::size_t nodes = intervals() + 1;
+        system_.reset(nodes);
+        right_.assign(nodes, NodeVector::Zero());
         gradient_ = costGradient_ = right_;
-        models_.clear();
         for (std::size_t k = 0; k < intervals(); ++k)
         {
-            models_.push_back(model(nodes, k));
             IntervalTerms terms;
             models_[k].addCost(problem_.weights, terms);
-            addJoints(models_[k], k, jointsOf(models_[k], nodes, k), duals, softness, terms);
-            addLimitTerms(k, pairOf(nodes, k), duals, barrier, terms);
-            addRowTerms(models_[k], k, duals, barrier, terms);
+            addJoints(k, duals, softness, terms);
+            addLimitTerms(k, duals, barrier, terms);
+            addRowTerms(k, duals, barrier, terms);
             models_[k].addWayCurvature(terms);
             scatter(k, terms);
         }
         applyFixed();
+    }
+
+    void MotionProgram::changeBarrier(const MotionDuals &duals, double from, double to)
+    {
+        const double change = to - from;
+        for (std::size_t k = 0; k < intervals(); ++k)
+        {
+            PairVector right = PairVector::Zero();
+            for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
+                for (std::size_t p = 0; p < 3; ++p)
+                    right[limits_[i].entry[p]] += change / duals.slacks[i] * limits_[i].coefficient[p];
+            Eigen::Matrix<double, 12, 1> span = Eigen::Matrix<double, 12, 1>::Zero();
+            for (std::size_t p = firstCheckpoint_[k]; p < firstCheckpoint_[k + 1]; ++p)
+            {
+                const MotionCheckpoint &point = problem_.checkpoints[p];
+                Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+                for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
+                    pose += change / duals.slacks[limits_.size() + r] * rowGradients_[r];
+                for (int e = 0; e < 3; ++e)
+                    span.segment<4>(4 * e) += pose[e] * weights_[p];
+            }
+            right += models_[k].carried(span);
+            for (int e = 0; e < NODE_SIZE; ++e)
+            {
+                right_[k][e] += problem_.isFixed(k, e) ? 0.0 : right[e];
+                right_[k + 1][e] += problem_.isFixed(k + 1, e) ? 0.0 : right[SECOND + e];
+            }
+        }
     }
 
     void MotionProgram::apply(const std::vector<NodeVector> &step, std::vector<Eigen::Vector4d> &joints,
@@ -289,7 +319,7 @@ namespace parking
             for (std::size_t p = firstCheckpoint_[k]; p < firstCheckpoint_[k + 1]; ++p)
             {
                 const MotionCheckpoint &point = problem_.checkpoints[p];
-                const Eigen::Vector3d moved = models_[k].poseStep(point.fraction, pair);
+                const Eigen::Vector3d moved = models_[k].poseStep(weights_[p], pair);
                 for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
                     values[limits_.size() + r] = rowGradients_[r].dot(moved);
             }

@@ -47,15 +47,19 @@ namespace parking
             return limits_.size() + problem_.rows.size();
         }
 
-        /** \brief f, c and g at \e nodes. \return f */
+        /** \brief f, c and g at \e nodes, and what linearize() needs of them. \return f */
         double evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
-                        std::vector<double> &values) const;
+                        std::vector<double> &values);
 
-        /** \brief Linearises everything at \e nodes: after it system(), right(), the gradients and apply() are valid.
+        /** \brief Linearises everything at the nodes that were evaluated last: after it, and until other nodes are
+            evaluated, system(), right(), the gradients and apply() are valid.
 
             The system is that of Newton's method for the barrier problem with \e barrier (mu), with inequalities and
             joints eliminated: W + G^T (z / s) G + A^T A / \e softness. */
-        void linearize(const std::vector<NodeVector> &nodes, const MotionDuals &duals, double barrier, double softness);
+        void linearize(const MotionDuals &duals, double barrier, double softness);
+
+        /** \brief What linearize() would give with another barrier, for less: only right() depends on it. */
+        void changeBarrier(const MotionDuals &duals, double from, double to);
 
         /** \brief The matrix of the linearisation, to be factorised by the caller. */
         BlockTridiagonal &system()
@@ -111,15 +115,11 @@ namespace parking
 
         void addLimits(std::size_t interval);
         void addNodeLimits(std::size_t node, int first);
-        IntervalModel model(const std::vector<NodeVector> &nodes, std::size_t interval) const;
         Eigen::Vector4d jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
                                  std::size_t interval) const;
-        void addJoints(const IntervalModel &model, std::size_t interval, const Eigen::Vector4d &joints,
-                       const MotionDuals &duals, double softness, IntervalTerms &terms);
-        void addLimitTerms(std::size_t interval, const PairVector &pair, const MotionDuals &duals, double barrier,
-                           IntervalTerms &terms) const;
-        void addRowTerms(const IntervalModel &model, std::size_t interval, const MotionDuals &duals, double barrier,
-                         IntervalTerms &terms);
+        void addJoints(std::size_t interval, const MotionDuals &duals, double softness, IntervalTerms &terms);
+        void addLimitTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms) const;
+        void addRowTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms);
         Nearness nearnessOf(const MotionCheckpoint &point, double value) const;
         void scatter(std::size_t interval, const IntervalTerms &terms);
         void applyFixed();
@@ -128,9 +128,23 @@ namespace parking
         std::vector<Limit> limits_;
         std::vector<std::size_t> firstLimit_;       // per interval and one more
         std::vector<std::size_t> firstCheckpoint_;  // per interval and one more
+        std::vector<Eigen::Vector4d> weights_;      // per checkpoint: of the Hermite polynomial
+
+        /** Where the car is at a checkpoint. */
+        struct CheckedPose
+        {
+            Eigen::Vector3d pose;
+            double cosine, sine;
+        };
+
+        // What was evaluated last.
+        std::vector<NodeAngles> angles_;
+        std::vector<IntervalModel> models_;
+        std::vector<Eigen::Vector4d> joints_;
+        std::vector<double> values_;
+        std::vector<CheckedPose> poses_;  // per checkpoint
 
         // The linearisation.
-        std::vector<IntervalModel> models_;
         std::vector<JointRows> jointRows_;
         std::vector<Eigen::Vector3d> rowGradients_;
         BlockTridiagonal system_;

@@ -66,7 +66,7 @@ namespace parking
             return duals;
         }
 
-        double lagrangian(const MotionProgram &program, const Nodes &nodes, const MotionDuals &duals)
+        double lagrangian(MotionProgram &program, const Nodes &nodes, const MotionDuals &duals)
         {
             std::vector<Eigen::Vector4d> joints;
             std::vector<double> values;
@@ -78,6 +78,15 @@ namespace parking
             return sum;
         }
 
+        void linearizeAt(MotionProgram &program, const Nodes &nodes, const MotionDuals &duals, double barrier,
+                         double softness)
+        {
+            std::vector<Eigen::Vector4d> joints;
+            std::vector<double> values;
+            program.evaluate(nodes, joints, values);
+            program.linearize(duals, barrier, softness);
+        }
+
         TEST(MotionProgram, GradientsAgreeWithDifferences)
         {
             constexpr double STEP = 1e-6;
@@ -86,7 +95,7 @@ namespace parking
                 MotionProgram program(randomProblem(seed));
                 const MotionDuals duals = randomDuals(program, seed, 1.0);
                 const Nodes nodes = program.problem().nodes;
-                program.linearize(nodes, duals, 0.01, 1.0);
+                linearizeAt(program, nodes, duals, 0.01, 1.0);
                 for (std::size_t k = 0; k < nodes.size(); ++k)
                     for (int e = 0; e < NODE_SIZE; ++e)
                     {
@@ -112,7 +121,7 @@ namespace parking
                 MotionProgram program(randomProblem(seed)), other(randomProblem(seed));
                 const MotionDuals duals = randomDuals(program, seed, WIDE);
                 const Nodes nodes = program.problem().nodes;
-                program.linearize(nodes, duals, 0.0, WIDE);
+                linearizeAt(program, nodes, duals, 0.0, WIDE);
                 for (std::size_t k = 0; k < nodes.size(); ++k)
                     for (int e = 0; e < NODE_SIZE; ++e)
                     {
@@ -121,9 +130,9 @@ namespace parking
                         Nodes up = nodes, down = nodes;
                         up[k][e] += STEP;
                         down[k][e] -= STEP;
-                        other.linearize(up, duals, 0.0, WIDE);
+                        linearizeAt(other, up, duals, 0.0, WIDE);
                         const Nodes above = other.gradient();
-                        other.linearize(down, duals, 0.0, WIDE);
+                        linearizeAt(other, down, duals, 0.0, WIDE);
                         const Nodes below = other.gradient();
                         for (int f = 0; f < NODE_SIZE; ++f)
                         {
@@ -148,7 +157,7 @@ namespace parking
             {
                 MotionProgram program(randomProblem(seed));
                 const Nodes nodes = program.problem().nodes;
-                program.linearize(nodes, randomDuals(program, seed, 1.0), 0.01, 1.0);
+                linearizeAt(program, nodes, randomDuals(program, seed, 1.0), 0.01, 1.0);
                 Random random(100 + seed);
                 Nodes step = nodes, up = nodes, down = nodes;
                 for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -167,6 +176,24 @@ namespace parking
                     EXPECT_LT((joints[k] - (jointsUp[k] - jointsDown[k]) / (2.0 * STEP)).norm(), 1e-6) << k;
                 for (std::size_t i = 0; i < values.size(); ++i)
                     EXPECT_NEAR(values[i], (valuesUp[i] - valuesDown[i]) / (2.0 * STEP), 1e-6) << i;
+            }
+        }
+
+        TEST(MotionProgram, ChangingTheBarrierIsLikeLinearisingWithAnother)
+        {
+            for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            {
+                MotionProgram program(randomProblem(seed)), other(randomProblem(seed));
+                const MotionDuals duals = randomDuals(program, seed, 0.7);
+                linearizeAt(program, program.problem().nodes, duals, 0.3, 1.0);
+                program.changeBarrier(duals, 0.3, 0.01);
+                linearizeAt(other, program.problem().nodes, duals, 0.01, 1.0);
+                for (std::size_t k = 0; k < program.right().size(); ++k)
+                {
+                    EXPECT_LT((program.right()[k] - other.right()[k]).norm(), 1e-9) << seed << ", node " << k;
+                    EXPECT_EQ(program.gradient()[k], other.gradient()[k]);
+                    EXPECT_EQ(program.system().diagonal[k], other.system().diagonal[k]);
+                }
             }
         }
 
