@@ -117,21 +117,24 @@ namespace parking
         /** Looks for a motion near one of the paths that costs less than \e limit. */
         std::optional<TimedMotion> run(const std::vector<Path> &paths, double limit)
         {
+            std::vector<Attempt> attempts;
+            for (std::size_t i = 0; i < paths.size(); ++i)
+                attempts.emplace_back(owner_, paths[i], i);
+            // What promises to be quick comes first, so that the rest need not be looked at.
+            std::stable_sort(attempts.begin(), attempts.end(),
+                             [](const Attempt &a, const Attempt &b) { return a.leastCost < b.leastCost; });
             std::vector<Solution> solutions;
-            for (std::size_t i = 0; i < paths.size() && (i == 0 || mayGoOn()); ++i)
-            {
-                // While there are other paths, one attempt is enough for each.
-                auto solution = first(paths[i], paths.size() > 1 ? 1 : owner_.options_.mostRounds,
-                                      solutions.empty() ? limit : PROMISING * leastCost(solutions));
-                if (!solution)
-                    continue;
-                isFound_ = true;
-                solution->path = i;
-                solutions.push_back(std::move(*solution));
-            }
-            if (solutions.empty() && paths.size() > 1)
-                if (auto solution = first(paths.front(), owner_.options_.mostRounds, limit))
-                    solutions.push_back(std::move(*solution));
+            for (std::size_t round = 0; round < owner_.options_.mostRounds && solutions.empty(); ++round)
+                for (Attempt &attempt : attempts)
+                {
+                    if (!mayGoOn() || attempt.leastCost > (solutions.empty() ? limit : leastCost(solutions)))
+                        break;
+                    if (auto solution = solve(attempt))
+                    {
+                        isFound_ = true;
+                        solutions.push_back(std::move(*solution));
+                    }
+                }
             std::stable_sort(solutions.begin(), solutions.end(),
                              [](const Solution &a, const Solution &b) { return a.cost < b.cost; });
             std::optional<Solution> found;
@@ -168,6 +171,37 @@ namespace parking
             Pose start, goal;
         };
 
+        /** A path, and what has been learnt about it where it could not be solved. */
+        struct Attempt
+        {
+            Attempt(const TrajectoryOptimizer &owner, const Path &from, std::size_t index)
+              : local(from),
+                start(from.start),
+                goal(from.end()),
+                path(index),
+                step(owner.options_.step)
+            {
+                local.start = owner.toLocal(start);
+                separation.margin = owner.options_.margin;
+                separation.range = RANGE;
+                outline.emplace(outlineOf(owner));
+                leastCost = owner.options_.weights.time * outline->duration();
+            }
+
+            MotionOutline outlineOf(const TrajectoryOptimizer &owner) const
+            {
+                return {local, owner.body_, step, owner.options_.initialSteering, owner.options_.finalSteering};
+            }
+
+            Path local;  // in the coordinates of the pieces
+            Pose start, goal;
+            std::size_t path;
+            SeparationOptions separation;
+            double spacing{SPACING}, step;
+            std::optional<MotionOutline> outline;
+            double leastCost;  // of driving along it if the wheels needed no time to turn
+        };
+
         static double leastCost(const std::vector<Solution> &solutions)
         {
             double least = solutions.front().cost;
@@ -182,53 +216,53 @@ namespace parking
             return (isFound_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
         }
 
+        void stop()
+        {
+            stopped_ = true;
+            report_.reason = "interrupted";
+        }
+
         bool mayGoOn() const
         {
             return !stopped_ && (budget_ == 0.0 || left() > 0.0);
         }
 
-        /** A solution near \e path, with more care in each round; none if even driving along it without any steering
-            costs more than \e limit. */
-        std::optional<Solution> first(const Path &path, std::size_t rounds, double limit)
+        /** A solution near a path; none leaves the attempt more careful than it was. */
+        std::optional<Solution> solve(Attempt &attempt)
         {
-            separation_ = {};
-            separation_.margin = owner_.options_.margin;
-            separation_.range = RANGE;
-            spacing_ = SPACING;
-            double step = owner_.options_.step;
-            start_ = path.start;
-            goal_ = path.end();
-            Path local = path;
-            local.start = owner_.toLocal(path.start);
-            for (std::size_t round = 0; round < rounds && mayGoOn(); ++round)
+            separation_ = attempt.separation;
+            spacing_ = attempt.spacing;
+            start_ = attempt.start;
+            goal_ = attempt.goal;
+            MotionProblem problem;
+            problem.vehicle = owner_.body_;
+            problem.vehicle.maxAcceleration *= 1.0 - LIMITS_LEFT;
+            problem.vehicle.maxSteeringRate *= 1.0 - LIMITS_LEFT;
+            problem.vehicle.maxSpeed *= 1.0 - LIMITS_LEFT;
+            problem.weights = owner_.options_.weights;
+            problem.clearance = owner_.options_.preferredClearance - separation_.margin;
+            if (problem.clearance <= 0.0)
+                problem.weights.nearness = 0.0;
+            const MotionOutline &outline = *attempt.outline;
+            outline.write(problem);
+            auto found =
+                solve(std::move(problem), FIRST_BARRIER,
+                      [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); });
+            if (found)
             {
-                const MotionOutline outline(local, owner_.body_, step, owner_.options_.initialSteering,
-                                            owner_.options_.finalSteering);
-                if (owner_.options_.weights.time * outline.duration() > limit)
-                    return std::nullopt;
-                MotionProblem problem;
-                problem.vehicle = owner_.body_;
-                problem.vehicle.maxAcceleration *= 1.0 - LIMITS_LEFT;
-                problem.vehicle.maxSteeringRate *= 1.0 - LIMITS_LEFT;
-                problem.vehicle.maxSpeed *= 1.0 - LIMITS_LEFT;
-                problem.weights = owner_.options_.weights;
-                problem.clearance = owner_.options_.preferredClearance - separation_.margin;
-                if (problem.clearance <= 0.0)
-                    problem.weights.nearness = 0.0;
-                outline.write(problem);
-                if (auto found = solve(std::move(problem), FIRST_BARRIER,
-                                       [&outline](std::size_t interval, double fraction)
-                                       { return outline.poseAt(interval, fraction); }))
-                    return found;
-                // What had a solution, but a wrong one, needs to see more; what had none needs more room.
-                spacing_ *= 0.5;
-                if (wrong_)
-                    separation_.range *= 1.5;
-                else
-                {
-                    separation_.margin *= 0.25;
-                    step *= 0.7;
-                }
+                found->path = attempt.path;
+                return found;
+            }
+            // What had a solution, but a wrong one, needs to see more; what had none needs more room.
+            attempt.spacing *= 0.5;
+            attempt.separation = separation_;
+            if (wrong_)
+                attempt.separation.range *= 1.5;
+            else
+            {
+                attempt.separation.margin *= 0.25;
+                attempt.step *= 0.7;
+                attempt.outline.emplace(attempt.outlineOf(owner_));
             }
             return std::nullopt;
         }
@@ -266,9 +300,15 @@ namespace parking
                                       const std::function<Pose(std::size_t, double)> &poseAt)
         {
             wrong_ = false;
-            SeparationPlan(owner_.pieces_, owner_.body_, separation_,
-                           checkpointsAlong(problem.directions, owner_.body_.wheelbase, spacing_, poseAt), poseAt)
-                .write(problem);
+            const SeparationPlan lines(owner_.pieces_, owner_.body_, separation_,
+                                       checkpointsAlong(problem.directions, owner_.body_.wheelbase, spacing_, poseAt),
+                                       poseAt, interrupted_);
+            if (!lines.isComplete())
+            {
+                stop();
+                return std::nullopt;
+            }
+            lines.write(problem);
             MotionProgram program(problem);
             InteriorPointOptions options;
             options.firstBarrier = barrier;
@@ -284,10 +324,7 @@ namespace parking
             report_.iterations += solved.iterations;
             report_.reason = "no motion found that holds all limits";
             if (solved.status == InteriorPointStatus::Interrupted)
-            {
-                stopped_ = true;
-                report_.reason = "interrupted";
-            }
+                stop();
             if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)
                 return std::nullopt;
             problem.nodes = std::move(solved.nodes);

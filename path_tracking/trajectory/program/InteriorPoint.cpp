@@ -12,8 +12,13 @@ namespace parking
         /** Share of a slack or price that a step leaves at least. */
         constexpr double LEFT_OVER = 0.005;
 
-        /** Length of a step below which the next direction is damped, and the limits of that damping. */
-        constexpr double SHORT_STEP = 0.1, LEAST_DAMPING = 0.1, MOST_DAMPING = 1.0;
+        /** Length of a step below which the next direction is damped, the damping that begins with, the most, and what
+            is too little to matter. It falls by and by: switched off at once, every second step was short. */
+        constexpr double SHORT_STEP = 0.1, FIRST_DAMPING = 0.02, MOST_DAMPING = 1.0, NO_DAMPING = 0.005;
+        /** A barrier's problem counts as solved when its cost changes by less than this share so many times in a row,
+           and joints and inequalities are this near to holding. Else the last millisecond takes half of the time. */
+        constexpr double SMALL_CHANGE = 1e-4, NEARLY = 1e-4;
+        constexpr int ENOUGH_SMALL_CHANGES = 3;
         /** Metres and radians that joints may gape in what is not optimal. */
         constexpr double FEASIBLE_GAP = 1e-5;
         /** Attempts to make the system positive definite. */
@@ -129,18 +134,29 @@ namespace parking
                 return std::max(worst, gap());
             }
 
+            /** Counts in a row how often the cost hardly changed. */
+            bool hasSettled()
+            {
+                const bool isSmall = std::abs(lastCost_ - cost_) < SMALL_CHANGE * std::abs(cost_);
+                smallChanges_ = isSmall && gap() <= NEARLY && violation() <= NEARLY ? smallChanges_ + 1 : 0;
+                lastCost_ = cost_;
+                return smallChanges_ >= ENOUGH_SMALL_CHANGES;
+            }
+
             /** Lowers the barrier as often as its problem is solved. \return whether the last one is */
             bool lowerBarrier()
             {
                 const double before = barrier_;
-                while (error(barrier_) <= 10.0 * barrier_)
+                for (bool settled = hasSettled(); settled || error(barrier_) <= 10.0 * barrier_; settled = false)
                 {
                     if (barrier_ <= options_.lastBarrier)
                     {
-                        if (gap() <= options_.jointTolerance && violation() <= options_.limitTolerance)
+                        if (gap() <= (settled ? FEASIBLE_GAP : options_.jointTolerance) &&
+                            violation() <= options_.limitTolerance)
                             return true;
                         break;
                     }
+                    smallChanges_ = 0;
                     barrier_ = std::max(options_.lastBarrier, 0.2 * barrier_);
                     penalty_ = 1.0;
                 }
@@ -259,9 +275,9 @@ namespace parking
                 lastShift_ = found && length > 0.5 ? lastShift_ / 3.0 : lastShift_;
                 // Short steps are a sign of a direction that reaches beyond what the linearisation knows.
                 if (length < SHORT_STEP)
-                    damping_ = std::min(MOST_DAMPING, std::max(LEAST_DAMPING, 4.0 * damping_));
+                    damping_ = std::min(MOST_DAMPING, std::max(FIRST_DAMPING, 4.0 * damping_));
                 else if (length > 0.5)
-                    damping_ = damping_ > LEAST_DAMPING ? 0.25 * damping_ : 0.0;
+                    damping_ = damping_ > NO_DAMPING ? 0.25 * damping_ : 0.0;
                 return found;
             }
 
@@ -271,6 +287,8 @@ namespace parking
             double penalty_{1.0};
             double lastShift_{0.0};
             double damping_{0.0};
+            double lastCost_{0.0};
+            int smallChanges_{0};
             double cost_{0.0};
             Nodes nodes_, step_;
             MotionDuals duals_;

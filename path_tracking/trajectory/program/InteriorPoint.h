@@ -14,14 +14,14 @@ namespace parking
         double firstBarrier{5e-3};        ///< seconds; a large one forgets where the search began
         double lastBarrier{2e-5};         ///< seconds
         std::size_t mostIterations{150};  ///< steps, after which the search ends as it is
-        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end
+        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end, ten times if it crawls
         double limitTolerance{1e-7};      ///< by which inequalities may be missed at the end
     };
 
     /** \brief How a search ended. */
     enum class InteriorPointStatus
     {
-        Converged,    ///< optimal to the last barrier
+        Converged,    ///< optimal to the last barrier, or hardly getting better there
         Feasible,     ///< joints and inequalities hold, but it is not optimal
         Infeasible,   ///< stuck where they do not hold
         Interrupted,  ///< was told to stop

@@ -37,7 +37,8 @@ namespace parking
 
     SeparationPlan::SeparationPlan(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle,
                                    SeparationOptions options, std::vector<GuessedCheckpoint> checkpoints,
-                                   const std::function<Pose(std::size_t, double)> &poseAt)
+                                   const std::function<Pose(std::size_t, double)> &poseAt,
+                                   const std::function<bool()> &interrupted)
       : pieces_(pieces),
         vehicle_(vehicle),
         options_(std::move(options)),
@@ -63,16 +64,26 @@ namespace parking
                 candidates_.push_back(i);
         }
         for (const GuessedCheckpoint &point : checkpoints)
+        {
+            if (!goesOn(interrupted))
+                return;
             places_.push_back(makePlace(point, places_.empty() ? nullptr : &places_.back()));
+        }
         margins_.assign(pieces_.size(), options_.margin);
         for (const Place &place : places_)
             for (const Choice &choice : place.choices)
                 if (place.point.fixed)
                     margins_[choice.piece] = std::min(margins_[choice.piece], std::max(0.0, 0.5 * choice.gap));
-        for (int i = 0; i < MOST_REFINEMENTS && refine(poseAt); ++i)
+        for (int i = 0; i < MOST_REFINEMENTS && refine(poseAt, interrupted); ++i)
         {
         }
         joinNeighbours();
+    }
+
+    bool SeparationPlan::goesOn(const std::function<bool()> &interrupted)
+    {
+        isComplete_ = isComplete_ && !(interrupted && interrupted());
+        return isComplete_;
     }
 
     double SeparationPlan::marginOf(std::size_t piece) const
@@ -206,11 +217,14 @@ namespace parking
         return std::max(there, here);
     }
 
-    bool SeparationPlan::refine(const std::function<Pose(std::size_t, double)> &poseAt)
+    bool SeparationPlan::refine(const std::function<Pose(std::size_t, double)> &poseAt,
+                                const std::function<bool()> &interrupted)
     {
         std::vector<Place> refined;
         for (std::size_t i = 0; i < places_.size(); ++i)
         {
+            if (!goesOn(interrupted))
+                return false;
             const Place &b = places_[i];
             bool between = false;
             if (i > 0)

@@ -53,10 +53,19 @@ namespace parking
     class SeparationPlan
     {
     public:
-        /** \brief \param poseAt the guessed pose at a fraction of an interval */
+        /** \brief \param poseAt the guessed pose at a fraction of an interval
+            \param interrupted asked at every checkpoint; once it says yes nothing more is done, and the plan is not
+            complete; may be empty */
         SeparationPlan(const std::vector<ConvexPiece> &pieces, const Vehicle &vehicle, SeparationOptions options,
                        std::vector<GuessedCheckpoint> checkpoints,
-                       const std::function<Pose(std::size_t interval, double fraction)> &poseAt);
+                       const std::function<Pose(std::size_t interval, double fraction)> &poseAt,
+                       const std::function<bool()> &interrupted = {});
+
+        /** \brief Whether it was not interrupted. One that was is of no use. */
+        bool isComplete() const
+        {
+            return isComplete_;
+        }
 
         /** \brief Writes checkpoints and rows into \e problem. */
         void write(MotionProblem &problem) const;
@@ -85,7 +94,8 @@ namespace parking
         Choice best(const Place &place, std::size_t piece) const;
         double gap(const Place &place, const Separator &line, std::size_t piece) const;
         double marginOf(std::size_t piece) const;
-        bool refine(const std::function<Pose(std::size_t, double)> &poseAt);
+        bool refine(const std::function<Pose(std::size_t, double)> &poseAt, const std::function<bool()> &interrupted);
+        bool goesOn(const std::function<bool()> &interrupted);
         void joinNeighbours();
         double switchGap(const Place &a, const Place &b, const Choice &atA, const Choice &atB) const;
         void addRows(const Place &place, std::vector<BodyRow> &rows) const;
@@ -104,6 +114,7 @@ namespace parking
         mutable std::vector<std::size_t> partCandidates_;
         std::vector<double> margins_;  // per piece
         std::vector<Place> places_;
+        bool isComplete_{true};
     };
 
     /** \brief The pieces that are within \e range metres of a body at \e pose. */

@@ -4,6 +4,7 @@
 #include "path_tracking/trajectory/TrajectoryOptimizer.h"
 #include "tests/path_tracking/TestPaths.h"
 #include "tests/path_tracking/trajectory/TrajectoryReferee.h"
+#include "tests/path_tracking/trajectory/TrajectoryWorlds.h"
 
 #include <gtest/gtest.h>
 
@@ -16,55 +17,11 @@ namespace parking
 {
     namespace
     {
+        using test::bangBang;
+        using test::box;
+        using test::checkerOf;
+        using test::obstaclesBeside;
         using test::Random;
-
-        const Box WIDE{{-60.0, -60.0}, {60.0, 60.0}};
-
-        Polygon box(double x, double y, double length, double width, double angle)
-        {
-            Polygon corners;
-            const double c = std::cos(angle), s = std::sin(angle);
-            for (const Eigen::Vector2d &p : {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(0.5, -0.5),
-                                             Eigen::Vector2d(0.5, 0.5), Eigen::Vector2d(-0.5, 0.5)})
-                corners.emplace_back(x + c * p.x() * length - s * p.y() * width,
-                                     y + s * p.x() * length + c * p.y() * width);
-            return corners;
-        }
-
-        /** Boxes and triangles as near to the path as they fall without touching the car on it. */
-        std::vector<Polygon> obstaclesBeside(const Path &path, const Vehicle &car, std::uint64_t seed, int attempts)
-        {
-            Random random(seed);
-            const SampledPath states = path.sample(0.02);
-            Vehicle larger = car;  // what is between two states
-            larger.frontOverhang += 0.01;
-            larger.rearOverhang += 0.01;
-            larger.width += 0.02;
-            std::vector<Polygon> obstacles;
-            for (int i = 0; i < attempts; ++i)
-            {
-                const Pose &near = states[random.index(states.size())].pose;
-                Polygon obstacle = box(near.x + random.between(-6.0, 6.0), near.y + random.between(-6.0, 6.0),
-                                       random.between(0.2, 5.0), random.between(0.2, 2.0), random.between(-PI, PI));
-                if (random.chance(0.3))
-                    obstacle.pop_back();
-                if (std::none_of(states.begin(), states.end(),
-                                 [&](const PathState &state) { return test::touches(state.pose, larger, {obstacle}); }))
-                    obstacles.push_back(obstacle);
-            }
-            return obstacles;
-        }
-
-        FootprintChecker checkerOf(const std::vector<Polygon> &obstacles, const Vehicle &car = {})
-        {
-            return FootprintChecker(ObstacleSet::fromPolygons(obstacles, WIDE), car);
-        }
-
-        double bangBang(double length, const Vehicle &car)
-        {
-            const double top = std::min(car.maxSpeed, std::sqrt(length * car.maxAcceleration));
-            return length / top + top / car.maxAcceleration;
-        }
 
         TEST(TrajectoryOptimizer, AStraightLineTakesWhatFullAccelerationAllows)
         {
@@ -102,6 +59,7 @@ namespace parking
                 const double slow = stopAndSteer(path, car, 0.0, 0.0).duration();
                 EXPECT_LE(found.motion.duration(), slow + 1e-9) << seed;
                 EXPECT_GE(found.motion.duration(), bangBang(positionDistance(path.start, path.end()), car) - 1e-6);
+                EXPECT_GE(found.motion.duration(), test::bound(found.motion, car) - 1e-6) << seed;
                 EXPECT_EQ(found.fallback, !found.reason.empty()) << seed << ": " << found.reason;
                 before += slow;
                 after += found.motion.duration();
@@ -184,6 +142,34 @@ namespace parking
             }
         }
 
+        TEST(TrajectoryOptimizer, KeepsTheMarginThatItIsAsked)
+        {
+            // Round a post as closely as it dares.
+            const Vehicle car;
+            const double turn = PI / 3.0, radius = 4.0;
+            Path path{{}, {}};
+            for (const double side : {1.0, -1.0, -1.0, 1.0})
+                path.append({side / radius, turn * radius});
+            const std::vector<Polygon> post{box(7.5, -0.5, 1.0, 1.0, 0.0)};
+            const FootprintChecker checker = checkerOf(post);
+            double before = 0.0;
+            for (const double margin : {0.002, 0.1, 0.3})
+            {
+                TrajectoryOptions options;
+                options.margin = margin;
+                options.preferredClearance = 0.0;
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker, options).optimize(path);
+                EXPECT_FALSE(found.fallback) << margin << ": " << found.reason;
+                Vehicle larger = car;
+                larger.frontOverhang += 0.98 * margin;
+                larger.rearOverhang += 0.98 * margin;
+                larger.width += 2.0 * 0.98 * margin;
+                EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), larger, post).fault, "") << margin;
+                EXPECT_GT(found.motion.duration(), before) << margin;
+                before = found.motion.duration();
+            }
+        }
+
         TEST(TrajectoryOptimizer, FreeWheelsAtTheEndsSaveTheTimeToTurnThem)
         {
             const Vehicle car;
@@ -217,7 +203,8 @@ namespace parking
             const std::vector<Polygon> obstacles = obstaclesBeside(path, car, 3, 40);
             const FootprintChecker checker = checkerOf(obstacles);
             const TrajectoryOptimizer optimizer(checker);
-            for (const int patience : {0, 1, 2, 5, 20})
+            // While lines are chosen, while programs are solved, and between the two.
+            for (const int patience : {0, 1, 2, 5, 20, 50, 100, 150, 200, 300, 500})
             {
                 int asked = 0;
                 const OptimizedTrajectory found = optimizer.optimize(path, [&] { return ++asked > patience; });
@@ -247,32 +234,6 @@ namespace parking
             EXPECT_FALSE(found.reason.empty());
             EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, walls).fault, "");
             EXPECT_FALSE(TrajectoryOptimizer(checker).optimize(path).fallback);
-        }
-
-        TEST(TrajectoryOptimizer, RefusesWhatMakesNoSense)
-        {
-            const Path path{{}, {{0.0, 5.0}}};
-            const FootprintChecker checker = checkerOf({box(2.0, 4.0, 1.0, 1.0, 0.0)});
-            const TrajectoryOptimizer optimizer(checker);
-            EXPECT_THROW(optimizer.optimize({{}, {}}), Error);
-            EXPECT_THROW(optimizer.optimize({{}, {PathPiece::turnOnTheSpot(1.0)}}), Error);
-            EXPECT_THROW(optimizer.optimize({{}, {{std::nan(""), 1.0}}}), Error);
-            EXPECT_THROW(optimizer.optimize({{0.0, 4.0, 0.0}, {{0.0, 5.0}}}), Error);  // through the box
-            for (const double wrong : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-            {
-                TrajectoryOptions options;
-                options.margin = wrong;
-                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
-                options = {};
-                options.step = wrong;
-                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
-                options = {};
-                options.weights.time = wrong;
-                EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
-            }
-            TrajectoryOptions options;
-            options.initialSteering = 1.0;  // beyond the car's
-            EXPECT_THROW(TrajectoryOptimizer(checker, options), Error);
         }
 
         TEST(MotionCheck, FindsWhatARefereeFinds)

@@ -1,0 +1,168 @@
+// What a TrajectoryOptimizer refuses: one error each, which says what was wrong and with what value.
+
+#include "parking_geometry/Error.h"
+#include "path_tracking/trajectory/StopAndSteer.h"
+#include "path_tracking/trajectory/TrajectoryOptimizer.h"
+#include "tests/path_tracking/trajectory/TrajectoryWorlds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace parking
+{
+    namespace
+    {
+        using test::box;
+        using test::checkerOf;
+
+        constexpr double INF = std::numeric_limits<double>::infinity();
+        const double NO_NUMBER = std::nan("");
+
+        /** The message of the error that \e call throws; empty when it throws none. */
+        std::string refusal(const std::function<void()> &call)
+        {
+            try
+            {
+                call();
+            }
+            catch (const Error &error)
+            {
+                return error.what();
+            }
+            return "";
+        }
+
+        void expectWords(const std::string &message, const std::vector<std::string> &words)
+        {
+            for (const std::string &word : words)
+                EXPECT_NE(message.find(word), std::string::npos) << '"' << message << "\" should say " << word;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        }
+
+        std::string text(double value)
+        {
+            return std::isnan(value)   ? "nan"
+                   : std::isinf(value) ? (value > 0.0 ? "inf" : "-inf")
+                                       : std::to_string(value).substr(0, 1);
+        }
+
+        TEST(TrajectoryInput, ALimitOfTheCarThatIsNoneIsNamed)
+        {
+            const std::vector<std::pair<std::string, double Vehicle::*>> limits{
+                {"max_speed", &Vehicle::maxSpeed},
+                {"max_acceleration", &Vehicle::maxAcceleration},
+                {"max_steering_angle", &Vehicle::maxSteeringAngle},
+                {"max_steering_rate", &Vehicle::maxSteeringRate}};
+            for (const auto &[name, limit] : limits)
+                for (const double wrong : {0.0, -1.0, NO_NUMBER, INF})
+                {
+                    Vehicle car;
+                    car.*limit = wrong;
+                    expectWords(refusal([&car = car] { TrajectoryOptimizer optimizer(checkerOf({}, car)); }),
+                                {name, text(wrong)});
+                    expectWords(refusal(
+                                    [&car = car] {
+                                        stopAndSteer({{}, {{0.0, 5.0}}}, car, 0.0, 0.0);
+                                    }),
+                                {name, text(wrong)});
+                }
+        }
+
+        TEST(TrajectoryInput, AnOptionOutOfItsRangeIsNamed)
+        {
+            const FootprintChecker checker = checkerOf({});
+            const auto expect = [&checker](const std::string &name,
+                                           const std::function<void(TrajectoryOptions &, double)> &set,
+                                           const std::vector<double> &wrong)
+            {
+                for (const double value : wrong)
+                {
+                    TrajectoryOptions options;
+                    set(options, value);
+                    expectWords(refusal([&] { TrajectoryOptimizer optimizer(checker, options); }), {name, text(value)});
+                }
+            };
+            const std::vector<double> below{-1.0, NO_NUMBER, INF}, notAbove{0.0, -1.0, NO_NUMBER, INF};
+            const std::vector<double> shares{0.0, -1.0, 2.0, NO_NUMBER, INF};
+            expect(
+                "margin", [](TrajectoryOptions &o, double v) { o.margin = v; }, below);
+            expect(
+                "preferred clearance", [](TrajectoryOptions &o, double v) { o.preferredClearance = v; }, below);
+            expect(
+                "time weight", [](TrajectoryOptions &o, double v) { o.weights.time = v; }, notAbove);
+            expect(
+                "effort weight", [](TrajectoryOptions &o, double v) { o.weights.effort = v; }, below);
+            expect(
+                "steering weight", [](TrajectoryOptions &o, double v) { o.weights.steering = v; }, below);
+            expect(
+                "nearness weight", [](TrajectoryOptions &o, double v) { o.weights.nearness = v; }, below);
+            expect(
+                "step", [](TrajectoryOptions &o, double v) { o.step = v; }, notAbove);
+            expect(
+                "share of the speed", [](TrajectoryOptions &o, double v) { o.speedShare = v; }, shares);
+            expect(
+                "share of the acceleration", [](TrajectoryOptions &o, double v) { o.accelerationShare = v; }, shares);
+            expect(
+                "share of the steering angle", [](TrajectoryOptions &o, double v) { o.steeringShare = v; }, shares);
+            expect(
+                "share of the steering rate", [](TrajectoryOptions &o, double v) { o.steeringRateShare = v; }, shares);
+            expect("initial steering angle", [](TrajectoryOptions &o, double v) { o.initialSteering = v; },
+                   {NO_NUMBER, INF});
+            expect("final steering angle", [](TrajectoryOptions &o, double v) { o.finalSteering = v; },
+                   {NO_NUMBER, INF});
+            expect("steering angle at an end", [](TrajectoryOptions &o, double v) { o.initialSteering = v; }, {1.0});
+            expect("steering angle at an end", [](TrajectoryOptions &o, double v) { o.finalSteering = v; }, {-1.0});
+        }
+
+        TEST(TrajectoryInput, APathThatIsNoneOfTheCarIsRefused)
+        {
+            const Vehicle car;
+            const FootprintChecker checker = checkerOf({});
+            const auto refused = [&checker](const Path &path)
+            {
+                return refusal([&] { TrajectoryOptimizer(checker).optimize(path); });
+            };
+            expectWords(refused({{}, {}}), {"never drives"});
+            expectWords(refused({{}, {{0.0, 0.0}}}), {"never drives"});
+            expectWords(refused({{}, {{0.0, 2.0}, PathPiece::turnOnTheSpot(1.0), {0.0, 2.0}}}), {"piece 2", "spot"});
+            expectWords(refused({{}, {{0.0, 2.0}, {1.05 / car.minTurningRadius(), 1.0}}}), {"piece 2", "curvature"});
+            expectWords(refused({{}, {PathPiece{0.0, 3.0, 1.0}}}), {"piece 1", "curvature"});  // a clothoid
+            expectWords(refused({{}, {{NO_NUMBER, 1.0}}}), {"piece 1", "finite"});
+            expectWords(refused({{}, {{0.0, INF}}}), {"piece 1", "finite"});
+            expectWords(refused({{NO_NUMBER, 0.0, 0.0}, {{0.0, 1.0}}}), {"finite pose"});
+            expectWords(refusal([&checker] { TrajectoryOptimizer(checker).optimizeBest({}); }), {"no path"});
+        }
+
+        TEST(TrajectoryInput, APathThatCollidesIsRefused)
+        {
+            const FootprintChecker checker = checkerOf({box(8.0, 4.0, 1.0, 1.0, 0.0)});
+            const Path through{{0.0, 4.0, 0.0}, {{0.0, 15.0}}}, past{{0.0, 0.0, 0.0}, {{0.0, 12.0}, {-0.2, 3.0}}};
+            const TrajectoryOptimizer optimizer(checker);
+            expectWords(refusal([&] { optimizer.optimize(through); }), {"collides"});
+            expectWords(refusal([&] { optimizer.optimizeBest({past, through}); }), {"collides"});
+            // From the first moment, and after it was told to stop.
+            expectWords(refusal([&] { optimizer.optimize({{8.0, 4.0, 0.0}, {{0.0, 9.0}}}); }), {"collides"});
+            expectWords(refusal([&] { optimizer.optimize(through, [] { return true; }); }), {"collides"});
+            EXPECT_FALSE(optimizer.optimize(past).fallback);
+        }
+
+        TEST(TrajectoryInput, WithoutTimeThePathIsDrivenAsItIsAndThatIsSaid)
+        {
+            const Vehicle car;
+            const Path path = test::randomReedsShepp(3, 14.0);
+            const std::vector<Polygon> obstacles = test::obstaclesBeside(path, car, 3, 40);
+            const FootprintChecker checker = checkerOf(obstacles);
+            const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(path, [] { return true; });
+            EXPECT_TRUE(found.fallback);
+            EXPECT_EQ(found.reason, "interrupted");
+            EXPECT_EQ(found.iterations, 0U);
+            EXPECT_NEAR(found.motion.duration(), stopAndSteer(path, car, 0.0, 0.0).duration(), 1e-12);
+            EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), car, obstacles).fault, "");
+        }
+    }  // namespace
+}  // namespace parking
