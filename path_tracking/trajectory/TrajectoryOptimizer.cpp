@@ -24,6 +24,7 @@ namespace parking
         constexpr double AGAIN_BARRIER = 1e-3;      // of rounds that begin with a solution
         constexpr double ENOUGH_GAIN = 3e-3;        // share of the cost for which another round is worth its time
         constexpr double PROMISING = 1.05;          // share of the best cost that improving a solution may make up for
+        constexpr double LIKELY = 1.02;             // share of it up to which driving along a path may cost at least
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path, see Search
         constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
@@ -127,7 +128,7 @@ namespace parking
             for (std::size_t round = 0; round < owner_.options_.mostRounds && solutions.empty(); ++round)
                 for (Attempt &attempt : attempts)
                 {
-                    if (!mayGoOn() || attempt.leastCost > (solutions.empty() ? limit : leastCost(solutions)))
+                    if (!mayGoOn() || attempt.leastCost > (solutions.empty() ? limit : LIKELY * leastCost(solutions)))
                         break;
                     if (auto solution = solve(attempt))
                     {

@@ -182,6 +182,26 @@ namespace parking
             const TimedMotion quick = TrajectoryOptimizer(checker, free).optimize(path).motion;
             EXPECT_LT(quick.duration(), straight - 1.0);
             EXPECT_NEAR(quick.duration(), bangBang(1.0, car), 0.05);
+            // The pose stays what it was, though.
+            const Path bend{{1.0, 2.0, 0.5}, {{car.curvature(0.6), 3.0}, {car.curvature(-0.6), 3.0}}};
+            const OptimizedTrajectory found = TrajectoryOptimizer(checker, free).optimize(bend);
+            EXPECT_FALSE(found.fallback) << found.reason;
+            EXPECT_TRUE(isSamePose(found.motion.start, bend.start, 1e-9));
+            EXPECT_TRUE(isSamePose(endOf(found.motion, car), bend.end(), 5e-3));
+        }
+
+        TEST(TrajectoryOptimizer, ReachesTheGoalHoweverCoarseItsSteps)
+        {
+            const Vehicle car;
+            TrajectoryOptions coarse;
+            coarse.step = 2.0;
+            const FootprintChecker checker = checkerOf({});
+            for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            {
+                const Path path = test::randomLattice(seed, 40.0);
+                const OptimizedTrajectory found = TrajectoryOptimizer(checker, coarse).optimize(path);
+                EXPECT_TRUE(isSamePose(endOf(found.motion, car), path.end(), 2.5e-3)) << seed;
+            }
         }
 
         TEST(TrajectoryOptimizer, TheWeightsOfACompetitionLowerItsCost)
