@@ -71,6 +71,19 @@ namespace parking
             }
         }
 
+        void drawReference(SvgMap &map, const Trajectory &reference)
+        {
+            std::vector<Eigen::Vector2d> line;
+            for (const TrajectoryPoint &point : reference)
+                line.emplace_back(point.x, point.y);
+            SvgStyle style;
+            style.stroke = "#0f172a";
+            style.strokeWidth = 1.2;
+            style.dash = "5 3";
+            map.drawLine(SvgLayer::Lines, line, style);
+            map.addLegend({"planned trajectory", style, true});
+        }
+
         std::string legendOf(const SvgMap &map)
         {
             std::string text;
@@ -94,9 +107,11 @@ namespace parking
     }  // namespace
 
     std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
-                               const std::string &title, const std::string &subtitle)
+                               const std::string &title, const std::string &subtitle, const Trajectory &reference)
     {
         checkDrive(driven);
+        if (!reference.empty())
+            checkDrive(reference);
         const SampledPath states = planned.pieces.empty() ? SampledPath{} : planned.sample(DRAWN_STEP);
         SampledPath seen = states;
         for (const TrajectoryPoint &point : driven)
@@ -104,6 +119,8 @@ namespace parking
         SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
         drawPlan(map, states);
+        if (!reference.empty())
+            drawReference(map, reference);
 
         const Vehicle &car = scenario.vehicle;
         std::string data = "{";
@@ -118,6 +135,10 @@ namespace parking
         add("v", column(driven, &TrajectoryPoint::v));
         add("a", column(driven, &TrajectoryPoint::acceleration));
         add("steering", column(driven, &TrajectoryPoint::steering));
+        add("plannedT", column(reference, &TrajectoryPoint::t));
+        add("plannedV", column(reference, &TrajectoryPoint::v));
+        add("plannedA", column(reference, &TrajectoryPoint::acceleration));
+        add("plannedSteering", column(reference, &TrajectoryPoint::steering));
         add("wheelbase", number(car.wheelbase));
         add("frontOverhang", number(car.frontOverhang));
         add("rearOverhang", number(car.rearOverhang));

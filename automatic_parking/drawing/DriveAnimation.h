@@ -18,9 +18,12 @@ namespace parking
         \param planned may be without pieces: not drawn then
         \param driven a drive in the coordinates of \e scenario, times not decreasing
         \param title,subtitle plain text
-        Throws parking::Error for a drive of fewer than two points or with a number that is not finite. */
+        \param reference the trajectory that the drive was to follow, in the coordinates of \e scenario: dashed on the
+       map and beside what was driven over time; may be empty Throws parking::Error for a drive of fewer than two points
+       or with a number that is not finite. */
     std::string driveAnimation(const Scenario &scenario, const Path &planned, const Trajectory &driven,
-                               const std::string &title, const std::string &subtitle = {});
+                               const std::string &title, const std::string &subtitle = {},
+                               const Trajectory &reference = {});
 
     /** \brief Writes driveAnimation() to \e file, whole or not at all. Throws parking::Error naming the file, too. */
     void writeDriveAnimation(const std::string &file, const Scenario &scenario, const Path &planned,

@@ -170,7 +170,7 @@ function show() {
 }
 
 // Speed, acceleration and steering over time.
-function makePlot(title, unit, values, limit, steps) {
+function makePlot(title, unit, values, planned, limit, steps) {
   const width = 944, height = 150, l = 52, r = 14, top = 26, bottom = 24, room = 1.15 * limit;
   const panel = document.createElement('div');
   panel.className = 'panel';
@@ -202,6 +202,10 @@ function makePlot(title, unit, values, limit, steps) {
     add(svg, 'text', { x: at(tick), y: height - 8, 'text-anchor': 'middle' }, tick + ' s');
   add(svg, 'path', { d: 'M' + values.map((value, i) => at(drive.t[i]).toFixed(1) + ' ' + up(value).toFixed(1)).join('L'),
                      fill: 'none', stroke: '@DRIVEN@', 'stroke-width': 1.6, 'stroke-linejoin': 'round' });
+  const asked = planned.map((value, i) => at(Math.min(end, drive.plannedT[i])).toFixed(1) + ' ' + up(value).toFixed(1));
+  if (asked.length)
+    add(svg, 'path', { d: 'M' + asked.join('L'), fill: 'none', stroke: '#0f172a', 'stroke-width': 1,
+                       'stroke-dasharray': '5 3' });
   const cursor = add(svg, 'path', { d: `M0 ${top}V${height - bottom}`, stroke: '@FORWARD@', 'stroke-width': 1.5 });
   const seek = event => {
     if (event.buttons !== 1) return;
@@ -214,10 +218,12 @@ function makePlot(title, unit, values, limit, steps) {
   return { cursor, at };
 }
 const plots = [
-  makePlot('Speed', 'm/s', drive.v, drive.maxSpeed, [-2, -1, 0, 1, 2].filter(v => Math.abs(v) <= drive.maxSpeed)),
-  makePlot('Acceleration', 'm/s\u00b2', drive.a, drive.maxAcceleration,
+  makePlot('Speed', 'm/s', drive.v, drive.plannedV, drive.maxSpeed,
+           [-2, -1, 0, 1, 2].filter(v => Math.abs(v) <= drive.maxSpeed)),
+  makePlot('Acceleration', 'm/s\u00b2', drive.a, drive.plannedA, drive.maxAcceleration,
            [-1, -0.5, 0, 0.5, 1].filter(v => Math.abs(v) <= drive.maxAcceleration)),
-  makePlot('Steering angle', 'degrees', drive.steering.map(degrees), degrees(drive.maxSteering), [-40, -20, 0, 20, 40].filter(v => Math.abs(v) <= degrees(drive.maxSteering)))];
+  makePlot('Steering angle', 'degrees', drive.steering.map(degrees), drive.plannedSteering.map(degrees),
+           degrees(drive.maxSteering), [-40, -20, 0, 20, 40].filter(v => Math.abs(v) <= degrees(drive.maxSteering)))];
 
 function go(to) {
   time = Math.min(end, Math.max(begin, to));

@@ -152,6 +152,13 @@ namespace parking
                 track.push_back({point.x, point.y, point.yaw});
             return track;
         }
+
+        /** The planned trajectory in the scenario's coordinates; empty without one. */
+        Trajectory plannedSamples(const Scenario &scenario, const PlanResult &result)
+        {
+            return result.trajectory ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
+                                     : Trajectory();
+        }
     }  // namespace
 
     json parametersJson(const ompl::base::Planner &planner)
@@ -306,13 +313,14 @@ namespace parking
             subtitle += ", " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
                         " of direction, least clearance " + fixed(run.path->clearance, 2) + " m";
         SvgFigure figure(scenario.name, subtitle);
-        SvgMap map(viewAround(scenario, path));
+        const Trajectory planned = plannedSamples(scenario, result);
+        SampledPath seen = path;
+        for (const TrajectoryPoint &point : planned)
+            seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
+        SvgMap map(viewAround(scenario, seen));
         drawScenario(map, scenario);
         if (!path.empty())
             drawPath(map, path, scenario.vehicle);
-        const Trajectory planned = result.trajectory
-                                       ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
-                                       : Trajectory();
         if (result.drive)
             drawTrack(map, trackOf(result.drive->trajectory), svg_colour::DRIVEN, "driven");
         else if (!planned.empty())
@@ -390,6 +398,7 @@ namespace parking
         return driveAnimation(scenario, result.first().path->path, result.drive->trajectory, scenario.name,
                               result.planner + ", " + fixed(figures.drivenLength, 1) + " m in " +
                                   fixed(figures.travelTime, 1) + " s, ends " +
-                                  fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path");
+                                  fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
+                              plannedSamples(scenario, result));
     }
 }  // namespace parking

@@ -27,7 +27,7 @@ namespace parking
         constexpr double LIKELY = 1.02;             // share of it up to which driving along a path may cost at least
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path, see Search
         constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
-        constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
+        constexpr double WORK_TO_FIND = 2.5;        // times as much work as long as nothing is found
         constexpr double LIMITS_LEFT = 2e-5;        // share of the limits that is left for rounding
         constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
         constexpr std::size_t MOST_HITS = 50;       // that are looked into

@@ -108,6 +108,7 @@ namespace
     TEST(AutomaticParkingTest, followsAGoalThatMoves)
     {
         const Scenario scenario = openGround(20.0);
+        // By the heading, not the time: when the car is in the bend depends on how quickly it drives there.
         bool turned = false;
         AutomaticParking parking;
         parking.setMapUpdate(

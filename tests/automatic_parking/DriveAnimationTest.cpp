@@ -58,6 +58,18 @@ namespace
             EXPECT_EQ(page.find(reference), std::string::npos) << reference;
     }
 
+    TEST(DriveAnimationTest, showsWhatWasPlannedBesideWhatWasDriven)
+    {
+        const std::string alone = driveAnimation(openGround(), somePath(), someDrive(), "t");
+        EXPECT_EQ(alone.find("planned trajectory"), std::string::npos);
+        EXPECT_NE(alone.find("\"plannedV\":[]"), std::string::npos);
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t", {}, someDrive());
+        EXPECT_NE(page.find("planned trajectory"), std::string::npos);
+        EXPECT_EQ(page.find("\"plannedV\":[]"), std::string::npos);
+        expectError([&] { driveAnimation(openGround(), {}, someDrive(), "t", {}, {someDrive().front()}); },
+                    {"1 points"});
+    }
+
     TEST(DriveAnimationTest, writesEveryPointShortly)
     {
         Trajectory drive = someDrive();

@@ -37,17 +37,31 @@ namespace
     TEST(QuickestTrajectory, IsNoSlowerForLookingAtAlternatives)
     {
         const Planned problem;
-        QuickestTrajectoryOptions alone;
+        // What is near would count a little, too: then a path that keeps more room may win and be slower.
+        QuickestTrajectoryOptions others;
+        others.trajectory.weights.nearness = 0.0;
+        QuickestTrajectoryOptions alone = others;
         alone.alternatives = false;
         const QuickestTrajectory one =
             quickestTrajectory(problem.checker, problem.scenario.bounds, problem.path, alone);
-        const QuickestTrajectory best = quickestTrajectory(problem.checker, problem.scenario.bounds, problem.path);
+        const QuickestTrajectory best =
+            quickestTrajectory(problem.checker, problem.scenario.bounds, problem.path, others);
         EXPECT_EQ(one.paths, 1U);
         EXPECT_GT(best.paths, 1U);
         EXPECT_FALSE(best.trajectory.fallback) << best.trajectory.reason;
-        // What is near counts a little, too.
-        EXPECT_LE(best.trajectory.motion.duration(), 1.005 * one.trajectory.motion.duration());
+        // A program is solved until its cost changes by less than 0.01 %: measured here, 0.1 ms of 11.9 s.
+        EXPECT_LE(best.trajectory.motion.duration(), 1.0001 * one.trajectory.motion.duration());
         EXPECT_TRUE(collisionsOf(best.trajectory.motion, problem.checker, 1).empty());
         EXPECT_TRUE(isSamePose(endOf(best.trajectory.motion, problem.scenario.vehicle), problem.path.end(), 5e-3));
+    }
+
+    TEST(QuickestTrajectory, ThatIsInterruptedDrivesThePathAndSaysSo)
+    {
+        const Planned problem;
+        const QuickestTrajectory best =
+            quickestTrajectory(problem.checker, problem.scenario.bounds, problem.path, {}, [] { return true; });
+        EXPECT_TRUE(best.trajectory.fallback);
+        EXPECT_EQ(best.trajectory.reason, "interrupted");
+        EXPECT_TRUE(collisionsOf(best.trajectory.motion, problem.checker, 1).empty());
     }
 }  // namespace

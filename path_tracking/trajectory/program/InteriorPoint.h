@@ -14,7 +14,7 @@ namespace parking
         double firstBarrier{5e-3};        ///< seconds; a large one forgets where the search began
         double lastBarrier{2e-5};         ///< seconds
         std::size_t mostIterations{150};  ///< steps, after which the search ends as it is
-        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end, ten times if it crawls
+        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end; tenfold if it crawls
         double limitTolerance{1e-7};      ///< by which inequalities may be missed at the end
     };
 

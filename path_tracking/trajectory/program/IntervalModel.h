@@ -18,6 +18,7 @@ namespace parking
     /** \brief What of a node's yaw and steering angle is needed again and again. */
     struct NodeAngles
     {
+        /** \brief Of the angles of \e node. */
         explicit NodeAngles(const NodeVector &node);
 
         double cosine, sine;  ///< of the yaw

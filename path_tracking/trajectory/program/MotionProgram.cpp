@@ -94,6 +94,18 @@ namespace parking
             limits_.push_back({{H, H, H}, {1.0, 0.0, 0.0}, -problem_.leastDuration});
     }
 
+    std::size_t MotionProgram::intervalOf(std::size_t inequality) const
+    {
+        if (inequality < limits_.size())
+            return static_cast<std::size_t>(std::upper_bound(firstLimit_.begin(), firstLimit_.end(), inequality) -
+                                            firstLimit_.begin()) -
+                   1;
+        const std::size_t row = inequality - limits_.size();
+        return std::find_if(problem_.checkpoints.begin(), problem_.checkpoints.end(),
+                            [row](const MotionCheckpoint &point) { return row < point.lastRow; })
+            ->interval;
+    }
+
     Eigen::Vector4d MotionProgram::jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
                                             std::size_t k) const
     {

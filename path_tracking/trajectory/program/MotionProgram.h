@@ -47,6 +47,9 @@ namespace parking
             return limits_.size() + problem_.rows.size();
         }
 
+        /** \brief The interval that an inequality is about: it depends on the two nodes of that alone. */
+        std::size_t intervalOf(std::size_t inequality) const;
+
         /** \brief f, c and g at \e nodes, and what linearize() needs of them. \return f */
         double evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
                         std::vector<double> &values);

@@ -197,6 +197,19 @@ namespace parking
             }
         }
 
+        TEST(InteriorPoint, AsksInEveryIterationAndStopsWhenItIsTold)
+        {
+            MotionProgram program(randomProblem(1));
+            for (const std::size_t patience : {0U, 1U, 4U})
+            {
+                std::size_t asked = 0;
+                const InteriorPointResult result = solveMotion(program, {}, [&] { return asked++ == patience; });
+                EXPECT_EQ(result.status, InteriorPointStatus::Interrupted);
+                EXPECT_EQ(result.iterations, patience);
+                EXPECT_EQ(asked, patience + 1);
+            }
+        }
+
         TEST(BlockTridiagonal, SolvesLikeADenseMatrix)
         {
             Random random(5);
