@@ -1,5 +1,6 @@
 #include "automatic_parking/AutomaticParking.h"
 
+#include "automatic_parking/StopSupervisor.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
@@ -21,6 +22,9 @@ namespace parking
         {
             return formatNumber(std::round(value / unit) * unit);
         }
+
+        /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */
+        constexpr double BRAKE_USED = 0.95;
 
         double yawBetween(const Pose &a, const Pose &b)
         {
@@ -44,6 +48,7 @@ namespace parking
         require.positive("goalTolerance", goalTolerance);
         require.positive("goalYawTolerance", goalYawTolerance);
         require.notNegative("lookBack", lookBack);
+        require.notNegative("stopClearance", stopClearance);
     }
 
     ParkingParameters::ParkingParameters()
@@ -179,6 +184,7 @@ namespace parking
             const Vehicle &car = scenario_.vehicle;
             QuickestTrajectoryOptions options = parameters_.trajectory;
             options.trajectory.initialSteering = std::clamp(steering_, -car.maxSteeringAngle, car.maxSteeringAngle);
+            options.trajectory.accelerationShare = std::min(options.trajectory.accelerationShare, accelerationShare());
             options.trajectory.margin =
                 std::max(options.trajectory.margin,
                          std::min(parameters_.leastClearance, parameters_.clearanceShare * leg.plan.clearance));
@@ -203,16 +209,32 @@ namespace parking
             result_.planningTime += leg.optimizationTime;
         }
 
+        /** Of the car's acceleration: what is used by plans. */
+        double accelerationShare() const
+        {
+            return BRAKE_USED * (1.0 - parameters_.drive.tracking.brakeReserve);
+        }
+
+        /** The body keeps this much of what \e leg keeps while it stops. */
+        void supervise(const ParkingLeg &leg)
+        {
+            supervisor_.emplace(world_, std::min(parameters_.stopClearance, 0.5 * leg.plan.clearance));
+        }
+
         /** Drives the plan of \e leg; false when it cannot be driven. */
         bool drive(ParkingLeg &leg, const Pose &truth, std::size_t count)
         {
             ClosedLoopParameters parameters = parameters_.drive;
             parameters.disturbances.seed += count;  // other noise on every drive
+            parameters.tracking.accelerationShare =
+                std::min(parameters.tracking.accelerationShare, accelerationShare());
             ClosedLoop loop(scenario_.vehicle, parameters);
             loop.setClearance([this](const Pose &pose) { return world_.footprint().clearance(pose); });
             loop.setValidity([this](const Pose &pose) { return world_.footprint().isFree(pose); });
             loop.setSolve(solve_);
             cause_.clear();
+            supervise(leg);
+            loop.setGuard([this](const TrackingStep &step) { return supervisor_->allows(step.stoppingWay); });
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
             try
             {
@@ -225,6 +247,8 @@ namespace parking
                 note(result_.message);
                 return false;
             }
+            if (cause_.empty())
+                cause_ = whyStopped(leg.drive);
             for (TrajectoryPoint point : leg.drive.trajectory)
             {
                 // A drive begins where the one before has ended.
@@ -239,6 +263,17 @@ namespace parking
             if (leg.drive.arrived || cause_.empty())
                 note(leg.drive.message);
             return true;
+        }
+
+        /** Why the controller stopped, when another plan may mend that. */
+        static std::string whyStopped(const DriveResult &drive)
+        {
+            for (const DriveRecord &record : drive.log)
+                if (record.control.wheelsStick)
+                    return "the wheels do not follow their command";
+                else if (record.control.blocked)
+                    return "the car could not stop in time if it went on";
+            return "";
         }
 
         bool isAt(const Pose &pose, const Pose &goal) const
@@ -287,6 +322,7 @@ namespace parking
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
             world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
+            supervise(leg);
             if (moved)
                 cause_ = "the goal has changed";
             else if (!isFreeFrom(leg, std::max(0.0, s - parameters_.lookBack)))
@@ -353,8 +389,9 @@ namespace parking
         Pose goal_;
         double time_{0.0};
         double steering_{0.0};
-        bool hopeless_{false};  // is there no use in planning again?
-        std::string cause_;     // why the drive under way was stopped by watch(); empty otherwise
+        bool hopeless_{false};                      // is there no use in planning again?
+        std::optional<StopSupervisor> supervisor_;  // of the drive under way
+        std::string cause_;                         // why the drive under way was stopped by watch(); empty otherwise
         ParkingResult result_;
     };
 

@@ -39,7 +39,11 @@ namespace parking
         double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
         double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
-        double lookBack{0.1};             ///< metres of path behind the car that a changed map must leave free, too
+        /** Metres that the body keeps on the way that it needs to stop (half of what the plan keeps, where that is
+           less); a car that could not slows down before. drive.tracking.brakeReserve is what it counts on the brake
+           for. */
+        double stopClearance{0.03};
+        double lookBack{0.1};  ///< metres of path behind the car that a changed map must leave free, too
 
         /** \brief Trajectories that leave a controller something to correct with, and the wheels at the end as they
             are. */
@@ -86,8 +90,9 @@ namespace parking
         out.
 
         Parking again and again on the way: when the map changes so that the rest of the path is blocked, when the car
-        strays from the path, and when it stands too far from the goal, it stops, plans from where it believes to stand,
-        and drives on. A change of the map that leaves the rest of the path free does not disturb the drive. */
+        strays from the path, when its wheels do not follow, when it could not stop in time if it went on, and when it
+        stands too far from the goal, it stops, plans from where it believes to stand, and drives on. A change of the
+       map that leaves the rest of the path free does not disturb the drive. */
     class AutomaticParking
     {
     public:

@@ -1,7 +1,6 @@
 #include "path_tracking/control/TrackingController.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/reference/ProfileReference.h"
 #include "path_tracking/simulation/BicycleModel.h"
@@ -25,47 +24,11 @@ namespace parking
         constexpr double LEAST_PROGRESS = 1e-4;    // radians per period that count as progress
         constexpr double NO_TIME = 1e-9;           // seconds
 
-        void checkShare(const Require &require, const char *field, double value)
-        {
-            require.that(value > 0.0 && value <= 1.0, field, value, "above 0 and up to 1");
-        }
-
         double towards(double from, double to, double most)
         {
             return std::clamp(to, from - most, from + most);
         }
     }  // namespace
-
-    void TrackingParameters::validate() const
-    {
-        const Require require("tracking");
-        mpc.validate();
-        reference.validate();
-        checkShare(require, "speedShare", speedShare);
-        checkShare(require, "accelerationShare", accelerationShare);
-        checkShare(require, "steeringRateShare", steeringRateShare);
-        estimator.validate();
-        require.that(steeringLag >= 0.0 && steeringLag <= 0.5, "steeringLag", steeringLag, "from 0 to 0.5 seconds");
-        require.that(driveLag >= 0.0 && driveLag <= 0.5, "driveLag", driveLag, "from 0 to 0.5 seconds");
-        require.positive("lateralAcceleration", lateralAcceleration);
-        require.positive("stopTolerance", stopTolerance);
-        require.positive("arrivalTolerance", arrivalTolerance);
-        require.positive("settleTime", settleTime);
-        require.positive("steeringTolerance", steeringTolerance);
-        require.positive("maxCrossTrack", maxCrossTrack);
-        require.positive("maxHeadingError", maxHeadingError);
-        require.that(maxFailures >= 0, "maxFailures", maxFailures, "a count that is not negative");
-    }
-
-    SpeedLimits TrackingParameters::limits(const Vehicle &vehicle) const
-    {
-        SpeedLimits limits = SpeedLimits::of(vehicle);
-        limits.speed *= speedShare;
-        limits.acceleration *= accelerationShare;
-        limits.steeringRate *= steeringRateShare;
-        limits.lateralAcceleration = lateralAcceleration;
-        return limits;
-    }
 
     TrackingController::TrackingController(const Path &path, const Vehicle &vehicle,
                                            const TrackingParameters &parameters, double initialSteering, Solve solve)
@@ -83,16 +46,18 @@ namespace parking
         reference_(std::move(reference)),
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
-        estimator_(vehicle.wheelbase, parameters.estimator),
-        steeringLag_(parameters.steeringLag),
-        driveLag_(parameters.driveLag)
+        response_(vehicle, parameters.response(), parameters.mpc.step, initialSteering)
     {
         last_.steering = initialSteering;
-        steeringBefore_ = initialSteering;
         if (!reference_)
             throw Error("tracking: there is no reference");
         s_ = leg().beginLength;
         clock_ = -leg().standstill;
+    }
+
+    void TrackingController::setGuard(Guard guard)
+    {
+        guard_ = std::move(guard);
     }
 
     void TrackingController::requestStop(const std::string &reason)
@@ -111,7 +76,7 @@ namespace parking
         locate(step);
         watch(step);
         bool over = mode_ == TrackingMode::Driving && legOver();
-        if (over && (std::abs(estimator_.measuredSpeed()) <= STANDING || mayReverse()))
+        if (over && (std::abs(estimator().measuredSpeed()) <= STANDING || mayReverse()))
         {
             nextLeg(step);
             over = false;
@@ -120,58 +85,55 @@ namespace parking
             steer(step);
         if (mode_ == TrackingMode::Driving && over)
         {
-            standStill(step, last_.steering, vehicle_.maxSteeringRate);
+            step.command =
+                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
             clock_ += parameters_.mpc.step;
         }
         else if (mode_ == TrackingMode::Driving)
+        {
             drive(step);
+            if (mode_ == TrackingMode::Driving && guard_)
+                askGuard(step);
+        }
         if (mode_ == TrackingMode::Braking)
             brake(step);
         if (finished())
-            standStill(step, last_.steering, vehicle_.maxSteeringRate);
+            step.command =
+                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
 
         step.mode = mode_;
         step.leg = leg_;
-        step.estimate = estimator_.pose();
-        held_ = step.command.hold;
-        steeringBefore_ = last_.steering;
+        step.estimate = estimator().pose();
         last_ = {step.command.acceleration, step.command.steering};
+        response_.give(step.command);
         return step;
     }
 
     bool TrackingController::takeMeasurement(const Measurement &measurement, TrackingStep &step)
     {
-        const double period = parameters_.mpc.step;
         const bool usable =
             isFinite(measurement.pose) && std::isfinite(measurement.speed) && std::isfinite(measurement.steering);
         if (!started_)
         {
             // Nothing to reckon from: the first measurement must be good.
             started_ = usable;
-            estimator_.start(usable ? measurement : Measurement{reference_->at(0, 0.0).pose, 0.0, last_.steering});
+            response_.start(usable ? measurement : Measurement{reference_->at(0, 0.0).pose, 0.0, last_.steering});
             return usable;
         }
         if (!usable)
         {
-            estimator_.predict(period, estimator_.measuredSpeed() + last_.acceleration * period, last_.steering);
+            response_.reckon();
             step.event = "measurement not finite: dead reckoning";
             return ++lostMeasurements_ <= parameters_.maxFailures;
         }
         lostMeasurements_ = 0;
-        steeringLag_.learn(period, steeringBefore_, last_.steering, estimator_.measuredSteering(),
-                           measurement.steering);
-        if (held_)
-            driveLag_.hold();
-        else
-            driveLag_.learn(period, last_.acceleration, estimator_.measuredSpeed(), measurement.speed);
-        estimator_.predict(period, measurement.speed, measurement.steering);
-        estimator_.correct(measurement.pose);
+        response_.take(measurement);
         return true;
     }
 
     void TrackingController::locate(TrackingStep &step)
     {
-        const PathProjection place = reference_->project(leg_, estimator_.pose(), s_ - SEARCH, s_ + SEARCH);
+        const PathProjection place = reference_->project(leg_, estimator().pose(), s_ - SEARCH, s_ + SEARCH);
         s_ = place.s;
         beyond_ = place.beyond;
         step.s = place.s;
@@ -191,10 +153,15 @@ namespace parking
             beginStop("the heading is " + formatNumber(std::round(std::abs(step.headingError) * 180.0 / PI)) +
                           " degrees off the path",
                       step);
-        else if (std::abs(estimator_.speed()) > 1.1 * vehicle_.maxSpeed + STANDING)
+        else if (std::abs(estimator().speed()) > 1.1 * vehicle_.maxSpeed + STANDING)
             beginStop("the car is faster than its limit", step);
-        else if (leg().direction * estimator_.speed() < -0.1 && mode_ == TrackingMode::Driving)
+        else if (leg().direction * estimator().speed() < -0.1 && mode_ == TrackingMode::Driving)
             beginStop("the car moves against the direction of the path", step);
+        else if (response_.wheelsStick() && mode_ == TrackingMode::Driving)
+        {
+            step.wheelsStick = true;
+            beginStop("the wheels do not follow their command", step);
+        }
     }
 
     bool TrackingController::legOver() const
@@ -213,7 +180,7 @@ namespace parking
 
     bool TrackingController::isNearlyStanding() const
     {
-        return std::abs(estimator_.measuredSpeed()) <=
+        return std::abs(estimator().measuredSpeed()) <=
                std::max(STANDING, 0.5 * vehicle_.maxAcceleration * parameters_.mpc.step);
     }
 
@@ -247,7 +214,7 @@ namespace parking
 
     void TrackingController::arrive(TrackingStep &step)
     {
-        const double off = positionDistance(estimator_.pose(), reference_->end());
+        const double off = positionDistance(estimator().pose(), reference_->end());
         mode_ = off <= parameters_.arrivalTolerance ? TrackingMode::Arrived : TrackingMode::Stopped;
         if (mode_ == TrackingMode::Stopped)
             step.event = "stopped " + formatNumber(std::round(100.0 * off)) + " cm from the end of the path";
@@ -261,21 +228,22 @@ namespace parking
         step.event = "safe stop: " + reason;
     }
 
-    void TrackingController::standStill(TrackingStep &step, double steering, double rate)
+    Command TrackingController::standStill(double speed, double last, double steering, double rate) const
     {
         const double period = parameters_.mpc.step;
-        step.command.hold = true;
-        step.command.acceleration =
-            std::clamp(-estimator_.measuredSpeed() / period, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
-        step.command.steering = towards(last_.steering, steering, rate * period);
+        Command command;
+        command.hold = true;
+        command.acceleration = std::clamp(-speed / period, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
+        command.steering = towards(last, steering, rate * period);
+        return command;
     }
 
     void TrackingController::steer(TrackingStep &step)
     {
         const double period = parameters_.mpc.step;
         const double target = turnsLast_ ? reference_->finalSteering() : leg().steering;
-        const double off = std::abs(estimator_.measuredSteering() - target);
-        const bool standing = std::abs(estimator_.measuredSpeed()) <= STANDING;
+        const double off = std::abs(estimator().measuredSteering() - target);
+        const bool standing = std::abs(estimator().measuredSpeed()) <= STANDING;
         const bool there = last_.steering == target && off <= parameters_.steeringTolerance;
         if (turnsLast_ && standing && there)
         {
@@ -291,7 +259,7 @@ namespace parking
             clock_ + period > NO_TIME && (there || inTime))
         {
             mode_ = TrackingMode::Driving;
-            clock_ = std::min(clock_, 0.0);
+            clock_ = std::min(clock_, 0.0) - response_.delay();  // it begins when the first command arrives
             waited_ = 0.0;
             planAge_ = 0;
             plan_.clear();
@@ -306,7 +274,7 @@ namespace parking
             beginStop(standing ? "the wheels do not follow their command" : "the car does not stand still", step);
             return;
         }
-        standStill(step, target, reference_->steeringRate());
+        step.command = standStill(estimator().measuredSpeed(), last_.steering, target, reference_->steeringRate());
         clock_ += period;
     }
 
@@ -320,45 +288,57 @@ namespace parking
                        over * reference_->steeringRate());
     }
 
-    MpcProblem TrackingController::makeProblem() const
+    MpcProblem TrackingController::makeProblem(const CarState &car) const
     {
         const double period = parameters_.mpc.step;
+        const double clock = clock_ + response_.delay();  // when what is commanded now arrives
+        const double driveLag = response_.driveLag(), steeringLag = response_.steeringLag();
         MpcProblem problem;
-        problem.pose = estimator_.pose();
-        problem.speed = estimator_.speed();
-        problem.last = {last_.acceleration * estimator_.speedScale(), last_.steering + estimator_.steeringOffset()};
-        problem.wheels = estimator_.steering();
-        problem.acceleration = estimator_.speedScale() * driveLag_.acceleration();
-        problem.driveLag = driveLag_.lag();
-        problem.steeringLag = steeringLag_.lag();
+        problem.pose = car.pose;
+        problem.speed = car.speed;
+        problem.last = {overGround(last_.acceleration, car), last_.steering + estimator().steeringOffset()};
+        problem.wheels = car.wheels;
+        problem.acceleration = car.acceleration;
+        problem.driveLag = driveLag;
+        problem.steeringLag = steeringLag;
         problem.direction = leg().direction;
-        problem.steeringNow = steeringAt(clock_ + steeringLag_.lag());
-        problem.speedNow = leg().direction * reference_->at(leg_, clock_ + driveLag_.lag()).speed;
+        problem.steeringNow = steeringAt(clock + steeringLag);
+        problem.speedNow = leg().direction * reference_->at(leg_, clock + driveLag).speed;
         problem.accelerationNow =
-            (problem.speedNow - leg().direction * reference_->at(leg_, clock_ - period + driveLag_.lag()).speed) /
-            period;
-        const Pose goal = reference_->end();
-        problem.align = positionDistance(goal, estimator_.pose()) < parameters_.mpc.alignDistance;
+            (problem.speedNow - leg().direction * reference_->at(leg_, clock - period + driveLag).speed) / period;
+        problem.align = positionDistance(reference_->end(), car.pose) < parameters_.mpc.alignDistance;
         problem.reference.reserve(parameters_.mpc.horizon);
         for (std::size_t k = 1; k <= parameters_.mpc.horizon; ++k)
         {
-            const double time = clock_ + static_cast<double>(k) * period;
+            const double time = clock + static_cast<double>(k) * period;
             // Commands have to be ahead of the car by its lags.
             problem.reference.push_back({reference_->at(leg_, time).pose,
-                                         leg().direction * reference_->at(leg_, time + driveLag_.lag()).speed,
-                                         steeringAt(time + steeringLag_.lag())});
+                                         leg().direction * reference_->at(leg_, time + driveLag).speed,
+                                         steeringAt(time + steeringLag)});
         }
         return problem;
     }
 
-    bool TrackingController::useOldPlan(const std::string &why, TrackingStep &step)
+    double TrackingController::overGround(double acceleration, const CarState &car) const
+    {
+        return acceleration / response_.accelerationFor(1.0, acceleration * car.speed);
+    }
+
+    Command TrackingController::commandFor(const MpcControl &control, const CarState &car) const
+    {
+        Command command;
+        command.acceleration = response_.accelerationFor(control.acceleration, car.speed);
+        command.steering = control.steering - estimator().steeringOffset();
+        return command;
+    }
+
+    bool TrackingController::useOldPlan(const std::string &why, const CarState &car, TrackingStep &step)
     {
         ++failures_;
         step.event = why;
         if (failures_ > parameters_.maxFailures || planAge_ >= plan_.size())
             return false;
-        step.command.acceleration = plan_[planAge_].acceleration / estimator_.speedScale();
-        step.command.steering = plan_[planAge_].steering - estimator_.steeringOffset();
+        step.command = commandFor(plan_[planAge_], car);
         ++planAge_;
         return true;
     }
@@ -380,11 +360,11 @@ namespace parking
         }
     }
 
-    double TrackingController::withinSpeedLimit(double acceleration) const
+    double TrackingController::withinSpeedLimit(double acceleration, const CarState &car) const
     {
         // What the car still takes up of earlier commands counts: its drive lags behind.
-        const double scale = estimator_.speedScale(), period = parameters_.mpc.step;
-        const double coming = estimator_.speed() + scale * driveLag_.acceleration() * driveLag_.lag();
+        const double scale = estimator().speedScale(), period = parameters_.mpc.step;
+        const double coming = car.speed + car.acceleration * response_.driveLag();
         const double most = (vehicle_.maxSpeed - coming) / (scale * period);
         const double least = (-vehicle_.maxSpeed - coming) / (scale * period);
         return std::clamp(std::clamp(acceleration, least, most), -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
@@ -393,7 +373,8 @@ namespace parking
     void TrackingController::drive(TrackingStep &step)
     {
         const double period = parameters_.mpc.step;
-        const MpcProblem problem = makeProblem();
+        const CarState car = response_.ahead();
+        const MpcProblem problem = makeProblem(car);
         const MpcSolution solution = solve(problem);
         step.solved = true;
         step.solveTime = solution.solveTime;
@@ -410,20 +391,19 @@ namespace parking
             failures_ = 0;
             plan_ = solution.controls;
             planAge_ = 1;
-            step.command.acceleration = plan_.front().acceleration / estimator_.speedScale();
-            step.command.steering = plan_.front().steering - estimator_.steeringOffset();
+            step.command = commandFor(plan_.front(), car);
         }
         else
         {
             const std::string why = solution.message.empty() ? "the solver gave no finite answer" : solution.message;
-            if (!useOldPlan(why, step))
+            if (!useOldPlan(why, car, step))
             {
                 beginStop(why, step);
                 return;
             }
         }
-        step.command.acceleration = withinSpeedLimit(step.command.acceleration);
-        endWithPeriod(step);
+        step.command.acceleration = withinSpeedLimit(step.command.acceleration, car);
+        endWithPeriod(car, step);
         step.command.steering =
             std::clamp(towards(last_.steering, step.command.steering, vehicle_.maxSteeringRate * period),
                        -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);
@@ -436,33 +416,80 @@ namespace parking
             beginStop("the car does not move on", step);
     }
 
-    void TrackingController::endWithPeriod(TrackingStep &step)
+    void TrackingController::endWithPeriod(const CarState &car, TrackingStep &step)
     {
         // A leg that ends within this period ends at rest, however little is left of the period.
         const double period = parameters_.mpc.step;
-        const double speed = leg().direction * estimator_.measuredSpeed();
-        const double left = leg().endLength - (s_ + beyond_) - 0.5 * estimator_.speedScale() * speed * period;
-        if (clock_ + period < leg().duration || speed < 0.0 || speed > vehicle_.maxAcceleration * period ||
-            std::abs(left) > parameters_.stopTolerance)
+        const double scale = estimator().speedScale();
+        const double speed = leg().direction * car.speed / scale;
+        const double left =
+            leg().endLength - (s_ + beyond_ + leg().direction * car.driven) - 0.5 * scale * speed * period;
+        if (clock_ + response_.delay() + period < leg().duration || speed < 0.0 ||
+            speed > vehicle_.maxAcceleration * period || std::abs(left) > parameters_.stopTolerance)
             return;
         step.command.hold = true;
         step.command.acceleration = -leg().direction * speed / period;
     }
 
+    Command TrackingController::braking(const CarState &car, const PathProjection &place, double last) const
+    {
+        // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
+        constexpr double K1 = 0.5, K2 = 1.2;
+        const double curvature = vehicle_.curvature(reference_->steering(leg_, place.s)) - K1 * place.lateral -
+                                 leg().direction * K2 * place.yaw;
+        return standStill(
+            car.speed / estimator().speedScale(), last,
+            std::clamp(vehicle_.steeringAngle(curvature), -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle),
+            vehicle_.maxSteeringRate);
+    }
+
     void TrackingController::brake(TrackingStep &step)
     {
-        if (std::abs(estimator_.speed()) <= STANDING)
+        const CarState car = response_.ahead();
+        if (std::abs(estimator().speed()) <= STANDING && std::abs(car.speed) <= STANDING)
         {
             mode_ = TrackingMode::Stopped;
             return;
         }
-        // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
-        constexpr double K1 = 0.5, K2 = 1.2;
-        const double direction = leg().direction;
-        const double curvature = vehicle_.curvature(reference_->steering(leg_, s_)) - K1 * step.crossTrack -
-                                 direction * K2 * step.headingError;
-        standStill(step,
-                   std::clamp(vehicle_.steeringAngle(curvature), -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle),
-                   vehicle_.maxSteeringRate);
+        step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
+    }
+
+    Path TrackingController::stoppingWay(const Command &command) const
+    {
+        constexpr int MOST_PERIODS = 600;
+        const double brakes = std::min(response_.brakeScale(), 1.0 - parameters_.brakeReserve);
+        Path way{estimator().pose(), {}};
+        CarState car = response_.after(response_.ahead(&way), command, brakes, &way);
+        double s = s_, last = command.steering;
+        for (int i = 0; i < MOST_PERIODS && std::abs(car.speed) > STANDING; ++i)
+        {
+            const PathProjection place = reference_->project(leg_, car.pose, s - SEARCH, s + SEARCH);
+            const Command next = braking(car, place, last);
+            s = place.s;
+            last = next.steering;
+            car = response_.after(car, next, brakes, &way);
+        }
+        return way;
+    }
+
+    void TrackingController::askGuard(TrackingStep &step)
+    {
+        step.estimate = estimator().pose();
+        step.leg = leg_;
+        step.stoppingWay = stoppingWay(step.command);
+        if (guard_(step))
+        {
+            refused_ = 0.0;
+            return;
+        }
+        const CarState car = response_.ahead();
+        step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
+        if (refused_ == 0.0 && step.event.empty())
+            step.event = "slowing down: the way to a stop is not free";
+        if (std::abs(estimator().speed()) <= STANDING)
+            refused_ += parameters_.mpc.step;
+        step.blocked = refused_ >= parameters_.guardPatience;
+        if (step.blocked)
+            beginStop("the car cannot go on and still stop in time", step);
     }
 }  // namespace parking

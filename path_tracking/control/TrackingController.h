@@ -1,13 +1,12 @@
 #pragma once
 
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
+#include "path_tracking/control/CarResponse.h"
 #include "path_tracking/control/Mpc.h"
+#include "path_tracking/control/TrackingParameters.h"
 #include "path_tracking/control/TrackingTypes.h"
-#include "path_tracking/reference/ReferencePath.h"
-#include "path_tracking/reference/SpeedProfile.h"
 #include "path_tracking/reference/TimedReference.h"
-#include "path_tracking/simulation/ActuatorLag.h"
-#include "path_tracking/simulation/PoseEstimator.h"
 
 #include <cstddef>
 #include <functional>
@@ -17,38 +16,6 @@
 
 namespace parking
 {
-    /** \brief How a path is driven. */
-    struct TrackingParameters
-    {
-        MpcParameters mpc;              ///< of the controller on the legs, its period included
-        ReferenceParameters reference;  ///< how the path is made drivable
-
-        // The timed path keeps below the car's limits, so that the controller has something left to correct with.
-        double speedShare{0.95};          ///< of the car's speed limit, in (0, 1]
-        double accelerationShare{0.8};    ///< likewise
-        double steeringRateShare{0.8};    ///< likewise
-        double lateralAcceleration{1.0};  ///< m/s^2
-
-        EstimatorParameters estimator;  ///< of the filter that tells where the car is
-        double steeringLag{0.0};        ///< seconds that the wheels lag behind their command; learnt from there on
-        double driveLag{0.0};           ///< seconds that the acceleration lags behind its command; learnt from there on
-
-        double stopTolerance{0.005};      ///< metres before the end of a leg at which standing still counts as arrived
-        double settleTime{1.5};           ///< seconds granted for that after the timed path has ended
-        double arrivalTolerance{0.15};    ///< metres from the end of the path; standing farther off is not arriving
-        double steeringTolerance{0.005};  ///< radians, of the wheels before the car moves off
-
-        double maxCrossTrack{0.5};    ///< metres beside the path; beyond it the car stops
-        double maxHeadingError{0.7};  ///< radians, likewise
-        int maxFailures{3};           ///< consecutive solver failures or unusable measurements; more and the car stops
-
-        /** \brief Throws parking::Error naming the first field out of its range. */
-        void validate() const;
-
-        /** \brief What the timed path may ask of \e vehicle. */
-        SpeedLimits limits(const Vehicle &vehicle) const;
-    };
-
     /** \brief What the controller is about. */
     enum class TrackingMode
     {
@@ -73,7 +40,12 @@ namespace parking
         bool solverFailed{false};                   ///< and was its answer useless?
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
-        std::string event;                          ///< empty, or what happened: a failure, the reason of a stop
+        bool wheelsStick{false};                    ///< do the wheels not follow, while the car moves?
+        bool blocked{false};                        ///< has the guard kept the car standing until it was a safe stop?
+        /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
+            lags that were learnt, and the brake in reserve. Only a guard gets to see it. */
+        Path stoppingWay;
+        std::string event;  ///< empty, or what happened: a failure, the reason of a stop
     };
 
     /** \brief Drives a timed path or motion: model predictive control on the legs, steering at standstill between them.
@@ -84,15 +56,23 @@ namespace parking
        pose is filtered: dead reckoning with measured speed and steering, corrected by a share of the difference to the
        measured pose.
 
-        Safety: when the optimiser fails, the rest of its last answer is used for a few periods; when failures go on,
-        the pose is lost or the car strays from the path, the car brakes with its full deceleration, steered along the
-        path by a plain feedback law that needs no optimiser, and stands. Whatever happens, the command obeys the car's
-        limits. */
+        Commands that take their time to arrive are reckoned with: the horizon begins where the car will be by then.
+
+        Safety: a guard may refuse a command, for the way that the car would need to stop after it; then the car brakes
+        along the path instead, until the guard lets it go on. When the optimiser fails, the rest of its last answer is
+       used for a few periods; when failures go on, the pose is lost or the car strays from the path, the car brakes
+       with its full deceleration, steered along the path by a plain feedback law that needs no optimiser, and stands.
+       Whatever happens, the command obeys the car's limits. */
     class TrackingController
     {
     public:
         /** \brief What answers the problem of a period; its answer is checked, whatever it is. */
         using Solve = std::function<MpcSolution(const MpcProblem &)>;
+        /** \brief May this be commanded? Otherwise the car brakes in this period.
+
+            What it allows, it must have been able to stop after; so a guard that refuses what leads to a touch before
+            standstill keeps a car that is as good as is assumed from any. */
+        using Guard = std::function<bool(const TrackingStep &)>;
 
         /** \brief Plans the drive along \e path from \e initialSteering.
 
@@ -134,6 +114,9 @@ namespace parking
         /** \brief Decides the next period (of parameters().mpc.step seconds). */
         TrackingStep step(const Measurement &measurement);
 
+        /** \brief Whom to ask before each command on a leg; empty: nobody. */
+        void setGuard(Guard guard);
+
         /** \brief Asks for a safe stop; the next step begins it. \param reason appears as its event. */
         void requestStop(const std::string &reason);
 
@@ -141,6 +124,11 @@ namespace parking
         const TimedLeg &leg() const
         {
             return reference_->legs()[leg_];
+        }
+
+        const PoseEstimator &estimator() const
+        {
+            return response_.estimator();
         }
 
         bool takeMeasurement(const Measurement &measurement, TrackingStep &step);
@@ -155,13 +143,18 @@ namespace parking
         void steer(TrackingStep &step);
         void drive(TrackingStep &step);
         void brake(TrackingStep &step);
-        void standStill(TrackingStep &step, double steering, double rate);
-        MpcProblem makeProblem() const;
+        Command braking(const CarState &car, const PathProjection &place, double last) const;
+        Path stoppingWay(const Command &command) const;
+        void askGuard(TrackingStep &step);
+        Command standStill(double speed, double last, double steering, double rate) const;
+        MpcProblem makeProblem(const CarState &car) const;
+        double overGround(double acceleration, const CarState &car) const;
+        Command commandFor(const MpcControl &control, const CarState &car) const;
         double steeringAt(double time) const;
-        void endWithPeriod(TrackingStep &step);
+        void endWithPeriod(const CarState &car, TrackingStep &step);
         MpcSolution solve(const MpcProblem &problem);
-        double withinSpeedLimit(double acceleration) const;
-        bool useOldPlan(const std::string &why, TrackingStep &step);
+        double withinSpeedLimit(double acceleration, const CarState &car) const;
+        bool useOldPlan(const std::string &why, const CarState &car, TrackingStep &step);
 
         Vehicle vehicle_;
         TrackingParameters parameters_;
@@ -169,10 +162,9 @@ namespace parking
         Mpc mpc_;
         Solve solve_;
 
-        PoseEstimator estimator_;
-        SteeringLagEstimator steeringLag_;
-        DriveLagEstimator driveLag_;
-        bool held_{true};  // was the last command to hold the brake?
+        Guard guard_;
+
+        CarResponse response_;
 
         TrackingMode mode_{TrackingMode::Steering};
         std::size_t leg_{0};
@@ -182,9 +174,9 @@ namespace parking
         double wheelsOff_{0.0};  // radians between the wheels and where the leg begins, a period ago
         bool started_{false};
         double s_{0.0};
-        double beyond_{0.0};          // metres past an end of the leg
-        double steeringBefore_{0.0};  // commanded the period before the last
-        MpcControl last_;             // applied in the last period
+        double beyond_{0.0};   // metres past an end of the leg
+        MpcControl last_;      // commanded in the last period
+        double refused_{0.0};  // seconds that the guard has kept the car standing
         std::vector<MpcControl> plan_;
         std::size_t planAge_{0};
         int failures_{0};

@@ -169,6 +169,11 @@ namespace parking
         monitor_ = std::move(monitor);
     }
 
+    void ClosedLoop::setGuard(TrackingController::Guard guard)
+    {
+        guard_ = std::move(guard);
+    }
+
     void ClosedLoop::setSolve(TrackingController::Solve solve)
     {
         solve_ = std::move(solve);
@@ -193,6 +198,7 @@ namespace parking
                                 double initialSteering) const
     {
         const TimedReference &reference = controller.reference();
+        controller.setGuard(guard_);
         Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, parameters_.plantStep);
         Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);
         recorder.begin(plant.state());

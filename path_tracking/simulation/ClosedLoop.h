@@ -79,6 +79,8 @@ namespace parking
 
         /** \brief Who may stop the drive; empty: nobody. */
         void setMonitor(Monitor monitor);
+        /** \brief Asked before every command of a drive (see TrackingController::Guard). */
+        void setGuard(TrackingController::Guard guard);
         /** \brief Replaces the optimiser (see TrackingController). */
         void setSolve(TrackingController::Solve solve);
 
@@ -104,6 +106,7 @@ namespace parking
         Clearance clearance_;
         Validity validity_;
         Monitor monitor_;
+        TrackingController::Guard guard_;
         TrackingController::Solve solve_;
     };
 }  // namespace parking

@@ -240,7 +240,7 @@ namespace
         }
     }
 
-    TEST(AutomaticParkingTest, drivesGivenPathsAndReportsCollisions)
+    TEST(AutomaticParkingTest, drivesGivenPathsAndStopsBeforeWhatIsInTheWay)
     {
         Scenario scenario = openGround();
         const Path path{scenario.start, {{0.0, 15.0}}};
@@ -249,9 +249,15 @@ namespace
         EXPECT_NEAR(good.evaluation.drivenLength, 15.0, 0.01);
         scenario.polygons = {box(8.0, -0.1, 8.2, 0.1)};
         const ParkingResult bad = AutomaticParking().drive(scenario, path);
-        EXPECT_EQ(bad.status, ParkingStatus::Collision);
-        EXPECT_GT(bad.evaluation.collisions, 0u);
         EXPECT_EQ(bad.legs.at(0).plan.clearance, 0.0);
+        // The car drives as far as it may, and stands before what is in the way.
+        EXPECT_EQ(bad.status, ParkingStatus::Stopped);
+        EXPECT_EQ(bad.message, "the car could not stop in time if it went on");
+        EXPECT_EQ(bad.evaluation.collisions, 0u);
+        EXPECT_EQ(bad.trajectory.back().v, 0.0);
+        const double bumper = bad.trajectory.back().x + scenario.vehicle.wheelbase + scenario.vehicle.frontOverhang;
+        EXPECT_LT(bumper, 8.0);
+        EXPECT_GT(bumper, 7.0);
     }
 
     TEST(AutomaticParkingTest, pathsThatNobodyCanDriveAreRefused)

@@ -1,8 +1,10 @@
 #include "benchmarks/studies/reliability/TroubledDrives.h"
 
+#include "benchmarks/studies/reliability/BrakingOracle.h"
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +43,18 @@ namespace parking
         constexpr double STEP = 0.005;
         /** Metres by which a body must overlap to count as touching: numbers round. */
         constexpr double OVERLAP = 1e-4;
-        /** Metres that a stop must leave to the obstacle to have been possible: controllers know poses to a centimetre.
-         */
+        /** Metres that a stop must keep from an obstacle that appears to have been possible: controllers know poses to
+            a centimetre. */
         constexpr double SPARE = 0.05;
+        /** Metres that it must keep from what stood there before, beside which cars park. */
+        constexpr double SPARE_BESIDE = 0.01;
+        /** Radians that wheels must be off their command for that to be seen. */
+        constexpr double SEEN = 0.01;
+
+        std::string rounded(double value)
+        {
+            return formatNumber(std::round(1e3 * value) / 1e3);
+        }
 
         Disturbances disturbancesOf(Trouble trouble, double duration, Random &random)
         {
@@ -112,15 +123,6 @@ namespace parking
             const auto after = std::lower_bound(drive.begin(), drive.end(), time,
                                                 [](const TrajectoryPoint &point, double t) { return point.t < t; });
             return after == drive.end() ? drive.back() : *after;
-        }
-
-        double drivenBetween(const Trajectory &drive, double begin, double end)
-        {
-            double driven = 0.0;
-            for (std::size_t i = 1; i < drive.size(); ++i)
-                if (drive[i - 1].t >= begin && drive[i].t <= end)
-                    driven += positionDistance(poseOf(drive[i - 1]), poseOf(drive[i]));
-            return driven;
         }
 
         PolygonOracle alone(const Polygon &obstacle)
@@ -196,6 +198,43 @@ namespace parking
             }
             return "";
         }
+        bool isFree(const std::vector<Pose> &way, const Vehicle &car, const PolygonOracle &oracle, double spare)
+        {
+            return std::all_of(way.begin(), way.end(),
+                               [&](const Pose &pose) { return oracle.isFree(pose, car, spare); });
+        }
+
+        /** What is wrong with the car in the drive that is under way at \e time: the simulated car counts its spans
+           from the begin of each drive. */
+        Disturbances oddsAt(const ParkingResult &result, double time, Disturbances odds)
+        {
+            double begin = 0.0;
+            for (const ParkingLeg &leg : result.legs)
+                begin = leg.begin <= time ? leg.begin : begin;
+            for (TimeSpan &span : odds.stuck)
+                span = {span.begin + begin, span.end + begin};
+            return odds;
+        }
+
+        /** When it could first be seen, in the drive that is under way at \e time, that wheels stick; nothing when they
+            do not. */
+        std::optional<double> wheelsSeenToStick(const ParkingResult &result, const Disturbances &odds, double time)
+        {
+            const auto next = std::find_if(result.legs.begin() + 1, result.legs.end(),
+                                           [time](const ParkingLeg &leg) { return leg.begin > time; });
+            const ParkingLeg &leg = *(next - 1);
+            for (std::size_t i = 1; i < leg.drive.log.size(); ++i)
+            {
+                const DriveRecord &before = leg.drive.log[i - 1], &now = leg.drive.log[i];
+                // The simulated car counts its spans from the begin of each drive.
+                const bool sticks = std::any_of(odds.stuck.begin(), odds.stuck.end(),
+                                                [&](const TimeSpan &span) { return span.contains(before.t); });
+                if (sticks && leg.begin + now.t <= time &&
+                    std::abs(now.measurement.steering - before.control.command.steering) > SEEN)
+                    return leg.begin + now.t;
+            }
+            return std::nullopt;
+        }
     }  // namespace
 
     TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed, bool optimized)
@@ -235,6 +274,10 @@ namespace parking
 
         report.status = result.status;
         report.message = result.message;
+        report.events = result.events;
+        if (surprise)
+            report.events.push_back(rounded(surprise->time) + " s: something appears " + rounded(surprise->ahead) +
+                                    " m ahead");
         const Vehicle &car = scenario.vehicle;
         report.brokenLimit = brokenLimit(result, car, parameters.drive.tracking.mpc.step);
         for (const ParkingLeg &leg : result.legs)
@@ -243,26 +286,31 @@ namespace parking
         if (result.trajectory.empty())
             return report;
         report.stands = result.trajectory.back().v == 0.0;
-        if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, PolygonOracle(scenario), 0.0))
+        // What is seen at the begin of a period is braked for in the next one.
+        const Disturbances &odds = parameters.drive.disturbances;
+        const double period = parameters.drive.tracking.mpc.step, reaction = period + odds.delay;
+        const PolygonOracle before(scenario);
+        if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, before, 0.0))
         {
+            const std::optional<double> seen = wheelsSeenToStick(result, odds, touch->time);
+            report.otherAvoidable = !seen || isFree(brakingWay(result.trajectory, car, odds, *seen, *seen + reaction),
+                                                    car, before, SPARE_BESIDE);
             report.hitOther = true;
             report.impactSpeed = touch->speed;
+            report.events.push_back(rounded(touch->time) + " s: touches what was there before");
         }
         if (!surprise)
             return report;
         report.appeared = true;
         report.ahead = surprise->ahead;
-        // It is seen at the begin of a period, and the stop begins with the next one.
-        const Disturbances &odds = parameters.drive.disturbances;
-        const double until = surprise->time + parameters.drive.tracking.mpc.step + odds.delay;
-        const double brake = (1.0 - odds.brakeLoss) * (1.0 + odds.speedBias) * car.maxAcceleration;
-        const double speed = pointAt(expected, until).v;
-        report.avoidable =
-            drivenBetween(expected, surprise->time, until) + speed * speed / (2.0 * brake) + SPARE < surprise->ahead;
+        report.avoidable = isFree(brakingWay(expected, car, oddsAt(undisturbed, surprise->time, odds), surprise->time,
+                                             surprise->time + reaction),
+                                  car, alone(surprise->obstacle), SPARE);
         if (const std::optional<Touch> touch =
                 firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time))
         {
             report.hitAppeared = true;
+            report.events.push_back(rounded(touch->time) + " s: touches what has appeared");
             report.impactSpeed = std::max(report.impactSpeed, touch->speed);
         }
         return report;

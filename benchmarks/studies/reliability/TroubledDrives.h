@@ -38,13 +38,17 @@ namespace parking
         bool appeared{false};                         ///< did an obstacle appear on the way that was being driven?
         double ahead{0.0};                            ///< metres left to it then
         /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
-           down as hard as this car can? */
+           down as hard as this car can (see brakingWay())? */
         bool avoidable{false};
         bool hitAppeared{false};  ///< the obstacle
         bool hitOther{false};     ///< anything else
-        double impactSpeed{0.0};  ///< m/s, of the first touch
-        std::string brokenLimit;  ///< the first command beyond a limit of the car; empty when none is
-        double fastest{0.0};      ///< share of the speed limit, as measured
+        /** Was that touch avoidable? Always, but where wheels stick: only when braking as soon as that could be seen
+            would have avoided it. */
+        bool otherAvoidable{false};
+        double impactSpeed{0.0};          ///< m/s, of the first touch
+        std::string brokenLimit;          ///< the first command beyond a limit of the car; empty when none is
+        double fastest{0.0};              ///< share of the speed limit, as measured
+        std::vector<std::string> events;  ///< what happened on the way, with times
     };
 
     /** \brief Parks the car of \e scenario, with trouble that depends on \e seed alone.

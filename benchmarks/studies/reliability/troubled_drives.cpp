@@ -21,7 +21,7 @@ namespace
     struct Row
     {
         std::size_t drives{0}, parked{0}, stoppedFree{0}, appeared{0}, avoidable{0}, avoidableHit{0}, inevitableHit{0},
-            otherHit{0}, rolling{0}, broken{0};
+            otherHit{0}, otherInevitable{0}, rolling{0}, broken{0};
         double impact{0.0}, fastest{0.0};
 
         void add(const TroubledDrive &drive)
@@ -34,7 +34,8 @@ namespace
             avoidable += drive.appeared && drive.avoidable ? 1 : 0;
             avoidableHit += drive.hitAppeared && drive.avoidable ? 1 : 0;
             inevitableHit += drive.hitAppeared && !drive.avoidable ? 1 : 0;
-            otherHit += drive.hitOther ? 1 : 0;
+            otherHit += drive.hitOther && drive.otherAvoidable ? 1 : 0;
+            otherInevitable += drive.hitOther && !drive.otherAvoidable ? 1 : 0;
             rolling += drive.stands ? 0 : 1;
             broken += drive.brokenLimit.empty() ? 0 : 1;
             if (drive.hitAppeared && !drive.avoidable)
@@ -53,17 +54,18 @@ namespace
     {
         std::string text =
             "| trouble | drives | parked | stopped, touching nothing | an obstacle appeared | could be avoided "
-            "| and was hit | could not | and was hit | at most, m/s | anything else was hit | rolls at the end "
-            "| commands beyond a limit |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+            "| and was hit | could not | and was hit | at most, m/s | anything else was hit | likewise, not avoidable "
+            "| rolls at the end "
+            "| commands beyond a limit |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
             const Row &row = rows[i];
             char line[400];
             std::snprintf(line, sizeof line,
-                          "| %s | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.1f | %zu | %zu | %zu |\n",
+                          "| %s | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.1f | %zu | %zu | %zu | %zu |\n",
                           toString(static_cast<Trouble>(i)).c_str(), row.drives, row.parked, row.stoppedFree,
                           row.appeared, row.avoidable, row.avoidableHit, row.appeared - row.avoidable,
-                          row.inevitableHit, row.impact, row.otherHit, row.rolling, row.broken);
+                          row.inevitableHit, row.impact, row.otherHit, row.otherInevitable, row.rolling, row.broken);
             text += line;
         }
         return text;
@@ -77,6 +79,7 @@ namespace
         add("first", oneValue("N"), "the first of them, which is its seed (default 0)");
         add("standstills", "drive the paths themselves, not the fastest trajectories near them");
         add("verbose", "a line for each drive");
+        add("events", "what happened on each drive that is told of");
         add("help", "this text");
         options.add_options()("scenario", po::value<std::vector<std::string>>());
         const CommandLine line(arguments, options, po::positional_options_description().add("scenario", -1));
@@ -108,9 +111,13 @@ namespace
                 std::cerr << scenario.name << ", " << toString(drive.trouble) << ", drive " << i << ": "
                           << toString(drive.status) << (drive.hitAppeared ? ", hit what appeared" : "")
                           << (drive.appeared && !drive.avoidable ? " (not avoidable)" : "")
-                          << (drive.hitOther ? ", hit something else" : "") << (drive.stands ? "" : ", rolls") << ", "
-                          << formatNumber(drive.impactSpeed) << " m/s " << drive.brokenLimit << " (" << drive.message
-                          << ")" << std::endl;
+                          << (drive.hitOther ? ", hit something else" : "")
+                          << (drive.hitOther && !drive.otherAvoidable ? " (not avoidable)" : "")
+                          << (drive.stands ? "" : ", rolls") << ", " << formatNumber(drive.impactSpeed) << " m/s "
+                          << drive.brokenLimit << " (" << drive.message << ")" << std::endl;
+            if ((line.given("verbose") || !one.good()) && line.given("events"))
+                for (const std::string &event : drive.events)
+                    std::cerr << "    " << event << std::endl;
         }
         std::cout << table(rows);
         return std::all_of(rows.begin(), rows.end(), [](const Row &row) { return row.good(); }) ? 0 : 1;

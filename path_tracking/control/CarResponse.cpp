@@ -1,0 +1,171 @@
+#include "path_tracking/control/CarResponse.h"
+
+#include "parking_geometry/text/Require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double LEAST_BRAKE = 0.3;    // m/s^2 of commanded deceleration that say something about the brake
+        constexpr double STEADY = 0.15;        // m/s^2 by which it may differ from the period before
+        constexpr double WEAKEST_BRAKE = 0.5;  // share of the command; less is a broken car
+        constexpr double BRAKE_GAIN = 0.4;     // share of what a period says that is believed
+        constexpr double LEAST_TURN = 0.015;   // radians that wheels should have turned by
+        constexpr double HARDLY = 0.05;        // share of it that counts as standing still
+
+        double meanOfLag(double lag, double duration)
+        {
+            return lag > 0.0 ? lag / duration * (1.0 - std::exp(-duration / lag)) : 0.0;
+        }
+    }  // namespace
+
+    void ResponseParameters::validate() const
+    {
+        const Require require("tracking");
+        estimator.validate();
+        for (const auto &[name, value] : {std::pair<const char *, double>{"steeringLag", steeringLag},
+                                          {"driveLag", driveLag},
+                                          {"commandDelay", commandDelay}})
+            require.that(value >= 0.0 && value <= 0.5, name, value, "from 0 to 0.5 seconds");
+    }
+
+    CarResponse::CarResponse(const Vehicle &vehicle, const ResponseParameters &parameters, double period,
+                             double steering)
+      : vehicle_(vehicle),
+        period_(period),
+        estimator_(vehicle.wheelbase, parameters.estimator),
+        steeringLag_(parameters.steeringLag),
+        driveLag_(parameters.driveLag),
+        delay_(period, steering, static_cast<std::size_t>(std::lround(parameters.commandDelay / period)))
+    {
+    }
+
+    void CarResponse::start(const Measurement &measurement)
+    {
+        estimator_.start(measurement);
+    }
+
+    void CarResponse::give(const Command &command)
+    {
+        delay_.give(command);
+    }
+
+    void CarResponse::reckon()
+    {
+        const Command &done = delay_.arrived();
+        const double speed = estimator_.measuredSpeed();
+        double after = speed + done.acceleration * period_;
+        if (done.hold && after * speed <= 0.0)
+            after = 0.0;
+        estimator_.predict(period_, after, done.steering);
+    }
+
+    void CarResponse::take(const Measurement &measurement)
+    {
+        const Measurement before{{}, estimator_.measuredSpeed(), estimator_.measuredSteering()};
+        delay_.learn(before, measurement);
+        const Command &done = delay_.arrived(), &last = delay_.arrived(1);
+        watchWheels(measurement);
+        if (stuck_ == 0)
+            steeringLag_.learn(period_, last.steering, done.steering, before.steering, measurement.steering);
+        learnBrake(measurement);
+        if (done.hold)
+            driveLag_.hold();
+        else
+        {
+            const bool brakes = done.acceleration * before.speed < 0.0;
+            driveLag_.learn(period_, (brakes ? brakeScale_ : 1.0) * done.acceleration, before.speed, measurement.speed);
+        }
+        estimator_.predict(period_, measurement.speed, measurement.steering);
+        estimator_.correct(measurement.pose);
+    }
+
+    void CarResponse::learnBrake(const Measurement &measurement)
+    {
+        const Command &done = delay_.arrived(), &last = delay_.arrived(1);
+        const double before = estimator_.measuredSpeed(), sign = before < 0.0 ? -1.0 : 1.0;
+        const double told = -sign * done.acceleration, slower = sign * (before - measurement.speed) / period_;
+        // A car that comes to rest within the period slows down for a part of it only.
+        if (told < LEAST_BRAKE || std::abs(done.acceleration - last.acceleration) > STEADY ||
+            std::abs(before) < 1.5 * told * period_)
+            return;
+        brakeScale_ += BRAKE_GAIN * (std::clamp(slower / told, WEAKEST_BRAKE, 1.0) - brakeScale_);
+    }
+
+    void CarResponse::watchWheels(const Measurement &measurement)
+    {
+        if (!delay_.isSure())
+            return;
+        const LagStep lag(steeringLag_.lag(), period_);
+        const double before = estimator_.measuredSteering();
+        const double expected = lag.ofCommand * delay_.arrived().steering + lag.ofBefore * delay_.arrived(1).steering +
+                                lag.ofValue * before - before;
+        if (std::abs(expected) < LEAST_TURN)
+            return;
+        stuck_ = std::abs(measurement.steering - before) < HARDLY * std::abs(expected) ? stuck_ + 1 : 0;
+    }
+
+    CarState CarResponse::now() const
+    {
+        CarState state;
+        state.pose = estimator_.pose();
+        state.speed = estimator_.speed();
+        state.acceleration = estimator_.speedScale() * driveLag_.acceleration();
+        state.wheels = estimator_.steering();
+        state.commanded = delay_.arrived().steering;
+        return state;
+    }
+
+    CarState CarResponse::ahead(Path *way) const
+    {
+        CarState state = now();
+        for (std::size_t i = 0; i < delay_.periods(); ++i)
+            state = after(state, delay_.underWay(i), brakeScale_, way);
+        return state;
+    }
+
+    CarState CarResponse::after(const CarState &state, const Command &command, double brakeScale, Path *way) const
+    {
+        CarState next = state;
+        const double offset = estimator_.steeringOffset();
+        if (!wheelsStick())
+        {
+            const LagStep lag(steeringLag_.lag(), period_);
+            next.wheels = lag.ofCommand * (command.steering + offset) + lag.ofBefore * (state.commanded + offset) +
+                          lag.ofValue * state.wheels;
+        }
+        next.commanded = command.steering;
+
+        double asked = command.acceleration;
+        if (command.hold && asked * state.speed >= 0.0)
+            asked = state.speed == 0.0 ? 0.0 : -std::copysign(vehicle_.maxAcceleration, state.speed);
+        asked *= estimator_.speedScale() * (asked * state.speed < 0.0 ? brakeScale : 1.0);
+        const double lag = driveLag_.lag(), late = meanOfLag(lag, period_);
+        const double mean = asked + late * (state.acceleration - asked);
+        next.acceleration = lag > 0.0 ? asked + std::exp(-period_ / lag) * (state.acceleration - asked) : asked;
+        next.speed = state.speed + mean * period_;
+        double length = 0.5 * (state.speed + next.speed) * period_;
+        if (command.hold && state.speed * next.speed <= 0.0)
+        {
+            length = mean != 0.0 ? -0.5 * state.speed * state.speed / mean : 0.0;
+            next.speed = next.acceleration = 0.0;
+        }
+        const PathPiece piece(vehicle_.curvature(0.5 * (state.wheels + next.wheels)), length);
+        next.pose = advance(state.pose, piece);
+        next.driven += length;
+        if (way != nullptr)
+            way->append(piece);
+        return next;
+    }
+
+    double CarResponse::accelerationFor(double wanted, double speed) const
+    {
+        const double scale = estimator_.speedScale() * (wanted * speed < 0.0 ? brakeScale_ : 1.0);
+        return wanted / scale;
+    }
+}  // namespace parking

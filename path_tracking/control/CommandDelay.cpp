@@ -1,0 +1,85 @@
+#include "path_tracking/control/CommandDelay.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double KEPT = 0.8;           // share of an old error that still counts after a period
+        constexpr double ANGLE = 0.005;        // radians that a foretelling may be off
+        constexpr double ACCELERATION = 0.15;  // m/s^2, likewise
+        constexpr double WRONG = 9.0;          // squared, what counts at most: lags are not known at first
+        constexpr double RIGHT = 1.0;          // likewise, of a number of periods that may replace another
+        constexpr double BETTER = 0.25;        // share of the error of another number of periods
+        constexpr double LEAST_ANGLE = 0.005;  // radians that say something about a lag
+
+        double squared(double value)
+        {
+            return value * value;
+        }
+    }  // namespace
+
+    CommandDelay::CommandDelay(double period, double steering, std::size_t periods)
+      : period_(period),
+        periods_(std::min(periods, MOST)),
+        given_(MOST + 3, Command{0.0, steering, true})
+    {
+    }
+
+    void CommandDelay::give(const Command &command)
+    {
+        given_.pop_front();
+        given_.push_back(command);
+    }
+
+    void CommandDelay::learn(const Measurement &before, const Measurement &after)
+    {
+        if (isSure())
+            return;
+        double least = -1.0, most = 0.0;
+        std::size_t best = periods_;
+        for (std::size_t i = 0; i < guesses_.size(); ++i)
+        {
+            Guess &guess = guesses_[i];
+            const Command &now = given(i), &last = given(i + 1);
+            // First what is foretold, then what is learnt.
+            const LagStep wheels(guess.wheels.lag(), period_);
+            const double angle =
+                wheels.ofCommand * now.steering + wheels.ofBefore * last.steering + wheels.ofValue * before.steering;
+            double error = squared((after.steering - angle) / ANGLE);
+            const double gained = (after.speed - before.speed) / period_;
+            const LagStep drive(guess.drive.lag(), period_);
+            double asked = now.acceleration;
+            if (now.hold && before.speed == 0.0)
+                asked = 0.0;
+            const double late = guess.drive.lag() > 0.0 ? 1.0 - drive.ofCommand : 0.0;
+            if (!now.hold || before.speed == 0.0)
+                error += squared((gained - asked - late * (guess.drive.acceleration() - asked)) / ACCELERATION);
+            guess.wheels.learn(period_, now.steering - last.steering, last.steering - before.steering,
+                               now.steering - after.steering, LEAST_ANGLE);
+            if (now.hold)
+                guess.drive.hold();
+            else
+                guess.drive.learn(period_, now.acceleration, before.speed, after.speed);
+            guess.error = KEPT * guess.error + std::min(error, WRONG);
+            most = std::max(most, guess.error);
+            if (least < 0.0 || guess.error < least)
+            {
+                least = guess.error;
+                best = i;
+            }
+        }
+        // Where all foretell alike, as at standstill, there is nothing to learn.
+        if (most < 4.0 || least > BETTER * most)
+            return;
+        if (best != periods_ && least < RIGHT && least < BETTER * guesses_[periods_].error)
+        {
+            periods_ = best;
+            sure_ = 0;
+        }
+        else if (best == periods_)
+            ++sure_;
+    }
+}  // namespace parking
