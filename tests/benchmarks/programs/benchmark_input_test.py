@@ -104,9 +104,9 @@ class Output(InputTest):
         self.assertEqual(os.listdir(self.folder), ['set.cfg'])
 
     def test_the_disk_is_full(self):
-        def limit():
+        def limit(size=16384):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
         arguments = ['set.cfg', '--output', 'out', '--quiet', '--no-report']
         self.refused_benchmark(*arguments, preexec_fn=limit, parts=['out/runs.jsonl', 'File too large'])
         lines = self.read('out/runs.jsonl').splitlines()
@@ -117,8 +117,11 @@ class Output(InputTest):
         done = self.benchmark('set.cfg', '--output', 'out')
         self.assertIn('Going on: %d of 20' % (len(lines) - 1), done.stderr)
         # No room for results: the runs stay, and no file is half written.
+        log, database = (os.path.getsize(self.path('out/' + name)) for name in ('angled45.log', 'benchmark.db'))
+        self.assertLess(log + 1024, database)  # there is room for the log, and not for the database
         os.remove(self.path('out/benchmark.db'))
-        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=limit, parts=['out/benchmark.db'])
+        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=lambda: limit(log + 1024),
+                               parts=['out/benchmark.db'])
         self.assertEqual(sorted(os.listdir(self.path('out'))),
                          ['angled45.log', 'pictures', 'runs.jsonl', 'summary.csv', 'summary.md'])
         self.assertEqual(len(self.read('out/runs.jsonl').splitlines()), 21)
