@@ -21,8 +21,9 @@ namespace parking
         /** \brief Of the angles of \e node. */
         explicit NodeAngles(const NodeVector &node);
 
-        double cosine, sine;  ///< of the yaw
-        double tangent;       ///< of the steering angle
+        double cosine;   ///< of the yaw
+        double sine;     ///< of the yaw
+        double tangent;  ///< of the steering angle
     };
 
     /** \brief Weights of begin, way at the begin, end and way at the end (see IntervalModel) in the cubic Hermite
