@@ -29,8 +29,8 @@ namespace
             for (const Eigen::Vector2d &corner : polygon)
                 centre += corner / static_cast<double>(polygon.size());
             // Neither the kerb nor what is across the aisle.
-            const double reach = polygon.front().y();
-            if (side * (centre.x() - middle) < 0.5 || centre.y() < 0.0 || centre.y() > 5.5 || reach > 7.0)
+            const double up = scenario.worldOffset.y(), reach = polygon.front().y() + up;
+            if (side * (centre.x() - middle) < 0.5 || centre.y() + up < 0.0 || centre.y() + up > 5.5 || reach > 7.0)
                 continue;
             Scenario one = scenario;
             one.polygons = {polygon};
