@@ -10,9 +10,9 @@ namespace parking
     /** \brief Knows whether a car can still stop before what stands in its world.
 
         Asked with the way that the car would need to come to rest, before every command. As long as it has allowed
-       every command, the car can stop without touching anything: with the brake in reserve, after the delay that
-       commands were seen to have, with wheels that follow as they were seen to, or do not. Obstacles that were not
-       there before are another matter: then the best is to stop at once, which is what is done. */
+        every command, the car can stop without touching anything: with the brake in reserve, after the delay that
+        commands were seen to have, with wheels that follow as they were seen to, or do not. Obstacles that were not
+        there before are another matter: then the best is to stop at once, which is what is done. */
     class StopSupervisor
     {
     public:
