@@ -26,6 +26,7 @@ namespace parking::search
             first_.fill(NONE);
         }
 
+        /** \brief Is there nothing to take? */
         bool empty() const
         {
             return heap_.empty() && inRing_ == 0 && beyond_.empty();
@@ -37,6 +38,7 @@ namespace parking::search
             return heap_.capacity() * sizeof(Item) + (pool_.capacity() + beyond_.capacity()) * sizeof(Waiting);
         }
 
+        /** \brief Forgets the items; memory is kept, and priorities may be small again. */
         void clear()
         {
             if (inRing_ > 0)
@@ -49,7 +51,10 @@ namespace parking::search
             unused_ = NONE;
         }
 
-        /** \param priority finite, not negative */
+        /** \brief Adds an item.
+
+            \param priority finite, not negative
+            \param item its key grows with the priority */
         void push(float priority, const Item &item)
         {
             const auto bucket = static_cast<std::uint64_t>(priority * PER_UNIT);
