@@ -30,6 +30,7 @@ namespace parking
         {
             using R = RunRecord;
             std::vector<RunColumn> columns;
+            columns.reserve(128);  // of a vector that grows inline GCC 14 believes that it overflows
             const auto add = [&columns](const char *name, RunMember member, const char *unit, const char *text,
                                         std::optional<InSummary> summary = std::nullopt,
                                         std::optional<InReport> report = std::nullopt)

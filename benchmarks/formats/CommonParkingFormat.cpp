@@ -13,6 +13,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace parking
 {
@@ -28,12 +30,14 @@ namespace parking
             return car;
         }
 
-        const MatValue &need(const std::string &file, const MatValue &parent, const std::string &path,
-                             const std::string &name)
+        // Texts by value: of references to temporaries GCC 14 believes that the result may refer to them.
+        const MatValue &need(std::string_view file, const MatValue &parent, std::string_view path,
+                             std::string_view name)
         {
-            const MatValue *value = parent.field(name);
+            const MatValue *value = parent.field(std::string(name));
             if (value == nullptr)
-                throw Error(file + ": caseData" + path + " has no field " + name);
+                throw Error(std::string(file) + ": caseData" + std::string(path) + " has no field " +
+                            std::string(name));
             return *value;
         }
 

@@ -24,7 +24,7 @@ namespace parking
         return formats;
     }
 
-    const ScenarioFormat &scenarioFormat(const std::string &name)
+    const ScenarioFormat &scenarioFormat(std::string_view name)
     {
         std::vector<std::string> names;
         for (const ScenarioFormat &format : scenarioFormats())
@@ -33,7 +33,7 @@ namespace parking
                 return format;
             names.emplace_back(format.name);
         }
-        throw Error(unknownName("format", name, names));
+        throw Error(unknownName("format", std::string(name), names));
     }
 
     const ScenarioFormat &formatOf(const std::string &file)

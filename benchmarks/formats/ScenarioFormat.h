@@ -36,7 +36,7 @@ namespace parking
     const std::vector<ScenarioFormat> &scenarioFormats();
 
     /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
-    const ScenarioFormat &scenarioFormat(const std::string &name);
+    const ScenarioFormat &scenarioFormat(std::string_view name);
 
     /** \brief The format of a file, recognised by its content. */
     const ScenarioFormat &formatOf(const std::string &file);

@@ -92,14 +92,14 @@ namespace parking::python
             return slot;
         }
 
-        py::array rowsOf(const std::vector<Eigen::Vector2d> &points)
+        py::array_t<double> rowsOf(const std::vector<Eigen::Vector2d> &points)
         {
             py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
             auto rows = array.mutable_unchecked<2>();
             for (std::size_t i = 0; i < points.size(); ++i)
                 for (int k = 0; k < 2; ++k)
                     rows(static_cast<py::ssize_t>(i), k) = points[i][k];
-            return std::move(array);
+            return array;
         }
     }  // namespace
 

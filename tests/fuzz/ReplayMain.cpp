@@ -16,7 +16,7 @@ int main(int argc, char **argv)
 {
     namespace fs = std::filesystem;
     std::vector<fs::path> files;
-    for (const std::string argument : std::vector<std::string>(argv + 1, argv + argc))
+    for (const std::string &argument : std::vector<std::string>(argv + 1, argv + argc))
         if (argument.rfind("-", 0) == 0)
             continue;  // libFuzzer's
         else if (fs::is_directory(argument))

@@ -327,7 +327,7 @@ namespace parking
         parameters = std::move(changed);
     }
 
-    const Parameter &parameterNamed(const std::string &name)
+    const Parameter &parameterNamed(std::string_view name)
     {
         const auto &table = parameterTable();
         const auto row =
@@ -337,7 +337,7 @@ namespace parking
             Names names;
             for (const Parameter &each : table)
                 names.push_back(each.name);
-            throw Error(unknownName("parameter", name, names));
+            throw Error(unknownName("parameter", std::string(name), names));
         }
         return *row;
     }

@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/SearchParameters.h"
 
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -107,7 +108,7 @@ namespace parking
     const std::vector<Parameter> &parameterTable();
 
     /** \brief The row of this name; throws parking::Error naming the nearest one otherwise. */
-    const Parameter &parameterNamed(const std::string &name);
+    const Parameter &parameterNamed(std::string_view name);
 
     /** \brief Throws parking::Error for the first parameter whose value is not allowed, see Parameter::check(). */
     void checkParameters(const PlannerParameters &parameters);
