@@ -75,9 +75,7 @@ namespace
         bool ask(const std::string &question, std::string &answer, const ob::PlannerTerminationCondition &ptc)
         {
             // Who does not read to the end must not end us.
-            struct sigaction ignore
-            {
-            };
+            struct sigaction ignore = {};
             ignore.sa_handler = SIG_IGN;
             struct sigaction before;
             sigaction(SIGPIPE, &ignore, &before);

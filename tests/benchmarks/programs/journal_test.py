@@ -109,7 +109,8 @@ class Killed(JournalTest):
                                     reported * ['pairs.csv', 'report.html', 'standings.csv', 'statistics.json']))
             self.assertEqual(os.listdir(self.path('out/pictures')), ['angled45.svg'])
         print('killed %s in %d rounds' % (killed, rounds))
-        self.assertGreater(min(killed.values()), KILLS // 20)
+        # How many fall into the writing of results, is a matter of the machine: 5 % on a fast one.
+        self.assertGreaterEqual(min(killed.values()), KILLS // 50)
 
     def test_remains_go_away_and_nothing_else(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
