@@ -3,15 +3,14 @@
 #include "benchmarks/planners/PluginLoader.h"
 #include "benchmarks/programs/BenchmarkOptions.h"
 #include "benchmarks/programs/Comparison.h"
+#include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
 
 #include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -21,7 +20,7 @@
 
 namespace
 {
-    constexpr int DONE = 0, INCOMPLETE = 1, BAD_INPUT = 2, INTERRUPTED = 130;
+    constexpr int DONE = 0, INCOMPLETE = 1, INTERRUPTED = 130;
     constexpr unsigned int PATIENCE = 3;  // seconds that a run may take to end after a signal
 
     std::atomic<bool> interrupted{false};
@@ -120,13 +119,5 @@ int main(int argc, char **argv)
 {
     // What planners have to tell is in the log.
     ompl::msg::noOutputHandler();
-    try
-    {
-        return compare({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "parking_benchmark: " << parking::oneLine(error.what()) << std::endl;
-        return BAD_INPUT;
-    }
+    return parking::runProgram("parking_benchmark", argc, argv, compare);
 }

@@ -22,7 +22,7 @@ namespace
 {
     using namespace parking;
 
-    constexpr int DONE = 0, FAULTY = 1, BAD_INPUT = 2;
+    constexpr int DONE = 0, FAULTY = 1;
     constexpr double SAME = 1e-6;  // metres and radians between what was read and what was written
 
     po::options_description describe()
@@ -272,13 +272,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-    try
-    {
-        return convert({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "parking_convert: " << parking::oneLine(error.what()) << std::endl;
-        return BAD_INPUT;
-    }
+    return parking::runProgram("parking_convert", argc, argv, convert);
 }

@@ -13,14 +13,13 @@
 
 #include <ompl/util/Console.h>
 
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
 
 namespace
 {
-    constexpr int HELPED = 0, BAD_INPUT = 2;
+    constexpr int HELPED = 0;
 
     int plan(const std::vector<std::string> &arguments)
     {
@@ -106,13 +105,5 @@ int main(int argc, char **argv)
 {
     // What planners have to tell is in their results.
     ompl::msg::noOutputHandler();
-    try
-    {
-        return plan({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "parking_plan: " << parking::oneLine(error.what()) << std::endl;
-        return BAD_INPUT;
-    }
+    return parking::runProgram("parking_plan", argc, argv, plan);
 }

@@ -25,7 +25,7 @@ namespace
 {
     using namespace parking;
 
-    constexpr int DONE = 0, BAD_INPUT = 2;
+    constexpr int DONE = 0;
     constexpr double WIDEST_MARGIN = 5.0;  // metres
 
     struct Options
@@ -90,7 +90,7 @@ namespace
         return worlds;
     }
 
-    int write(const std::vector<std::string> &arguments)
+    int writeQueries(const std::vector<std::string> &arguments)
     {
         const CommandLine line(arguments, describe(), po::positional_options_description());
         if (line.given("help"))
@@ -160,13 +160,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-    try
-    {
-        return write({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "parking_queries: " << parking::oneLine(error.what()) << std::endl;
-        return BAD_INPUT;
-    }
+    return parking::runProgram("parking_queries", argc, argv, writeQueries);
 }

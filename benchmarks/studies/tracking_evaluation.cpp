@@ -6,12 +6,10 @@
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
-#include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -198,13 +196,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-    try
-    {
-        return run({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "tracking_evaluation: " << parking::oneLine(error.what()) << std::endl;
-        return 2;
-    }
+    return parking::runProgram("tracking_evaluation", argc, argv, run);
 }

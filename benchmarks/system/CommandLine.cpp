@@ -6,7 +6,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
+#include <iostream>
 #include <system_error>
 
 #include <boost/program_options/errors.hpp>
@@ -135,5 +137,20 @@ namespace parking
             throw Error(oneLine(file) + ": cannot be written: there is no folder " + oneLine(folder.string()));
         if (access(folder.c_str(), W_OK) != 0)
             throw Error(oneLine(file) + ": cannot be written: " + std::strerror(errno));
+    }
+
+    int runProgram(const char *name, int argc, char **argv,
+                   const std::function<int(const std::vector<std::string> &)> &program)
+    {
+        constexpr int BAD_INPUT = 2;
+        try
+        {
+            return program({argv + 1, argv + argc});
+        }
+        catch (const std::exception &error)
+        {
+            std::cerr << name << ": " << oneLine(error.what()) << std::endl;
+            return BAD_INPUT;
+        }
     }
 }  // namespace parking

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -66,4 +67,9 @@ namespace parking
     /** \brief Throws parking::Error unless \e file could be written: its folder exists and may be written to, and it is
         no folder itself. Better to know before the work than after. */
     void requireWritable(const std::string &file);
+
+    /** \brief Runs a program on its arguments and returns its status. What it throws becomes one line on standard
+        error that begins with \e name, and status 2: bad input or usage. */
+    int runProgram(const char *name, int argc, char **argv,
+                   const std::function<int(const std::vector<std::string> &)> &program);
 }  // namespace parking

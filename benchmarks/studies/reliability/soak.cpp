@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -143,13 +142,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-    try
-    {
-        return run({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "soak: " << parking::oneLine(error.what()) << std::endl;
-        return 2;
-    }
+    return parking::runProgram("soak", argc, argv, run);
 }

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -126,13 +125,5 @@ namespace
 
 int main(int argc, char **argv)
 {
-    try
-    {
-        return run({argv + 1, argv + argc});
-    }
-    catch (const std::exception &error)
-    {
-        std::cerr << "troubled_drives: " << parking::oneLine(error.what()) << std::endl;
-        return 2;
-    }
+    return parking::runProgram("troubled_drives", argc, argv, run);
 }
