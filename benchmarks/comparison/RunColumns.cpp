@@ -66,6 +66,9 @@ namespace parking
             add("motions generated", &R::motionsGenerated, "", "for OMPL's planners the edges of their graph");
             add("states checked", &R::statesChecked, "", "poses, those along motions included; not counted for discs");
             add("exact checks", &R::exactChecks, "", "of these poses, those that took the exact test");
+            add("open list operations", &R::openListOperations, "",
+                "entries pushed to, and popped from, the open lists of the improved A*");
+            add("open list comparisons", &R::openListComparisons, "", "of their entries with each other, for that");
 
             add("path length", &R::pathLength, "m", "of the path as it is driven",
                 InSummary{"length", Statistic::MedianWithInterval, 2});

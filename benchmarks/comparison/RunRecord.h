@@ -43,7 +43,9 @@ namespace parking
         std::optional<std::uint64_t> nodesExpanded,  ///< of OMPL's planners: vertices of their graph
             motionsGenerated,                        ///< of OMPL's planners: edges of their graph
             statesChecked,                           ///< poses, those along motions included
-            exactChecks;                             ///< of these, those that took the exact test
+            exactChecks,                             ///< of these, those that took the exact test
+            openListOperations,                      ///< entries pushed and popped; of improved A* only
+            openListComparisons;                     ///< of entries with each other; of improved A* only
         // The path.
         std::optional<double> pathLength,    ///< metres, as it is driven
             leastClearance,                  ///< metres between body (or disc) and obstacles along the path

@@ -198,6 +198,8 @@ namespace parking
             record.mapLoadingTime = problem.loadingTime() + run.mapLoadingTime;
             record.nodesExpanded = run.search.expanded;
             record.motionsGenerated = run.search.generated;
+            record.openListOperations = run.search.openListOperations;
+            record.openListComparisons = run.search.openListComparisons;
             if (run.search.stateChecks > 0)  // nobody counts the checks of a disc
             {
                 record.statesChecked = run.search.stateChecks;

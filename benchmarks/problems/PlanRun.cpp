@@ -54,6 +54,8 @@ namespace parking
                 figures.generated = statistics.generated;
                 figures.stateChecks = improved->checkedStates();
                 figures.exactChecks = improved->exactChecks();
+                figures.openListOperations = statistics.openListOperations;
+                figures.openListComparisons = statistics.openListComparisons;
                 return figures;
             }
             ob::PlannerData data(planner.getSpaceInformation());

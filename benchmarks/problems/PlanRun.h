@@ -20,6 +20,8 @@ namespace parking
         std::uint64_t generated{0};    ///< motions tried; for OMPL's planners, edges of their graph
         std::uint64_t stateChecks{0};  ///< poses checked, those along motions included
         std::uint64_t exactChecks{0};  ///< of those, decided by FCL
+        std::optional<std::uint64_t> openListOperations;   ///< entries pushed and popped; of improved A* only
+        std::optional<std::uint64_t> openListComparisons;  ///< of entries with each other; of improved A* only
     };
 
     /** \brief How a run ended. */

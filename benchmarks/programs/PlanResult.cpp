@@ -49,6 +49,11 @@ namespace parking
             return std::isfinite(value) ? json(value) : json(nullptr);
         }
 
+        json whole(const std::optional<std::uint64_t> &count)
+        {
+            return count ? json(*count) : json(nullptr);
+        }
+
         json trackingJson(const PlanResult &result)
         {
             if (!result.drive)
@@ -243,6 +248,8 @@ namespace parking
                     {"generated", run.search.generated},
                     {"state_checks", run.search.stateChecks},
                     {"exact_checks", run.search.exactChecks},
+                    {"open_list_operations", whole(run.search.openListOperations)},
+                    {"open_list_comparisons", whole(run.search.openListComparisons)},
                     {"suboptimality_bound", number(run.suboptimalityBound)}}}};
         if (run.path)
             text["recheck"] = {{"valid", run.hasValidPath()},

@@ -67,6 +67,18 @@ namespace parking::search
         queue.turns.assign(levels_, 0);
     }
 
+    OpenList::Work Frontier::work() const
+    {
+        OpenList::Work sum;
+        for (std::size_t queue = 0; queue < queueCount_; ++queue)
+            for (const std::unique_ptr<OpenList> &list : queues_[queue].open)
+            {
+                sum.operations += list->work().operations;
+                sum.comparisons += list->work().comparisons;
+            }
+        return sum;
+    }
+
     std::size_t Frontier::bytes() const
     {
         // An array that grows is there twice, once of double the size.

@@ -111,6 +111,9 @@ namespace parking::search
             return queueCount_;
         }
 
+        /** \brief What the lists of all queues have done since begin(). */
+        OpenList::Work work() const;
+
         /** \brief Bytes of nodes, cells and open entries at the most, while their arrays grow. */
         std::size_t bytes() const;
 

@@ -338,6 +338,13 @@ namespace parking::search
         for (const Guides &guides : guides_)
             if (guides.roundObstacles)
                 statistics_.heuristicCells += guides.obstacles.cells();
+        statistics_.openListOperations = statistics_.openListComparisons = 0;
+        for (const Frontier &each : frontiers_)
+        {
+            const OpenList::Work work = each.work();
+            statistics_.openListOperations += work.operations;
+            statistics_.openListComparisons += work.comparisons;
+        }
         return statistics_;
     }
 }  // namespace parking::search

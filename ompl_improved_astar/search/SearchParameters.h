@@ -58,9 +58,11 @@ namespace parking::search
     /** \brief What a search did. */
     struct SearchStatistics
     {
-        std::uint64_t expanded{0};        ///< nodes whose motions were tried
-        std::uint64_t generated{0};       ///< motions tried
-        std::uint64_t connections{0};     ///< analytic connections tried
-        std::uint64_t heuristicCells{0};  ///< cells expanded by the obstacle-aware heuristic
+        std::uint64_t expanded{0};             ///< nodes whose motions were tried
+        std::uint64_t generated{0};            ///< motions tried
+        std::uint64_t connections{0};          ///< analytic connections tried
+        std::uint64_t heuristicCells{0};       ///< cells expanded by the obstacle-aware heuristic
+        std::uint64_t openListOperations{0};   ///< entries pushed to, and popped from, the open lists
+        std::uint64_t openListComparisons{0};  ///< of their entries with each other, for that
     };
 }  // namespace parking::search

@@ -172,6 +172,8 @@ namespace parking::python
             result["generated"] = plan.statistics.generated;
             result["connections"] = plan.statistics.connections;
             result["heuristic_cells"] = plan.statistics.heuristicCells;
+            result["open_list_operations"] = plan.statistics.openListOperations;
+            result["open_list_comparisons"] = plan.statistics.openListComparisons;
             result["state_checks"] = plan.checks.states;
             result["exact_checks"] = plan.checks.byContactTest;
             result["planning_time"] = plan.planningTime;
@@ -236,10 +238,10 @@ True when the path reaches a goal exactly. Arrays are made when they are first a
                     return toPython(scenario.toWorld(scenario.goals.at(self.plan().goal)));
                 },
                 "The goal that is reached, or was aimed at; None without a path.")
-            .def_property_readonly(
-                "statistics", &statisticsOf,
-                "A dict: expanded, generated, connections, heuristic_cells, state_checks, exact_checks, "
-                "planning_time and map_loading_time in seconds.")
+            .def_property_readonly("statistics", &statisticsOf,
+                                   "A dict: expanded, generated, connections, heuristic_cells, open_list_operations, "
+                                   "open_list_comparisons, state_checks, exact_checks, "
+                                   "planning_time and map_loading_time in seconds.")
             .def_property_readonly(
                 "parameters", [](const PlanHandle &self) { return toPython(self.parameters()); },
                 "All parameters of the planner, as a dict.")

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/heuristics/CurveHeuristic.h"
+#include "ompl_improved_astar/search/heuristics/ManhattanHeuristic.h"
 #include "ompl_improved_astar/search/heuristics/OctileHeuristic.h"
 #include "ompl_improved_astar/search/heuristics/StraightHeuristic.h"
 
@@ -13,6 +14,7 @@ namespace parking::search
                                                              {"curves", newPart<CurveHeuristic>},
                                                              {"straight", newPart<StraightHeuristic>},
                                                              {"octile", newPart<OctileHeuristic>},
+                                                             {"manhattan", newPart<ManhattanHeuristic>},
                                                          });
         return registry;
     }

@@ -12,17 +12,17 @@ namespace parking::search
     protected:
         void pushed() override
         {
-            std::push_heap(entries_.begin(), entries_.end(), isAfter);
+            counted([this](const auto &isAfter) { std::push_heap(entries_.begin(), entries_.end(), isAfter); });
         }
 
         void moveBestToEnd() override
         {
-            std::pop_heap(entries_.begin(), entries_.end(), isAfter);
+            counted([this](const auto &isAfter) { std::pop_heap(entries_.begin(), entries_.end(), isAfter); });
         }
 
         void arrange() override
         {
-            std::make_heap(entries_.begin(), entries_.end(), isAfter);
+            counted([this](const auto &isAfter) { std::make_heap(entries_.begin(), entries_.end(), isAfter); });
         }
     };
 }  // namespace parking::search

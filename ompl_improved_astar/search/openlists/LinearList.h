@@ -16,7 +16,9 @@ namespace parking::search
 
         void moveBestToEnd() override
         {
-            std::iter_swap(std::max_element(entries_.begin(), entries_.end(), isAfter), entries_.end() - 1);
+            counted(
+                [this](const auto &isAfter)
+                { std::iter_swap(std::max_element(entries_.begin(), entries_.end(), isAfter), entries_.end() - 1); });
         }
 
         void arrange() override

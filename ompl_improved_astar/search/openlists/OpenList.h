@@ -27,6 +27,13 @@ namespace parking::search
             NodeIndex node;          ///< the node that waits
         };
 
+        /** \brief What was done since clear(): the work that one kind of list has more of than another. */
+        struct Work
+        {
+            std::uint64_t operations{0};   ///< entries that were pushed, and entries that were popped
+            std::uint64_t comparisons{0};  ///< of two entries with each other
+        };
+
         virtual ~OpenList() = default;
 
         /** \brief Does no entry wait, stale ones included? */
@@ -46,11 +53,13 @@ namespace parking::search
         {
             entries_.clear();
             sequence_ = 0;
+            work_ = {};
         }
 
         /** \brief Adds an entry. Neither f nor h may be NaN. */
         void push(double f, double h, NodeIndex node)
         {
+            ++work_.operations;
             entries_.push_back({f, h, sequence_++, node});
             pushed();
         }
@@ -58,6 +67,7 @@ namespace parking::search
         /** \brief Removes and returns the best entry. The list must not be empty. */
         Entry pop()
         {
+            ++work_.operations;
             moveBestToEnd();
             const Entry best = entries_.back();
             entries_.pop_back();
@@ -66,6 +76,12 @@ namespace parking::search
 
         /** \brief Gives every entry a new f: \e key changes the entry, and returns false for one to be dropped. */
         void rekey(const std::function<bool(Entry &)> &key);
+
+        /** \brief What was done since clear(). */
+        const Work &work() const
+        {
+            return work_;
+        }
 
         /** \brief In no order that means anything. */
         const std::vector<Entry> &entries() const
@@ -84,6 +100,20 @@ namespace parking::search
             return a.sequence > b.sequence;
         }
 
+        /** \brief Calls \e arrangement with isAfter(), and counts how often that is asked. */
+        template <class Arrangement>
+        void counted(const Arrangement &arrangement)
+        {
+            std::uint64_t comparisons = 0;
+            arrangement(
+                [&comparisons](const Entry &a, const Entry &b)
+                {
+                    ++comparisons;
+                    return isAfter(a, b);
+                });
+            work_.comparisons += comparisons;
+        }
+
         /** \brief Called when an entry has been put at the end. */
         virtual void pushed() = 0;
 
@@ -98,6 +128,7 @@ namespace parking::search
 
     private:
         std::uint32_t sequence_{0};
+        Work work_;
     };
 
     /** \brief The open lists by name. */

@@ -215,7 +215,7 @@ namespace parking
             {"tie_break", &P::tieBreak, between(0.0, 1.0, 0.001), "", "p of f = g + (w + p) h"},
             {"heuristic", &P::heuristic, oneOf(heuristicNames), "",
              "what is thought to lie ahead: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to "
-             "eight neighbours); `default` chooses what suits the motion model"},
+             "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
              "guide the search round obstacles (car model)"},
             {"detours", &P::detours, yesOrNo(), "",

@@ -222,7 +222,7 @@ TEST(SearchBound, ofOneSideOnAGridIsTheOptimum)
 TEST(SearchBound, ofBothSidesOnAGridIsNeverAboveTheOptimum)
 {
     int compared = 0;
-    for (const char *heuristic : {"straight", "octile"})
+    for (const char *heuristic : {"straight", "octile", "manhattan"})
         for (std::uint64_t seed = 0; seed < 200; ++seed)
         {
             SCOPED_TRACE(seed);

@@ -104,5 +104,27 @@ TEST_P(OpenListOrder, clearBeginsAnew)
     EXPECT_EQ(drain(list), (std::vector<std::uint32_t>{8, 9}));
 }
 
+TEST_P(OpenListOrder, countsWhatItDoes)
+{
+    const std::unique_ptr<OpenList> made = openLists().make(GetParam());
+    OpenList &list = *made;
+    EXPECT_EQ(list.work().operations, 0u);
+    for (std::uint32_t node = 0; node < 1000; ++node)
+        list.push(static_cast<double>(node * 7919 % 1000), 0.0, node);
+    EXPECT_EQ(list.work().operations, 1000u);
+    drain(list);
+    EXPECT_EQ(list.work().operations, 2000u);
+    const std::uint64_t comparisons = list.work().comparisons;
+    if (GetParam() == std::string("linear"))
+        EXPECT_EQ(comparisons, 999u * 1000u / 2u);  // every entry but the one that is taken, each time
+    else
+    {
+        EXPECT_GT(comparisons, 1000u);
+        EXPECT_LT(comparisons, 3u * 1000u * 10u);  // a few times the height of the heap for each
+    }
+    list.clear();
+    EXPECT_EQ(list.work().comparisons, 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, OpenListOrder, testing::Values("binary_heap", "linear"),
                          [](const auto &each) { return std::string(each.param); });
