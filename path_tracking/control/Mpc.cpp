@@ -201,6 +201,7 @@ namespace parking
 
         void run(const MpcProblem &problem, MpcSolution &solution)
         {
+            limits_[SPEED].low = problem.eitherWay ? -vehicle_.maxSpeed : 0.0;
             limits_[SPEED].last = problem.direction * (problem.speed + problem.driveLag * problem.acceleration);
             limits_[STEERING].last =
                 std::clamp(problem.last.steering, -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle);

@@ -67,6 +67,7 @@ namespace parking
         double speedNow{0.0};                 ///< m/s, of the path at this moment, negative in reverse
         double accelerationNow{0.0};          ///< m/s^2, of the path, what leads to this moment
         int direction{1};                     ///< of the leg: the car may not move the other way
+        bool eitherWay{false};                ///< it may: the paper's cost says nothing of directions
         bool align{false};                    ///< m of the paper: is the goal nearer than alignDistance?
         std::vector<MpcReference> reference;  ///< one per step of the horizon
     };

@@ -1,0 +1,82 @@
+"""paper_run as a whole: what it writes, that it repeats itself, and bad input."""
+import json
+import os
+import subprocess
+import sys
+
+import programs
+from programs import ProgramTest, SOURCE
+
+PAPER_RUN = os.environ['PARKING_PAPER_RUN']
+PAPER = os.path.join(SOURCE, 'benchmarks', 'paper')
+TASK = os.path.join(PAPER, 'maps', 'perpendicular.yaml')
+TIMES = ('map_loading_time_ms', 'planning_time_ms')
+
+
+class PaperRunTest(ProgramTest):
+    def runs(self, *arguments):
+        done = self.run_program(PAPER_RUN, *arguments, '--json', 'runs.json')
+        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, '', ''))
+        result = json.loads(self.read('runs.json'))
+        self.assertEqual(result['format'], 1)
+        return result['runs']
+
+    def test_all_algorithms_and_equal_runs(self):
+        first, second = (self.runs(TASK, '--no-drive') for _ in range(2))
+        self.assertEqual(len(first), 8)
+        for one, other in zip(first, second):
+            self.assertEqual({key: value for key, value in one.items() if key not in TIMES},
+                             {key: value for key, value in other.items() if key not in TIMES})
+            self.assertEqual(one['status'], 'exact')
+            self.assertGreaterEqual(one['length_m'], 20.0)
+            for key in TIMES:
+                self.assertGreaterEqual(one[key], 0.0)
+        by_name = {run['algorithm']: run for run in first}
+        self.assertEqual(by_name['experiment_2']['length_m'], by_name['improved_astar']['length_m'])
+        self.assertGreater(by_name['experiment_3']['open_list_comparisons'], by_name['improved_astar']['open_list_comparisons'])
+
+    def test_a_drive_and_its_lines(self):
+        run, = self.runs(TASK, '--algorithm', 'improved_astar', '--lines')
+        drive = run['drive']
+        self.assertGreater(len(drive['states']), 100)
+        self.assertEqual(len(run['curve'][0]), 2)
+        self.assertGreater(drive['mean_abs_acceleration'], 0.0)
+
+    def test_voxels_become_a_map(self):
+        done = subprocess.run([sys.executable, '-B', os.path.join(PAPER, 'make_random_maps'), '--voxels', '--count', '1',
+                               '--output', self.path('maps')], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ('perpendicular', 'parallel'):
+            run, = self.runs(self.path(f'maps/{name}_voxels_00.yaml'), '--algorithm', 'improved_astar', '--no-drive')
+            self.assertEqual(run['status'], 'exact', name)
+
+    def test_bad_input_is_one_line_and_status_2(self):
+        no_frame = self.path('frame.npy')
+        with open(no_frame, 'wb') as stream:
+            stream.write(b'no frame')
+        with open(self.path('frame.yaml'), 'w', encoding='utf-8') as stream:
+            stream.write('vehicle: vw_golf8\nstart: [0, 0, 0]\nmap: frame.npy\n'
+                         'slot:\n  kind: perpendicular\n  pose: [5, 5, 0]\n  length: 5\n  width: 2.5\n')
+        approach = os.path.join(PAPER, 'maps', 'perpendicular_approach.yaml')
+        for arguments, part in (
+                ([], 'no scenario'), ([approach], 'has no slot'), (['/nowhere.yaml'], '/nowhere.yaml'),
+                ([self.path('frame.yaml')], 'is not a .npy file'), ([TASK, '--algorithm', 'improved'], 'improved'),
+                ([TASK, '--disc', 'front'], 'front'), ([TASK, '--radius', '-1'], 'radius'),
+                ([TASK, '--lookup', 'no'], 'lookup'), ([TASK, '--spline', 'nurbs'], 'spline'),
+                ([TASK, '--set', 'heuristic=manhatan'], 'manhattan'), ([TASK, '--set', 'motion_model=car'], 'car'),
+                ([TASK, '--sampling', '0'], 'sampling'), ([TASK, '--json', '/nowhere/x.json'], '/nowhere'),
+                ([TASK, '--nonsense'], 'nonsense')):
+            done = self.run_program(PAPER_RUN, *arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertTrue(done.stderr.startswith('paper_run: '), done.stderr)
+            self.assertIn(part, done.stderr)
+
+    def test_help(self):
+        done = self.run_program(PAPER_RUN, '--help')
+        self.assertEqual(done.returncode, 0)
+        self.assertIn('usage: paper_run', done.stdout)
+
+
+if __name__ == '__main__':
+    programs.main()
