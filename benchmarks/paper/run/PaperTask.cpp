@@ -143,17 +143,19 @@ namespace parking
             best.reason = whyNone_;
             return best;
         }
-        double least = std::numeric_limits<double>::infinity();
+        // The shortest way that gets there with about the right heading; without one, that which is least off.
+        const auto isBetter = [](const PaperRun &a, const PaperRun &b)
+        {
+            const bool fits = a.arrivalTurn <= 0.5 * PI, otherFits = b.arrivalTurn <= 0.5 * PI;
+            if (fits != otherFits)
+                return fits;
+            return fits ? a.approachLength < b.approachLength : a.arrivalTurn < b.arrivalTurn;
+        };
         for (const ReverseParkingResult &each : manoeuvres_)
         {
             PaperRun run = runTo(each, parameters, timeLimit);
-            const double worth =
-                run.approachLength + each.path.length() + vehicle_.minTurningRadius() * run.arrivalTurn;
-            if (best.status.empty() || worth < least)
-            {
-                least = worth;
+            if (best.status.empty() || isBetter(run, best))
                 best = std::move(run);
-            }
         }
         if (!best.curve.empty() && drive)
         {

@@ -74,7 +74,8 @@ namespace parking
         turned round, A* to where it begins, one spline through both, and the drive.
 
         A* plans to a position: with which heading it gets there is left to chance. Of several manoeuvres (from either
-        side) the one is taken whose way is shortest when a turn to its heading counts as an arc of the car's. */
+        side) the one is taken with the shortest way among those whose heading is at most a right angle off, and without
+        such a one that which is least off. */
     class PaperTask
     {
     public:

@@ -10,7 +10,10 @@ import tempfile
 
 def main(program, script):
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, '-B', script, '--quick', '--program', program, '--results', folder]
+        frames = os.path.join(folder, 'frames')
+        subprocess.run([sys.executable, '-B', os.path.join(os.path.dirname(script), '..', 'benchmarks', 'paper', 'make_random_maps'),
+                        '--voxels', '--count', '1', '--output', frames], check=True, capture_output=True)
+        command = [sys.executable, '-B', script, '--quick', '--program', program, '--results', folder, '--frames', frames]
         for attempt in ('first', 'second'):
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             if done.returncode != 0:
@@ -22,13 +25,25 @@ def main(program, script):
                 if part not in page and part.replace('on 3', '3') not in page:
                     print(f'{attempt} run: the page lacks "{part}"')
                     return 1
-            runs = os.path.join(folder, 'factorial_parallel', 'runs.jsonl')
-            size = os.path.getsize(runs)
+            with open(os.path.join(folder, 'paper-run.md'), encoding='utf-8') as stream:
+                page = stream.read()
+            for part in ('3 perpendicular tasks and 3 parallel tasks', 'this project\'s pipeline', '100 x 100',
+                         '### Perceived frames (2 tasks)'):
+                if part not in page:
+                    print(f'{attempt} run: paper-run.md lacks "{part}"')
+                    return 1
+            files = [os.path.join(folder, name, 'runs.jsonl') for name in ('factorial_parallel', 'growth')]
+            size = [os.path.getsize(file) for file in files]
+            size.append(os.path.getmtime(os.path.join(folder, 'word_parallel_printed.json')))
             if attempt == 'first':
                 before = size
             elif size != before:
                 print('the second run measured again what was there')
                 return 1
+        bad = subprocess.run([*command, '--frames', '/nowhere'], capture_output=True, text=True, check=False)
+        if bad.returncode != 2 or 'holds no scenarios' not in bad.stderr:
+            print(f'without frames: status {bad.returncode}: {bad.stderr}')
+            return 1
         bad = subprocess.run([sys.executable, '-B', script, '--program', '/nowhere/parking_benchmark'], capture_output=True,
                              text=True, check=False)
         if bad.returncode != 2 or 'is no program' not in bad.stderr:
