@@ -80,8 +80,7 @@ searched.
 SHORTCOMINGS = '''
 ## What this page does not show
 
-The disc stands round the rear axle, not the middle of the body. The spline is checked against the map and keeps to the car's
-turning radius, which the paper's does not. The paper joins A\\*'s path and the manoeuvre before it smooths, and drives to the
-end; here the drive is that of the approach, with this project's controller. The paper's maps, from SurroundOcc, are not
-public; ours are drawn.
+The disc stands round the rear axle here. The spline is checked against the map and keeps to the car's turning radius, which
+the paper's does not, and the drive is that of the approach, with this project's controller. [Another page](paper-run.md) takes
+the paper at its word, to standstill in the slot. The paper's maps, from SurroundOcc, are not public; ours are drawn.
 '''

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <limits>
 
 namespace parking
@@ -62,6 +63,11 @@ namespace parking
             return least;
         }
     }  // namespace
+
+    double processorTime()
+    {
+        return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
 
     DiscWorld::DiscWorld(const ObstacleSet &obstacles, const Box &bounds, double radius, double ahead,
                          DiscLookup lookup)
@@ -158,6 +164,8 @@ namespace parking
 
     bool DiscWorld::isMotionFree(const Pose &from, const Pose &to)
     {
+        if (!counts_.firstMotionAt)
+            counts_.firstMotionAt = processorTime();
         if (!isFinite(to) || !bounds_.contains(to.x, to.y))
             return false;
         const double turn = wrapAngle(to.yaw - from.yaw);

@@ -7,11 +7,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <Eigen/Core>
 
 namespace parking
 {
+    /** \brief Seconds of processor time that the process has taken so far. */
+    double processorTime();
+
     /** \brief How it is found out whether a disc is free. */
     enum class DiscLookup
     {
@@ -36,6 +40,9 @@ namespace parking
         {
             std::uint64_t positions{0};  ///< of the disc, motions counted once
             std::uint64_t cells{0};      ///< of the map, by DiscLookup::Scan
+            /** Seconds of processor time of the process when the first motion was asked about: what is loaded
+               beforehand is loaded by then. Not set when none was. */
+            std::optional<double> firstMotionAt;
         };
 
         /** \brief \param bounds of the positions, in addition to the end of the world
