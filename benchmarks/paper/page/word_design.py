@@ -1,10 +1,13 @@
 """What is run of the paper at its word: paper_run's variants, and how the improvements' effects grow with the map."""
 import itertools
 
+from design import ALGORITHMS as KEYS_OF, settings_of
+
 SCENARIOS = ('perpendicular', 'parallel')
 ALGORITHMS = {'Basic_A*': 'basic_astar', **{f'Experiment_{k}': f'experiment_{k}' for k in range(1, 7)},
               'Improved_A*': 'improved_astar'}
-REPEATS = 5  # times are the least of so many
+REPEATS = 5                   # times of these variants are the least of so many
+TIMED = ('printed', 'field')  # others run once: what they are for is counted, or driven
 
 # name: (what it is, arguments of paper_run, are the ways driven?)
 VARIANTS = {
@@ -69,4 +72,32 @@ def growth_configuration(files):
     for name, settings in growth_variants().items():
         lines += ['improved_astar=', f'improved_astar.name={name}']
         lines += [f'improved_astar.{key}={value}' for key, value in settings.items()]
+    return '\n'.join(lines) + '\n'
+
+
+# Beyond the paper: its improvements with the car's rectangle instead of the disc, and other planners on the same tasks.
+BEYOND_MAPS = 12  # of each scenario
+LEFT_OUT = {'weighted heuristic': 'Experiment_1', 'dynamic loading': 'Experiment_2', 'two directions and heap': 'Experiment_3',
+            '8 neighbours instead of 16': 'Experiment_4', 'smoothing': 'Experiment_5'}
+PLANNERS = {'Car': 'improved_astar', 'Hybrid A*': 'textbook_hybrid_astar', 'RRT*': 'RRTstar', 'PRM': 'PRM',
+            'RRTConnect': 'RRTConnect'}
+PLANNING_TIME = 1.0  # seconds of processor time
+
+
+def rectangle_configuration(files):
+    lines = ['# Written by scripts/reproduce-paper.', '[problem]', *(f'scenario = {file}' for file in files), 'space = se2',
+             'footprint = rectangle', '', '[benchmark]', 'time_limit = 10.0', 'run_count = 1', 'seed = 1', 'clock = processor', '',
+             '[planner]']
+    for name in ('Improved_A*', *LEFT_OUT.values()):
+        lines += ['improved_astar=', f'improved_astar.name={name}']
+        lines += [f'improved_astar.{key}={value}' for key, value in settings_of(KEYS_OF[name], {}).items()]
+    return '\n'.join(lines) + '\n'
+
+
+def planners_configuration(files):
+    lines = ['# Written by scripts/reproduce-paper.', '[problem]', *(f'scenario = {file}' for file in files),
+             'space = reeds_shepp', 'footprint = rectangle', '', '[benchmark]', f'time_limit = {PLANNING_TIME}', 'run_count = 1',
+             'seed = 1', 'clock = processor', '', '[planner]']
+    for name, planner in PLANNERS.items():
+        lines += [f'{planner}=', f'{planner}.name={name.replace(" ", "_")}']
     return '\n'.join(lines) + '\n'

@@ -1,4 +1,5 @@
 """What the page of the paper at its word says whatever the figures are. Nothing here explains a result."""
+from word_design import PLANNING_TIME
 from word_study import PARKED_ANGLE, PARKED_DISTANCE
 
 INTRODUCTION = '''
@@ -70,5 +71,20 @@ to corner, for a disc of 0.6 m; heap and two directions apart, all 16 combinatio
 without a way. An effect is the factor by which an improvement changes a figure, in the geometric mean over the combinations of
 the others; the tables have its median over the grounds and the 95 % interval of that, bold where p < 0.05 (sign test, Holm over
 the cells of one improvement in one table). *Lower from*: the least size from which on the figure is certainly lower with the
-improvement.
+improvement. Without clutter all grounds of a size are the same one: there is a figure, and nothing to be certain of.
+'''
+
+
+def rectangle(study):
+    return f'''
+Which of the paper's improvements survive when the car's rectangle is checked instead of the disc? The same algorithms on
+approaches to slots, the rectangle in the heading of each step. An effect is the ratio of Improved A\\* to the algorithm without
+the improvement, map by map: its median and the 95 % interval of that, bold where p < 0.05 (sign test, Holm over the table). Above
+1: more with the improvement. {study.unsolved} of {len(study.results.runs)} runs ended without a way.
+'''
+
+
+PLANNERS = f'''
+Other planners on the whole tasks, from voxels into the slot: motions that the car can drive, its rectangle, {PLANNING_TIME:g} s of
+processor time for each, one run. *Car* is this project's car model. Lengths are over the shortest one that any of them found.
 '''

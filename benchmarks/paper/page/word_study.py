@@ -4,7 +4,7 @@ import math
 import os
 
 from order_statistics import median, median_interval
-from paired import LEVEL, Comparison, chance_of_signs, correct
+from paired import LEVEL, Comparison, chance_of_signs, compare, correct
 from results import ReportError, read_results
 from word_design import ALGORITHMS, CLUTTER, GROWTH_FACTORS, GROWTH_KEYS, own_file, runs_file
 
@@ -152,11 +152,56 @@ class Growth:
             if not values:
                 found[place] = Comparison([])
                 continue
+            if place[1] == 0:  # grounds without boxes are all the same one: no spread, and nothing to be certain of
+                found[place] = Comparison(values, median(values))
+                continue
             low, high, certainty = median_interval(values)
             signs = [math.log(value) if abs(math.log(value)) > 1e-9 else 0.0 for value in values]
             found[place] = Comparison(values, median(values), low, high, certainty > 0.0, chance_of_signs(signs))
         correct(list(found.values()))
         return found
+
+
+BEYOND_MEASURES = {'processor time': 'cpu time', 'poses looked at': 'states checked', 'nodes expanded': 'nodes expanded',
+                   'length': 'path length'}
+
+
+class Rectangle:
+    """The paper's algorithms with the car's rectangle: what an improvement changes, map by map."""
+
+    def __init__(self, folder):
+        self.results = read_results(os.path.join(folder, 'rectangle'))
+        self.unsolved = sum(not run.solved for run in self.results.runs)
+
+    def figures(self, measure, planner):
+        return {run.problem: run.figure(BEYOND_MEASURES[measure]) for run in self.results.runs
+                if run.planner == planner and run.solved}
+
+    def effects(self, without):
+        """{measure: Comparison} of Improved A* with the algorithm that lacks one improvement. Not corrected."""
+        return {measure: compare(self.figures(measure, 'Improved_A*'), self.figures(measure, without))
+                for measure in BEYOND_MEASURES}
+
+
+def planner_rows(folder, names):
+    """Of other planners on the whole tasks: (name, tasks, solved, median of the first solution's time in ms, median of the
+    length over the shortest known, median of cusps)."""
+    results = read_results(os.path.join(folder, 'planners'))
+    best = {}
+    for run in results.runs:
+        if run.solved:
+            best[run.problem] = min(best.get(run.problem, math.inf), run.length)
+    rows = []
+    for name in names:
+        runs = [run for run in results.runs if run.planner == name.replace(' ', '_')]
+        if not runs:
+            raise ReportError(f'{results.folder}: has no runs of {name}')
+        solved = [run for run in runs if run.solved]
+        rows.append((name, len(runs), len(solved), *([median([1e3 * run.time for run in solved]),
+                                                      median([run.length / best[run.problem] for run in solved]),
+                                                      median([run.figure('cusps') for run in solved])]
+                                                     if solved else [math.nan] * 3)))
+    return rows
 
 
 def is_less(effect):

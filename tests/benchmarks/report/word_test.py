@@ -19,8 +19,8 @@ sys.path[:0] = [os.path.join(PAPER, 'page'), REPORT]
 
 import word_study  # noqa: E402
 from paired import Comparison, compare  # noqa: E402
-from word_design import (ALGORITHMS, CLUTTER, GROWTH_FACTORS, GROWTH_KEYS, SCENARIOS, VARIANTS, growth_name,  # noqa: E402
-                         growth_variants, own_file, runs_file)
+from word_design import (ALGORITHMS, CLUTTER, GROWTH_FACTORS, GROWTH_KEYS, LEFT_OUT, PLANNERS, SCENARIOS,  # noqa: E402
+                         VARIANTS, growth_name, growth_variants, own_file, runs_file)
 
 MAPS = 12
 SIZES = (50, 100, 200)
@@ -83,6 +83,13 @@ def written(folder):
         with open(name + '.yaml', 'w', encoding='utf-8') as stream:
             stream.write('start: [1, 1, 0]\n')
     made_results.write(os.path.join(folder, 'growth'), list(growth_records()))
+    made_results.write(os.path.join(folder, 'rectangle'),
+                       [record(f'parallel_{k:02}', name, 0, 'solved', 0.01, 25.0, None, **{
+                           'cpu time': 0.001 if name == 'Improved_A*' else 0.004, 'states checked': 100, 'nodes expanded': 90})
+                        for k in range(MAPS) for name in ('Improved_A*', *LEFT_OUT.values())])
+    made_results.write(os.path.join(folder, 'planners'),
+                       [record(f'parallel_voxels_{k:02}', name.replace(' ', '_'), 0, 'none' if name == 'PRM' else 'solved', 0.01,
+                               30.0 if name == 'RRT*' else 25.0) for k in range(MAPS) for name in PLANNERS])
 
 
 class Rules(unittest.TestCase):
@@ -155,14 +162,20 @@ class Page(unittest.TestCase):
         printed = next(row for row in rows if row[0] == 'Improved A\\*, as printed')
         self.assertEqual(printed[1:5], ['11', '11', '10', '1'])
         own = next(row for row in rows if row[0] == 'this project\'s pipeline')
-        self.assertEqual(own[1:5], ['12', '12', '12', '0'])
+        self.assertEqual(own[1:5], ['–', '12', '12', '0'])
         loading = next(row for row in rows if row[0].startswith('map loading: Basic A\\* / Improved'))
         self.assertEqual((loading[2].split()[0], loading[4]), ('**100**', 'agrees'))
         # The first table of growth is that of processor time; effects are those that the runs were made with.
         for name, key in (('weighted heuristic', 'w'), ('dynamic loading', 'l'), ('two directions', 'b'), ('heap', 'h')):
-            row = next(row for row in rows if row[0] == name and len(row) == 2 + len(SIZES) + 1)
+            empty, row = [row for row in rows if row[0] == name and len(row) == 2 + len(SIZES) + 1][:2]
             self.assertAlmostEqual(float(row[2].strip('*').split()[0]), EFFECTS[key], places=2)
             self.assertEqual(row[-1], '50' if EFFECTS[key] < 1.0 else '–')
+            self.assertEqual((empty[1], empty[-1], '**' in empty[2]), ('0 %', '–', False))  # one ground, however often
+        survives = next(row for row in rows if row[0] == 'dynamic loading' and len(row) == 5)
+        self.assertEqual(survives[1:3], ['**0.250 (0.250 to 0.250)**', '1.00 (1.00 to 1.00)'])
+        planners = {row[0]: row[1:] for row in rows if len(row) == 5 and row[1].endswith(f'of {MAPS}')}
+        self.assertEqual(planners['RRT\\*'][:3], ['12 of 12', '10.0', '1.20'])
+        self.assertEqual(planners['PRM'][:2], ['0 of 12', '–'])
         for figure in ('paper-run.svg', 'paper-run-drives.svg'):
             with open(os.path.join(self.folder, 'images', figure), encoding='utf-8') as stream:
                 self.assertIn('polyline', stream.read())
