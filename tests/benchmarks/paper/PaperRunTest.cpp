@@ -219,6 +219,18 @@ TEST(PaperTask, loadingEagerlyLooksAtManyMoreCells)
     EXPECT_GT(eager.counts.positions, 40000u);
 }
 
+TEST(PaperTask, looksAtEveryHeadingWhereTheDiscIsAhead)
+{
+    PaperVariant ahead, centred;
+    ahead.place = DiscPlace::Ahead;
+    centred.place = DiscPlace::RearAxle;
+    const PlannerParameters eager = parameterSet("experiment_2", {});
+    const PaperRun wide = PaperTask(perpendicular(), ahead).run(eager, 5.0, false);
+    const PaperRun narrow = PaperTask(perpendicular(), centred).run(eager, 5.0, false);
+    EXPECT_GT(wide.counts.positions, 8u * 40000u);  // eight neighbours, as many headings
+    EXPECT_LT(narrow.counts.positions, 2u * 40000u);
+}
+
 TEST(PaperTask, refusesWhatIsNotThePapers)
 {
     Scenario scenario = perpendicular();
