@@ -135,7 +135,7 @@ namespace parking::search
                                        shorter.append(pieces_[k].segment);
                                    if (!environment_.acceptPath(shorter))
                                        return false;
-                                   path = std::move(shorter);
+                                   replaced_ = std::exchange(path, std::move(shorter));
                                    return true;
                                });
     }
@@ -164,10 +164,20 @@ namespace parking::search
                 if (costBefore_[i + span] - costBefore_[i] > widest ||
                     positionDistance(a, b) >= costBefore_[i + span] - costBefore_[i] - LEAST_GAIN)
                     continue;
+                const double before = costBefore_.back();
                 if (replace(i, i + span, choice, path))
                 {
-                    improved = true;
                     cut(path, spacing, offset);
+                    // Closeness is sampled, and a curve cut into pieces in other places than the part that it replaces:
+                    // together they may cost more than was reckoned. Without this, two curves replace each other for
+                    // ever.
+                    if (costBefore_.back() > before - 0.5 * LEAST_GAIN)
+                    {
+                        path = std::move(replaced_);
+                        cut(path, spacing, offset);
+                        continue;
+                    }
+                    improved = true;
                     span = std::min(span, pieces_.size() - 1);
                     if (span < 2)
                         return improved;

@@ -22,8 +22,9 @@ namespace parking::search
     /** \brief Makes a drivable path cheaper by replacing parts of it with curves of bounded curvature.
 
         The path is cut at knots; between two knots curves that are cheaper than the part they would replace are tried,
-        and the first free one taken. The path stays free and drivable, keeps its ends and never becomes more expensive.
-        Deterministic. */
+        and the first free one taken. The path stays free and drivable, keeps its ends and never becomes more expensive,
+        by the closeness to obstacles as it is sampled along its pieces; each replacement makes it cheaper by a certain
+        amount, so that a pass ends. Deterministic. */
     class PathShortener
     {
     public:
@@ -69,6 +70,7 @@ namespace parking::search
         const ReedsShepp &curves_;
         CostModel cost_;
         std::vector<Piece> pieces_, cutBefore_;
+        Path replaced_;  // what the path was before a part of it was replaced
         std::vector<double> costBefore_, closenessBefore_;
         std::vector<ReedsSheppCurve> candidates_;
         std::vector<PricedCurve> order_;
