@@ -58,6 +58,7 @@ namespace parking
         solved += other.solved;
         replanned += other.replanned;
         repeated += other.repeated;
+        seenByOracle += other.seenByOracle;
         byOthers += other.byOthers;
         refusedOfOthers += other.refusedOfOthers;
         planning += other.planning;

@@ -37,7 +37,8 @@ namespace parking
             queries{0},             ///< random queries put to plan()
             solved{0},              ///< of these, with a path to a goal
             replanned{0},           ///< queries from half way, with a new obstacle on the rest of the path
-            repeated{0};            ///< queries put twice: the path must be the same
+            repeated{0},            ///< queries put twice: the path must be the same
+            seenByOracle{0};        ///< paths that the oracle of the tests has looked at
         std::uint64_t byOthers{0};  ///< queries put to OMPL's planners, and to the one of this project behind OMPL
         std::uint64_t refusedOfOthers{0};        ///< exact paths of OMPL's planners that the referee does not accept
         LatencyCounts planning;                  ///< processor time of the queries put to plan()

@@ -2,6 +2,7 @@
 
 #include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/problems/Problem.h"
+#include "benchmarks/worlds/PolygonOracle.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "parking_geometry/Error.h"
@@ -19,7 +20,9 @@ namespace parking
     namespace
     {
         /** Planning ends after so many expansions, which depends on no clock: equal queries have equal answers. */
-        constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 1000;
+        constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 250, MOST_OF_SOME = 1000;
+        /** Share of the paths that the oracle of the tests looks at, too. */
+        constexpr double ASKED_OF_ORACLE = 0.05;
 
         /** Seconds of processor time of this thread: the machine may have other things to do. */
         double threadTime()
@@ -27,59 +30,6 @@ namespace parking
             timespec time{};
             clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
             return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-        }
-
-        std::vector<Polygon> randomPolygons(Random &random, std::size_t most, double reach)
-        {
-            std::vector<Polygon> polygons;
-            for (std::size_t left = random.index(most + 1); left > 0; --left)
-            {
-                const Pose at{
-                    random.between(-reach, reach), random.between(-reach, reach),
-                    random.chance(0.4) ? 0.5 * PI * static_cast<double>(random.index(4)) : random.between(-PI, PI)};
-                switch (random.index(5))
-                {
-                    case 0:
-                        polygons.push_back(parking_test::star(random, at.x, at.y, random.between(0.2, 2.5)));
-                        break;
-                    case 1:
-                        polygons.push_back(parking_test::bay(5.5, 2.5, at));
-                        break;
-                    case 2:
-                        polygons.push_back(
-                            parking_test::rectangle(random.between(1.0, 10.0), random.between(0.002, 0.2), at));
-                        break;
-                    default:
-                        polygons.push_back(parking_test::rectangle(4.7, 1.9, at));
-                }
-            }
-            return polygons;
-        }
-
-        OccupancyGrid randomGrid(Random &random, double reach)
-        {
-            const double resolution = std::array<double, 3>{0.1, 0.2, 0.5}[random.index(3)];
-            const auto side = static_cast<std::size_t>(2.0 * reach / resolution);
-            OccupancyGrid grid(side, side, resolution,
-                               {-reach, -reach, random.chance(0.7) ? 0.0 : random.between(-0.3, 0.3)});
-            for (std::size_t left = random.index(12); left > 0; --left)
-            {
-                const std::size_t column = random.index(side), row = random.index(side);
-                const std::size_t width = 1 + random.index(side / 8), height = 1 + random.index(side / 8);
-                for (std::size_t j = row; j < std::min(side, row + height); ++j)
-                    for (std::size_t i = column; i < std::min(side, column + width); ++i)
-                        grid.set(i, j, random.chance(0.1) ? Cell::Unknown : Cell::Occupied);
-            }
-            return grid;
-        }
-
-        Box boxRound(const OccupancyGrid &grid)
-        {
-            const std::vector<Eigen::Vector2d> outline = grid.outline();
-            Box box{outline.front(), outline.front()};
-            for (const Eigen::Vector2d &corner : outline)
-                box.include(corner);
-            return box;
         }
 
         search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker,
@@ -137,27 +87,24 @@ namespace parking
 
     void SoakWorker::newWorld()
     {
-        world_ = Scenario();
-        world_.name = "random";
-        const double reach = settings_.small ? 15.0 : 25.0;
-        if (random_.chance(0.3))
-        {
-            const std::vector<std::string> names = vehicleNames();
-            world_.vehicle = vehicleByName(names[random_.index(names.size())]);
-        }
-        if (!settings_.small && random_.chance(0.4))
-        {
-            world_.grid = randomGrid(random_, reach);
-            world_.bounds = boxRound(*world_.grid);
-        }
-        else
-        {
-            world_.polygons = randomPolygons(random_, settings_.small ? 5 : 16, reach - 3.0);
-            world_.bounds = {{-reach, -reach}, {reach, reach}};
-        }
+        SoakWorld made = settings_.small ? smallSoakWorld(random_) : soakWorld(random_);
+        world_ = std::move(made.scenario);
+        places_ = std::move(made.places);
         checker_ = std::make_unique<FootprintChecker>(ObstacleSet::fromScenario(world_), world_.vehicle);
         const std::lock_guard<std::mutex> lock(mutex_);
         ++figures_.worlds;
+    }
+
+    Pose SoakWorker::anyGoal()
+    {
+        constexpr double ASIDE = 0.3, TURNED = 0.2;  // metres and radians that a car may stand off a place to park
+        if (places_.empty() || !random_.chance(0.6))
+            return anywhere();
+        const Pose place = places_[random_.index(places_.size())];
+        if (random_.chance(0.3))
+            return place;
+        return compose(
+            place, {random_.between(-ASIDE, ASIDE), random_.between(-ASIDE, ASIDE), random_.between(-TURNED, TURNED)});
     }
 
     Pose SoakWorker::anywhere()
@@ -178,11 +125,13 @@ namespace parking
     {
         Scenario scenario = world_;
         scenario.start = anywhere();
-        scenario.goals = {anywhere()};
+        scenario.goals = {anyGoal()};
         if (random_.chance(0.1))
-            scenario.goals.push_back(anywhere());
+            scenario.goals.push_back(anyGoal());
         ++all_;
-        const std::uint64_t mostExpansions = settings_.small ? MOST_WHEN_SMALL : MOST_EXPANSIONS;
+        const std::uint64_t mostExpansions = !settings_.small      ? MOST_EXPANSIONS
+                                             : random_.chance(0.1) ? MOST_OF_SOME
+                                                                   : MOST_WHEN_SMALL;
         const double begin = threadTime();
         const search::PlanResult result = planned(scenario, *checker_, mostExpansions);
         const double time = threadTime() - begin;
@@ -193,6 +142,8 @@ namespace parking
             figures_.solved += result.outcome == search::PlanOutcome::Solved ? 1 : 0;
         }
         judge(scenario, result);
+        if (result.outcome == search::PlanOutcome::Solved && random_.chance(ASKED_OF_ORACLE))
+            askOracle(scenario, result.path);
         if (random_.chance(0.01))
         {
             const bool same = equal(planned(scenario, *checker_, mostExpansions).path, result.path);
@@ -237,6 +188,26 @@ namespace parking
         text << "worker " << seed_ << ", query " << figures_.queries << ": " << wrong;
         const std::lock_guard<std::mutex> lock(mutex_);
         figures_.disagree(text.str());
+    }
+
+    void SoakWorker::askOracle(const Scenario &scenario, const Path &path)
+    {
+        constexpr double STEP = 0.005;    // metres between two looks
+        constexpr double OVERLAP = 1e-7;  // metres that count as touching, which is free
+        const parking_test::PolygonOracle oracle(scenario);
+        bool free = true;
+        Pose pose = path.start;
+        for (const PathPiece &piece : path.pieces)
+        {
+            free = free && piece.sharpness == 0.0 && piece.turn == 0.0 &&
+                   oracle.isArcFree(pose, piece.curvature, piece.length, scenario.vehicle, STEP, -OVERLAP);
+            pose = advance(pose, piece);
+        }
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++figures_.seenByOracle;
+        if (!free)
+            figures_.disagree("worker " + std::to_string(seed_) + ", query " + std::to_string(figures_.queries) +
+                              ": the oracle says that it touches something");
     }
 
     void SoakWorker::replan(const Path &path)

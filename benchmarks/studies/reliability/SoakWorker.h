@@ -2,6 +2,7 @@
 
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/studies/reliability/SoakFigures.h"
+#include "benchmarks/studies/reliability/SoakWorlds.h"
 #include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Scenario.h"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace parking
 {
@@ -43,8 +45,10 @@ namespace parking
     private:
         void newWorld();
         Pose anywhere();
+        Pose anyGoal();
         void query();
         void judge(const Scenario &scenario, const search::PlanResult &result);
+        void askOracle(const Scenario &scenario, const Path &path);
         void replan(const Path &path);
         void askOthers(const Scenario &scenario);
         bool isOver(const std::atomic<bool> &stop) const;
@@ -57,6 +61,7 @@ namespace parking
         std::size_t turn_{0};  // of the other planners
 
         Scenario world_;
+        std::vector<Pose> places_;  // to park at
         std::unique_ptr<FootprintChecker> checker_;
 
         mutable std::mutex mutex_;

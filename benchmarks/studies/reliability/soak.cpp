@@ -46,16 +46,17 @@ namespace
         char text[400];
         std::snprintf(
             text, sizeof text,
-            "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, others %llu (%llu "
-            "refused) | "
+            "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, put to the oracle "
+            "%llu, "
+            "others %llu (%llu refused) | "
             "%.2f ms median, %.1f ms 99 %%, %.1f ms 99.9 %% | %.0f MB | %llu disagreements",
             time, static_cast<unsigned long long>(figures.queries),
             100.0 * static_cast<double>(figures.solved) / std::max(1.0, static_cast<double>(figures.queries)),
             static_cast<unsigned long long>(figures.worlds), static_cast<unsigned long long>(figures.replanned),
-            static_cast<unsigned long long>(figures.repeated), static_cast<unsigned long long>(figures.byOthers),
-            static_cast<unsigned long long>(figures.refusedOfOthers), 1e3 * figures.planning.quantile(0.5),
-            1e3 * figures.planning.quantile(0.99), 1e3 * figures.planning.quantile(0.999), memory,
-            static_cast<unsigned long long>(figures.disagreed));
+            static_cast<unsigned long long>(figures.repeated), static_cast<unsigned long long>(figures.seenByOracle),
+            static_cast<unsigned long long>(figures.byOthers), static_cast<unsigned long long>(figures.refusedOfOthers),
+            1e3 * figures.planning.quantile(0.5), 1e3 * figures.planning.quantile(0.99),
+            1e3 * figures.planning.quantile(0.999), memory, static_cast<unsigned long long>(figures.disagreed));
         return text;
     }
 
