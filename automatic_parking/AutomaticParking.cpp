@@ -226,6 +226,9 @@ namespace parking
         {
             ClosedLoopParameters parameters = parameters_.drive;
             parameters.disturbances.seed += count;  // other noise on every drive
+            for (std::vector<TimeSpan> Disturbances::*spans : {&Disturbances::blind, &Disturbances::stuck})
+                for (TimeSpan &span : parameters.disturbances.*spans)
+                    span = {span.begin - time_, span.end - time_};  // time runs on
             parameters.tracking.accelerationShare =
                 std::min(parameters.tracking.accelerationShare, accelerationShare());
             ClosedLoop loop(scenario_.vehicle, parameters);
@@ -271,6 +274,8 @@ namespace parking
             for (const DriveRecord &record : drive.log)
                 if (record.control.wheelsStick)
                     return "the wheels do not follow their command";
+                else if (record.control.poseIsBack)
+                    return "the pose was lost";
                 else if (record.control.blocked)
                     return "the car could not stop in time if it went on";
             return "";

@@ -20,7 +20,8 @@ namespace parking
     struct ParkingParameters
     {
         PlanningParameters planning;  ///< of every plan, the first one and those made anew
-        ClosedLoopParameters drive;   ///< of the controller and of the simulated car
+        /** Of the controller and of the simulated car. The time of disturbances runs on from drive to drive. */
+        ClosedLoopParameters drive;
 
         /** Drive the fastest trajectory near the path, the wheels turning while the car rolls; otherwise the path
            itself with standstills wherever its curvature jumps. */
@@ -90,9 +91,9 @@ namespace parking
         out.
 
         Parking again and again on the way: when the map changes so that the rest of the path is blocked, when the car
-        strays from the path, when its wheels do not follow, when it could not stop in time if it went on, and when it
-        stands too far from the goal, it stops, plans from where it believes to stand, and drives on. A change of the
-       map that leaves the rest of the path free does not disturb the drive. */
+        strays from the path, when its wheels do not follow, when its pose was lost for a while, when it could not stop
+       in time if it went on, and when it stands too far from the goal, it stops, plans from where it believes to stand,
+       and drives on. A change of the map that leaves the rest of the path free does not disturb the drive. */
     class AutomaticParking
     {
     public:

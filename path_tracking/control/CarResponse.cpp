@@ -82,7 +82,8 @@ namespace parking
             driveLag_.learn(period_, (brakes ? brakeScale_ : 1.0) * done.acceleration, before.speed, measurement.speed);
         }
         estimator_.predict(period_, measurement.speed, measurement.steering);
-        estimator_.correct(measurement.pose);
+        if (isFinite(measurement.pose))
+            estimator_.correct(measurement.pose);
     }
 
     void CarResponse::learnBrake(const Measurement &measurement)

@@ -48,10 +48,11 @@ namespace parking
         /** \brief Begins with \e measurement. */
         void start(const Measurement &measurement);
 
-        /** \brief Takes over what is measured at the end of a period. */
+        /** \brief Takes over what is measured at the end of a period. Without a pose the car is where speed and wheels
+         * say. */
         void take(const Measurement &measurement);
 
-        /** \brief Takes over a period of which nothing usable was measured. */
+        /** \brief Takes over a period in which speed or wheels were not measured: the car has done what it was told. */
         void reckon();
 
         /** \brief Sends off the command of the period that begins. Speeds and angles are those that are measured. */

@@ -15,8 +15,6 @@ namespace parking
 {
     namespace
     {
-        constexpr double STANDING = 0.01;          // m/s that count as standing
-        constexpr double SEARCH = 1.5;             // metres of path searched for the car on either side
         constexpr double LAG_ALLOWED = 0.05;       // metres behind the timed path before its clock slows down
         constexpr double LAG_STOP = 0.25;          // metres behind at which the clock stands still
         constexpr double STUCK_TIME = 5.0;         // seconds with a standing clock after which the drive is given up
@@ -46,7 +44,8 @@ namespace parking
         reference_(std::move(reference)),
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
-        response_(vehicle, parameters.response(), parameters.mpc.step, initialSteering)
+        response_(vehicle, parameters.response(), parameters.mpc.step, initialSteering),
+        poseWatch_(parameters.maxFailures, parameters.posePatience, parameters.mpc.step)
     {
         last_.steering = initialSteering;
         if (!reference_)
@@ -68,9 +67,9 @@ namespace parking
     TrackingStep TrackingController::step(const Measurement &measurement)
     {
         TrackingStep step;
-        const bool known = takeMeasurement(measurement, step);
-        if (!known)
-            beginStop("the measured pose is not usable", step);
+        takeMeasurement(measurement, step);
+        if (poseWatch_.isMissing())
+            beginStop("the pose is lost", step);
         else if (!stopRequest_.empty())
             beginStop(std::exchange(stopRequest_, {}), step);
         locate(step);
@@ -97,7 +96,9 @@ namespace parking
         }
         if (mode_ == TrackingMode::Braking)
             brake(step);
-        if (finished())
+        else if (mode_ == TrackingMode::Waiting)
+            waitForPose(step);
+        if (finished() || mode_ == TrackingMode::Waiting)
             step.command =
                 standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
 
@@ -109,26 +110,24 @@ namespace parking
         return step;
     }
 
-    bool TrackingController::takeMeasurement(const Measurement &measurement, TrackingStep &step)
+    void TrackingController::takeMeasurement(const Measurement &measurement, TrackingStep &step)
     {
-        const bool usable =
-            isFinite(measurement.pose) && std::isfinite(measurement.speed) && std::isfinite(measurement.steering);
+        const bool odometry = std::isfinite(measurement.speed) && std::isfinite(measurement.steering);
+        const bool usable = odometry && isFinite(measurement.pose);
+        poseWatch_.note(usable);
         if (!started_)
         {
             // Nothing to reckon from: the first measurement must be good.
             started_ = usable;
             response_.start(usable ? measurement : Measurement{reference_->at(0, 0.0).pose, 0.0, last_.steering});
-            return usable;
+            return;
         }
-        if (!usable)
-        {
-            response_.reckon();
+        if (!usable && !poseWatch_.isMissing())
             step.event = "measurement not finite: dead reckoning";
-            return ++lostMeasurements_ <= parameters_.maxFailures;
-        }
-        lostMeasurements_ = 0;
-        response_.take(measurement);
-        return true;
+        if (odometry)
+            response_.take(measurement);
+        else
+            response_.reckon();
     }
 
     void TrackingController::locate(TrackingStep &step)
@@ -429,67 +428,5 @@ namespace parking
             return;
         step.command.hold = true;
         step.command.acceleration = -leg().direction * speed / period;
-    }
-
-    Command TrackingController::braking(const CarState &car, const PathProjection &place, double last) const
-    {
-        // Lateral error and heading error decay along the driven way as e'' = -k1 e - k2 e'.
-        constexpr double K1 = 0.5, K2 = 1.2;
-        const double curvature = vehicle_.curvature(reference_->steering(leg_, place.s)) - K1 * place.lateral -
-                                 leg().direction * K2 * place.yaw;
-        return standStill(
-            car.speed / estimator().speedScale(), last,
-            std::clamp(vehicle_.steeringAngle(curvature), -vehicle_.maxSteeringAngle, vehicle_.maxSteeringAngle),
-            vehicle_.maxSteeringRate);
-    }
-
-    void TrackingController::brake(TrackingStep &step)
-    {
-        const CarState car = response_.ahead();
-        if (std::abs(estimator().speed()) <= STANDING && std::abs(car.speed) <= STANDING)
-        {
-            mode_ = TrackingMode::Stopped;
-            return;
-        }
-        step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
-    }
-
-    Path TrackingController::stoppingWay(const Command &command) const
-    {
-        constexpr int MOST_PERIODS = 600;
-        const double brakes = std::min(response_.brakeScale(), 1.0 - parameters_.brakeReserve);
-        Path way{estimator().pose(), {}};
-        CarState car = response_.after(response_.ahead(&way), command, brakes, &way);
-        double s = s_, last = command.steering;
-        for (int i = 0; i < MOST_PERIODS && std::abs(car.speed) > STANDING; ++i)
-        {
-            const PathProjection place = reference_->project(leg_, car.pose, s - SEARCH, s + SEARCH);
-            const Command next = braking(car, place, last);
-            s = place.s;
-            last = next.steering;
-            car = response_.after(car, next, brakes, &way);
-        }
-        return way;
-    }
-
-    void TrackingController::askGuard(TrackingStep &step)
-    {
-        step.estimate = estimator().pose();
-        step.leg = leg_;
-        step.stoppingWay = stoppingWay(step.command);
-        if (guard_(step))
-        {
-            refused_ = 0.0;
-            return;
-        }
-        const CarState car = response_.ahead();
-        step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
-        if (refused_ == 0.0 && step.event.empty())
-            step.event = "slowing down: the way to a stop is not free";
-        if (std::abs(estimator().speed()) <= STANDING)
-            refused_ += parameters_.mpc.step;
-        step.blocked = refused_ >= parameters_.guardPatience;
-        if (step.blocked)
-            beginStop("the car cannot go on and still stop in time", step);
     }
 }  // namespace parking

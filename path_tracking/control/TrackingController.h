@@ -4,6 +4,7 @@
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/control/CarResponse.h"
 #include "path_tracking/control/Mpc.h"
+#include "path_tracking/control/PoseWatch.h"
 #include "path_tracking/control/TrackingParameters.h"
 #include "path_tracking/control/TrackingTypes.h"
 #include "path_tracking/reference/TimedReference.h"
@@ -22,6 +23,7 @@ namespace parking
         Steering,  ///< standing, turning the wheels to where the leg begins, or to where they shall end
         Driving,   ///< on a leg
         Braking,   ///< a safe stop: braking on the path
+        Waiting,   ///< standing after a safe stop until the pose is known again
         Arrived,   ///< standing at the end of the path
         Stopped    ///< standing after a safe stop
     };
@@ -41,6 +43,7 @@ namespace parking
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
         bool wheelsStick{false};                    ///< do the wheels not follow, while the car moves?
+        bool poseIsBack{false};                     ///< has the car stopped, and waited, until its pose was back?
         bool blocked{false};                        ///< has the guard kept the car standing until it was a safe stop?
         /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
             lags that were learnt, and the brake in reserve. Only a guard gets to see it. */
@@ -62,6 +65,7 @@ namespace parking
         along the path instead, until the guard lets it go on. When the optimiser fails, the rest of its last answer is
        used for a few periods; when failures go on, the pose is lost or the car strays from the path, the car brakes
        with its full deceleration, steered along the path by a plain feedback law that needs no optimiser, and stands.
+       There it waits for a pose that was lost: when it is back the drive is over, and another one can begin.
        Whatever happens, the command obeys the car's limits. */
     class TrackingController
     {
@@ -121,6 +125,9 @@ namespace parking
         void requestStop(const std::string &reason);
 
     private:
+        static constexpr double STANDING = 0.01;  // m/s that count as standing
+        static constexpr double SEARCH = 1.5;     // metres of path searched for the car on either side
+
         const TimedLeg &leg() const
         {
             return reference_->legs()[leg_];
@@ -131,7 +138,7 @@ namespace parking
             return response_.estimator();
         }
 
-        bool takeMeasurement(const Measurement &measurement, TrackingStep &step);
+        void takeMeasurement(const Measurement &measurement, TrackingStep &step);
         void locate(TrackingStep &step);
         void watch(TrackingStep &step);
         bool legOver() const;
@@ -143,6 +150,7 @@ namespace parking
         void steer(TrackingStep &step);
         void drive(TrackingStep &step);
         void brake(TrackingStep &step);
+        void waitForPose(TrackingStep &step);
         Command braking(const CarState &car, const PathProjection &place, double last) const;
         Path stoppingWay(const Command &command) const;
         void askGuard(TrackingStep &step);
@@ -180,7 +188,7 @@ namespace parking
         std::vector<MpcControl> plan_;
         std::size_t planAge_{0};
         int failures_{0};
-        int lostMeasurements_{0};
+        PoseWatch poseWatch_;
         std::string stopRequest_;
     };
 }  // namespace parking

@@ -23,6 +23,7 @@ namespace parking
         response().validate();
         require.that(brakeReserve >= 0.0 && brakeReserve < 1.0, "brakeReserve", brakeReserve, "at least 0 and below 1");
         require.notNegative("guardPatience", guardPatience);
+        require.notNegative("posePatience", posePatience);
         require.positive("lateralAcceleration", lateralAcceleration);
         require.positive("stopTolerance", stopTolerance);
         require.positive("arrivalTolerance", arrivalTolerance);

@@ -35,7 +35,9 @@ namespace parking
 
         double maxCrossTrack{0.5};    ///< metres beside the path; beyond it the car stops
         double maxHeadingError{0.7};  ///< radians, likewise
-        int maxFailures{3};           ///< consecutive solver failures or unusable measurements; more and the car stops
+        /** Seconds that a car which has stopped because its pose was lost waits for it. */
+        double posePatience{10.0};
+        int maxFailures{3};  ///< consecutive solver failures or unusable measurements; more and the car stops
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;

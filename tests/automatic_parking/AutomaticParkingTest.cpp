@@ -206,6 +206,39 @@ namespace
         EXPECT_LT(calls, 10);
     }
 
+    TEST(AutomaticParkingTest, aCarThatHasLostItsPoseStopsWaitsAndGoesOn)
+    {
+        for (const bool optimized : {true, false})
+        {
+            SCOPED_TRACE(optimized);
+            const Scenario scenario = rowOfSlots();
+            ParkingParameters parameters;
+            parameters.optimizeTrajectory = optimized;
+            // For longer than a stop takes. Time runs on from drive to drive, so that it does not happen again.
+            parameters.drive.disturbances.blind = {{3.0, 7.0}};
+            const ParkingResult result = AutomaticParking(parameters).park(scenario);
+            ASSERT_TRUE(result.parked()) << result.message;
+            ASSERT_EQ(result.legs.size(), 2u);
+            EXPECT_EQ(result.legs[1].reason, "the pose was lost");
+            EXPECT_GT(result.legs[1].begin, 7.0);
+            EXPECT_EQ(result.evaluation.collisions, 0u);
+            expectLegal(result, scenario.vehicle);
+        }
+    }
+
+    TEST(AutomaticParkingTest, aPoseThatStaysAwayIsASafeStop)
+    {
+        ParkingParameters parameters;
+        parameters.drive.disturbances.blind = {{3.0, 1e9}};
+        const ParkingResult result = AutomaticParking(parameters).park(rowOfSlots());
+        EXPECT_EQ(result.status, ParkingStatus::Stopped);
+        EXPECT_NE(result.message.find("the pose was lost, and not back after 10 s"), std::string::npos)
+            << result.message;
+        EXPECT_EQ(result.legs.size(), 1u);
+        EXPECT_EQ(result.evaluation.collisions, 0u);
+        EXPECT_EQ(result.trajectory.back().v, 0.0);
+    }
+
     TEST(AutomaticParkingTest, saysWhyItDoesNotEvenBegin)
     {
         Scenario scenario = openGround();

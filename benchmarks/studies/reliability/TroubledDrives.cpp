@@ -204,18 +204,6 @@ namespace parking
                                [&](const Pose &pose) { return oracle.isFree(pose, car, spare); });
         }
 
-        /** What is wrong with the car in the drive that is under way at \e time: the simulated car counts its spans
-           from the begin of each drive. */
-        Disturbances oddsAt(const ParkingResult &result, double time, Disturbances odds)
-        {
-            double begin = 0.0;
-            for (const ParkingLeg &leg : result.legs)
-                begin = leg.begin <= time ? leg.begin : begin;
-            for (TimeSpan &span : odds.stuck)
-                span = {span.begin + begin, span.end + begin};
-            return odds;
-        }
-
         /** When it could first be seen, in the drive that is under way at \e time, that wheels stick; nothing when they
             do not. */
         std::optional<double> wheelsSeenToStick(const ParkingResult &result, const Disturbances &odds, double time)
@@ -226,9 +214,9 @@ namespace parking
             for (std::size_t i = 1; i < leg.drive.log.size(); ++i)
             {
                 const DriveRecord &before = leg.drive.log[i - 1], &now = leg.drive.log[i];
-                // The simulated car counts its spans from the begin of each drive.
-                const bool sticks = std::any_of(odds.stuck.begin(), odds.stuck.end(),
-                                                [&](const TimeSpan &span) { return span.contains(before.t); });
+                const bool sticks =
+                    std::any_of(odds.stuck.begin(), odds.stuck.end(),
+                                [&](const TimeSpan &span) { return span.contains(leg.begin + before.t); });
                 if (sticks && leg.begin + now.t <= time &&
                     std::abs(now.measurement.steering - before.control.command.steering) > SEEN)
                     return leg.begin + now.t;
@@ -303,9 +291,8 @@ namespace parking
             return report;
         report.appeared = true;
         report.ahead = surprise->ahead;
-        report.avoidable = isFree(brakingWay(expected, car, oddsAt(undisturbed, surprise->time, odds), surprise->time,
-                                             surprise->time + reaction),
-                                  car, alone(surprise->obstacle), SPARE);
+        report.avoidable = isFree(brakingWay(expected, car, odds, surprise->time, surprise->time + reaction), car,
+                                  alone(surprise->obstacle), SPARE);
         if (const std::optional<Touch> touch =
                 firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time))
         {
