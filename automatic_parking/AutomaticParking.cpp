@@ -20,7 +20,9 @@ namespace parking
     {
         std::string rounded(double value, double unit)
         {
-            return formatNumber(std::round(value / unit) * unit);
+            // Divided, not multiplied: 5.6, not 5.6000000000000005.
+            return formatNumber(unit < 1.0 ? std::round(value / unit) / std::round(1.0 / unit)
+                                           : std::round(value / unit) * unit);
         }
 
         /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */

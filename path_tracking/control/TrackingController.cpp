@@ -270,6 +270,7 @@ namespace parking
         wheelsOff_ = off;
         if (waited_ > STEERING_PATIENCE)
         {
+            step.wheelsStick = standing;
             beginStop(standing ? "the wheels do not follow their command" : "the car does not stand still", step);
             return;
         }

@@ -42,7 +42,7 @@ namespace parking
         bool solverFailed{false};                   ///< and was its answer useless?
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
-        bool wheelsStick{false};                    ///< do the wheels not follow, while the car moves?
+        bool wheelsStick{false};                    ///< do the wheels not follow?
         bool poseIsBack{false};                     ///< has the car stopped, and waited, until its pose was back?
         bool blocked{false};                        ///< has the guard kept the car standing until it was a safe stop?
         /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
