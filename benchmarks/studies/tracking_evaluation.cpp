@@ -2,14 +2,10 @@
 // once per seed by a disturbed one (0.1 s of steering lag, noise of 2 cm and 0.5 degrees, 5 % of speed bias). The table
 // of docs/path-tracking.md comes from here.
 
-#include "automatic_parking/AutomaticParking.h"
-#include "benchmarks/system/CommandLine.h"
-#include "parking_geometry/Error.h"
-#include "parking_geometry/io/ScenarioReader.h"
+#include "benchmarks/studies/DriveStudy.h"
 #include "parking_geometry/text/WriteFile.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -18,7 +14,6 @@
 namespace
 {
     using namespace parking;
-    namespace po = boost::program_options;
 
     constexpr double CM = 100.0;
     constexpr double DEGREES = 180.0 / PI;
@@ -72,13 +67,6 @@ namespace
         }
     };
 
-    std::string fixed(double value, int decimals)
-    {
-        char text[64];
-        std::snprintf(text, sizeof text, "%.*f", decimals, value);
-        return text;
-    }
-
     Row evaluate(const Scenario &scenario, const ParkingParameters &parameters, std::size_t seeds, std::size_t first)
     {
         Row row;
@@ -105,86 +93,53 @@ namespace
 
     std::string table(const std::vector<Row> &rows)
     {
-        std::string text =
-            "| problem | plan, ms | length, m | cusps | planned clearance, cm | time, s | mean abs. acceleration, m/s2 "
-            "| "
-            "mean abs. steering, deg | nominal: final, cm | deg | cross-track, cm | hits | disturbed: parked | final, "
-            "cm | deg | cross-track, cm | clearance, cm | hits | kept |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        MarkdownTable result({"problem", "plan, ms", "length, m", "cusps", "planned clearance, cm", "time, s",
+                              "mean abs. acceleration, m/s2", "mean abs. steering, deg", "nominal: final, cm", "deg",
+                              "cross-track, cm", "hits", "disturbed: parked", "final, cm", "deg", "cross-track, cm",
+                              "clearance, cm", "hits", "kept"});
         for (const Row &row : rows)
         {
-            text += "| " + row.name + " | ";
             if (!row.planned)
             {
-                text += "no path |||||||||||||||||\n";
+                result.add({row.name, "no path"});
                 continue;
             }
             const Worst &nominal = row.nominalWorst, &disturbed = row.disturbed;
-            for (const std::string &cell :
-                 {fixed(MS * row.planningTime, 0), fixed(row.length, 1), std::to_string(row.cusps),
-                  fixed(CM * row.clearance, 1), fixed(row.nominal.travelTime, 1),
-                  fixed(row.nominal.meanAbsAcceleration, 2), fixed(DEGREES * row.nominal.meanAbsSteering, 1),
-                  fixed(CM * nominal.finalError, 1), fixed(DEGREES * nominal.finalYaw, 2),
-                  fixed(CM * nominal.crossTrack, 1), std::to_string(nominal.collided),
-                  std::to_string(disturbed.parked) + "/" + std::to_string(disturbed.drives) +
-                      (disturbed.replanned > 0 ? " (" + std::to_string(disturbed.replanned) + " replanned)" : ""),
-                  fixed(CM * disturbed.finalError, 1), fixed(DEGREES * disturbed.finalYaw, 2),
-                  fixed(CM * disturbed.crossTrack, 1), fixed(CM * disturbed.clearance, 1),
-                  std::to_string(disturbed.collided), std::string(row.good() ? "yes" : "NO")})
-                text += cell + " | ";
-            text.pop_back();
-            text += "\n";
+            result.add({row.name, fixed(MS * row.planningTime, 0), fixed(row.length, 1), std::to_string(row.cusps),
+                        fixed(CM * row.clearance, 1), fixed(row.nominal.travelTime, 1),
+                        fixed(row.nominal.meanAbsAcceleration, 2), fixed(DEGREES * row.nominal.meanAbsSteering, 1),
+                        fixed(CM * nominal.finalError, 1), fixed(DEGREES * nominal.finalYaw, 2),
+                        fixed(CM * nominal.crossTrack, 1), std::to_string(nominal.collided),
+                        std::to_string(disturbed.parked) + "/" + std::to_string(disturbed.drives) +
+                            (disturbed.replanned > 0 ? " (" + std::to_string(disturbed.replanned) + " replanned)" : ""),
+                        fixed(CM * disturbed.finalError, 1), fixed(DEGREES * disturbed.finalYaw, 2),
+                        fixed(CM * disturbed.crossTrack, 1), fixed(CM * disturbed.clearance, 1),
+                        std::to_string(disturbed.collided), row.good() ? "yes" : "NO"});
         }
-        return text;
+        return result.text();
     }
 
     int run(const std::vector<std::string> &arguments)
     {
-        po::options_description options("Options");
-        auto add = options.add_options();
+        DriveStudy study("tracking_evaluation", "Parks in every scenario, once as it is and many times disturbed.");
+        auto add = study.options().add_options();
         add("seeds", oneValue("N"), "disturbed drives of each problem (default 20)");
         add("first-seed", oneValue("N"), "their first seed (default 1)");
         add("output", oneValue("FILE.md"), "write the table there, too");
-        add("stop-and-steer", "drive the paths with standstills, not optimised trajectories");
-        add("acceleration-share", oneValue("X"), "of the car's acceleration that trajectories use");
-        add("steering-rate-share", oneValue("X"), "of its steering rate");
-        add("steering-share", oneValue("X"), "of its steering angle");
-        add("nearness", oneValue("X"), "seconds that a metre in touch with obstacles is worth");
-        add("kept", oneValue("M"), "metres that trajectories prefer to keep from obstacles");
-        add("least", oneValue("M"), "metres that they do keep where the plan does");
-        add("clearance-share", oneValue("X"), "of the plan's clearance that they keep in any case");
-        add("no-smoothing", "drive the planner's arcs as they are");
-        add("help", "this text");
-        options.add_options()("scenario", po::value<std::vector<std::string>>());
-        const CommandLine line(arguments, options, po::positional_options_description().add("scenario", -1));
-        if (line.given("help"))
-        {
-            std::cout << "usage: tracking_evaluation SCENARIO... [options]\n\n" << options;
+        const std::optional<CommandLine> line = study.read(arguments);
+        if (!line)
             return 0;
-        }
-        if (!line.given("scenario"))
-            throw Error("no scenario given (see --help)");
-        const std::size_t seeds = line.whole("seeds", 1, 100000).value_or(20);
-        const std::size_t first = line.whole("first-seed", 0, 1000000000).value_or(1);
-        ParkingParameters parameters;
-        parameters.planning.smooth = !line.given("no-smoothing");
-        parameters.optimizeTrajectory = !line.given("stop-and-steer");
-        TrajectoryOptions &trajectory = parameters.trajectory.trajectory;
-        trajectory.accelerationShare = line.positive("acceleration-share").value_or(trajectory.accelerationShare);
-        trajectory.steeringRateShare = line.positive("steering-rate-share").value_or(trajectory.steeringRateShare);
-        trajectory.steeringShare = line.positive("steering-share").value_or(trajectory.steeringShare);
-        trajectory.weights.nearness = line.positive("nearness").value_or(trajectory.weights.nearness);
-        parameters.keptClearance = line.positive("kept").value_or(parameters.keptClearance);
-        parameters.leastClearance = line.positive("least").value_or(parameters.leastClearance);
-        parameters.clearanceShare = line.positive("clearance-share").value_or(parameters.clearanceShare);
-        const std::string output = line.text("output").value_or("");
+        const std::size_t seeds = line->whole("seeds", 1, 100000).value_or(20);
+        const std::size_t first = line->whole("first-seed", 0, 1000000000).value_or(1);
+        const ParkingParameters parameters = DriveStudy::parameters(*line);
+        const std::string output = line->text("output").value_or("");
         if (!output.empty())
             requireWritable(output);
         std::vector<Row> rows;
-        for (const std::string &file : line.texts("scenario"))
+        for (const Scenario &scenario : DriveStudy::scenarios(*line))
         {
-            rows.push_back(evaluate(readScenario(file), parameters, seeds, first));
-            std::cerr << file << (rows.back().good() ? "" : ": figures missed, or no path") << std::endl;
+            rows.push_back(evaluate(scenario, parameters, seeds, first));
+            std::cerr << scenario.name << (rows.back().good() ? "" : ": figures missed, or no path") << std::endl;
         }
         const std::string result = table(rows);
         std::cout << result;

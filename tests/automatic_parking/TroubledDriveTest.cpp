@@ -19,6 +19,8 @@ namespace parking
         TEST_P(TroubledDrives, WhatCanBeAvoidedIsAndTheCarStops)
         {
             constexpr std::size_t DRIVES = 35;
+            ParkingParameters parameters;
+            parameters.optimizeTrajectory = GetParam();
             const std::array<std::string, 3> names{"angled45", "parallel", "perpendicular"};
             std::size_t appeared = 0, avoidable = 0, stopped = 0;
             for (std::size_t i = 0; i < DRIVES; ++i)
@@ -27,7 +29,7 @@ namespace parking
                 const std::string &name = names[(i / TROUBLES) % names.size()];
                 SCOPED_TRACE(name + ", " + toString(trouble) + ", drive " + std::to_string(i));
                 const TroubledDrive drive =
-                    driveInTrouble(readScenario(parking_test::bundledFile(name)), trouble, i, GetParam());
+                    driveInTrouble(readScenario(parking_test::bundledFile(name)), trouble, i, parameters);
                 EXPECT_TRUE(drive.stands) << drive.message;
                 EXPECT_EQ(drive.brokenLimit, "");
                 EXPECT_LE(drive.fastest, 1.1);

@@ -204,13 +204,19 @@ namespace parking
                                [&](const Pose &pose) { return oracle.isFree(pose, car, spare); });
         }
 
+        /** The drive that is under way at \e time. */
+        const ParkingLeg &legAt(const ParkingResult &result, double time)
+        {
+            return *(std::find_if(result.legs.begin() + 1, result.legs.end(),
+                                  [time](const ParkingLeg &leg) { return leg.begin > time; }) -
+                     1);
+        }
+
         /** When it could first be seen, in the drive that is under way at \e time, that wheels stick; nothing when they
             do not. */
         std::optional<double> wheelsSeenToStick(const ParkingResult &result, const Disturbances &odds, double time)
         {
-            const auto next = std::find_if(result.legs.begin() + 1, result.legs.end(),
-                                           [time](const ParkingLeg &leg) { return leg.begin > time; });
-            const ParkingLeg &leg = *(next - 1);
+            const ParkingLeg &leg = legAt(result, time);
             for (std::size_t i = 1; i < leg.drive.log.size(); ++i)
             {
                 const DriveRecord &before = leg.drive.log[i - 1], &now = leg.drive.log[i];
@@ -225,15 +231,15 @@ namespace parking
         }
     }  // namespace
 
-    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed, bool optimized)
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed,
+                                 const ParkingParameters &given)
     {
         if (scenario.grid)
             throw Error("scenario " + scenario.name + ": obstacles appear in worlds of polygons only");
         Random random(seed * 2654435761U + static_cast<std::uint64_t>(trouble));
         TroubledDrive report;
         report.trouble = trouble;
-        ParkingParameters parameters;
-        parameters.optimizeTrajectory = optimized;
+        ParkingParameters parameters = given;
         const ParkingResult calm = AutomaticParking(parameters).park(scenario);
         report.status = calm.status;
         report.message = calm.message;
@@ -274,27 +280,35 @@ namespace parking
         if (result.trajectory.empty())
             return report;
         report.stands = result.trajectory.back().v == 0.0;
+        report.duration = result.trajectory.back().t;
         // What is seen at the begin of a period is braked for in the next one.
         const Disturbances &odds = parameters.drive.disturbances;
         const double period = parameters.drive.tracking.mpc.step, reaction = period + odds.delay;
         const PolygonOracle before(scenario);
-        if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, before, 0.0))
+        const auto touchesKnown = [&](const Touch &touch, const PolygonOracle &oracle, const std::string &what)
         {
-            const std::optional<double> seen = wheelsSeenToStick(result, odds, touch->time);
-            report.otherAvoidable = !seen || isFree(brakingWay(result.trajectory, car, odds, *seen, *seen + reaction),
-                                                    car, before, SPARE_BESIDE);
+            const std::optional<double> seen = wheelsSeenToStick(result, odds, touch.time);
+            const bool avoidable = !seen || isFree(brakingWay(result.trajectory, car, odds, *seen, *seen + reaction),
+                                                   car, oracle, SPARE_BESIDE);
+            report.otherAvoidable = report.otherAvoidable || avoidable;
             report.hitOther = true;
-            report.impactSpeed = touch->speed;
-            report.events.push_back(rounded(touch->time) + " s: touches what was there before");
-        }
+            report.impactSpeed = std::max(report.impactSpeed, touch.speed);
+            report.events.push_back(rounded(touch.time) + " s: touches " + what);
+        };
+        if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, before, 0.0))
+            touchesKnown(*touch, before, "what was there before");
         if (!surprise)
             return report;
         report.appeared = true;
         report.ahead = surprise->ahead;
         report.avoidable = isFree(brakingWay(expected, car, odds, surprise->time, surprise->time + reaction), car,
                                   alone(surprise->obstacle), SPARE);
-        if (const std::optional<Touch> touch =
-                firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time))
+        const std::optional<Touch> touch =
+            firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time);
+        // It is no surprise any more on a drive that was planned round it.
+        if (touch && legAt(result, touch->time).begin > surprise->time)
+            touchesKnown(*touch, alone(surprise->obstacle), "what has appeared before");
+        else if (touch)
         {
             report.hitAppeared = true;
             report.events.push_back(rounded(touch->time) + " s: touches what has appeared");

@@ -35,12 +35,13 @@ namespace parking
         ParkingStatus status{ParkingStatus::NoPath};  ///< how it ended
         std::string message;                          ///< one line, of the pipeline
         bool stands{false};                           ///< at the end
+        double duration{0.0};                         ///< seconds until then
         bool appeared{false};                         ///< did an obstacle appear on the way that was being driven?
         double ahead{0.0};                            ///< metres left to it then
         /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
            down as hard as this car can (see brakingWay())? */
         bool avoidable{false};
-        bool hitAppeared{false};  ///< the obstacle
+        bool hitAppeared{false};  ///< the obstacle, before anything was planned round it
         bool hitOther{false};     ///< anything else
         /** Was that touch avoidable? Always, but where wheels stick: only when braking as soon as that could be seen
             would have avoided it. */
@@ -57,7 +58,7 @@ namespace parking
        way 0.5 to 6 m ahead at a random time. Touches are looked for by the oracle of the tests every few millimetres of
        the way that the simulated car really took.
 
-        \param optimized drive the fastest trajectory, as AutomaticParking does by default; otherwise with standstills
-     */
-    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed, bool optimized);
+        \param parameters of the pipeline; their disturbances do not count */
+    TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed,
+                                 const ParkingParameters &parameters);
 }  // namespace parking
