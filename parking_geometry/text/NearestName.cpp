@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <utility>
 
 namespace parking
 {
@@ -17,23 +18,32 @@ namespace parking
             return text;
         }
 
-        /** Levenshtein distance, one row of the table at a time. */
+        /** Letters to change, leave out, add or swap with the next one, three rows of the table at a time. */
         std::size_t editDistance(const std::string &a, const std::string &b)
         {
-            std::vector<std::size_t> row(b.size() + 1);
+            std::vector<std::size_t> before, last, row(b.size() + 1);
             std::iota(row.begin(), row.end(), std::size_t(0));
             for (std::size_t i = 1; i <= a.size(); ++i)
             {
-                std::size_t diagonal = row[0];
+                before = std::move(last);
+                last = row;
                 row[0] = i;
                 for (std::size_t j = 1; j <= b.size(); ++j)
                 {
-                    const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-                    diagonal = row[j];
-                    row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+                    const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+                    row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+                    if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                        row[j] = std::min(row[j], before[j - 2] + 1);
                 }
             }
             return row[b.size()];
+        }
+
+        /** A third of the letters may be wrong, rounded up, or half of them missing; with more, any name were near. */
+        bool isNear(std::size_t distance, const std::string &name, const std::string &candidate)
+        {
+            const bool isShortened = name.size() + distance == candidate.size() && 2 * distance <= candidate.size();
+            return isShortened || 3 * distance <= std::max(name.size(), candidate.size()) + 2;
         }
     }  // namespace
 
@@ -46,11 +56,13 @@ namespace parking
         for (const std::string &candidate : known)
         {
             const std::string lower = lowerCase(candidate);
-            std::size_t distance = 2 * editDistance(wanted, lower);
+            const std::size_t edits = editDistance(wanted, lower);
+            std::size_t distance = 2 * edits;
             // A part of a name, such as golf, is likelier meant than a name with two other letters.
-            if (wanted.size() > 2 && lower.find(wanted) != std::string::npos)
+            const bool isPart = wanted.size() > 2 && lower.find(wanted) != std::string::npos;
+            if (isPart)
                 distance = std::min<std::size_t>(distance, 3);
-            if (best.empty() || distance < bestDistance)
+            if ((isPart || isNear(edits, wanted, lower)) && (best.empty() || distance < bestDistance))
             {
                 best = candidate;
                 bestDistance = distance;
@@ -77,7 +89,8 @@ namespace parking
         std::string message = "unknown " + what + ' ' + inQuotes(name);
         if (known.empty())
             return message;
-        message += "; did you mean '" + nearestName(name, known) + "'? Known: ";
+        const std::string nearest = nearestName(name, known);
+        message += nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? Known: ";
         for (std::size_t i = 0; i < known.size(); ++i)
             message += (i ? ", " : "") + known[i];
         return message;

@@ -20,10 +20,29 @@ TEST(NearestName, FindsWhatWasMeant)
     EXPECT_EQ(nearestName("pmr", planners), "prm");
     EXPECT_EQ(nearestName("x", {}), "");
     EXPECT_EQ(nearestName("ab", {"bb", "aa"}), "bb");  // the first of equally near ones
-    EXPECT_NE(nearestName(std::string(100000, 'q'), planners), "");
     EXPECT_EQ(unknownName("planner", "rrtstr", {"prm", "rrtstar"}),
               "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar");
     EXPECT_EQ(unknownName("planner", "a\nb\xC3", {}), "unknown planner 'a?b?'");
+}
+
+TEST(NearestName, SuggestsNothingForWhatResemblesNone)
+{
+    const std::vector<std::string> models = {"car", "grid8", "grid16"};
+    for (const char *name : {"frobnicate", "x", "", "boat", "hybrid", "%%%%%", "grob"})
+    {
+        EXPECT_EQ(nearestName(name, models), "") << name;
+        EXPECT_EQ(unknownName("model", name, models),
+                  "unknown model " + inQuotes(name) + "; known: car, grid8, grid16");
+    }
+    EXPECT_EQ(nearestName(std::string(100000, 'q'), models), "");
+    // On both sides of the limit of a third: two of five letters may be wrong, three of six may not.
+    EXPECT_EQ(nearestName("gryd9", models), "grid8");
+    EXPECT_EQ(nearestName("xxyd16", models), "");
+    // Letters that have changed places are one mistake.
+    EXPECT_EQ(nearestName("acr", models), "car");
+    // Half of the letters may be missing, not more.
+    EXPECT_EQ(nearestName("glf8", {"tpcap", "vw_golf8"}), "vw_golf8");
+    EXPECT_EQ(nearestName("gf8", {"tpcap", "vw_golf8"}), "");
 }
 
 TEST(NearestName, TellsAMisspeltNameFromAnotherOne)
