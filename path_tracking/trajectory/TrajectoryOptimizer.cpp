@@ -5,13 +5,16 @@
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/trajectory/MotionCheck.h"
 #include "path_tracking/trajectory/StopAndSteer.h"
+#include "path_tracking/trajectory/program/DrivenStretch.h"
 #include "path_tracking/trajectory/program/InteriorPoint.h"
 #include "path_tracking/trajectory/program/MotionOutline.h"
 #include "path_tracking/trajectory/program/Separation.h"
+#include "path_tracking/trajectory/program/SolvedMotion.h"
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace parking
@@ -28,10 +31,13 @@ namespace parking
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path, see Search
         constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 2.5;        // times as much work as long as nothing is found
+        constexpr double LONGEST_DROPPED = 0.5;     // metres of a stretch that is tried to do without
+        constexpr std::size_t MOST_DROPS = 4;       // such attempts
         constexpr double LIMITS_LEFT = 2e-5;        // share of the limits that is left for rounding
         constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
         constexpr std::size_t MOST_HITS = 50;       // that are looked into
         constexpr double GOAL_TOLERANCE = 2e-3;     // metres and radians that integration may miss the goal by
+        constexpr int MOST_CORRECTIONS = 2;         // of where the intervals of a program lead
         constexpr double PATH_STEP = 0.01;          // metres between poses of a path that is looked at
 
         bool isFree(const FootprintChecker &checker, const Path &path)
@@ -147,6 +153,8 @@ namespace parking
                 if (!found || solution.cost < found->cost)
                     found = std::move(solution);
             }
+            if (found)
+                dropStretches(*found);
             report_.path = found ? found->path : 0;
             if (!found)
                 return std::nullopt;
@@ -228,13 +236,8 @@ namespace parking
             return !stopped_ && (budget_ == 0.0 || left() > 0.0);
         }
 
-        /** A solution near a path; none leaves the attempt more careful than it was. */
-        std::optional<Solution> solve(Attempt &attempt)
+        std::optional<Solution> solveAlong(const MotionOutline &outline)
         {
-            separation_ = attempt.separation;
-            spacing_ = attempt.spacing;
-            start_ = attempt.start;
-            goal_ = attempt.goal;
             MotionProblem problem;
             problem.vehicle = owner_.body_;
             problem.vehicle.maxAcceleration *= 1.0 - LIMITS_LEFT;
@@ -244,19 +247,28 @@ namespace parking
             problem.clearance = owner_.options_.preferredClearance - separation_.margin;
             if (problem.clearance <= 0.0)
                 problem.weights.nearness = 0.0;
-            const MotionOutline &outline = *attempt.outline;
             outline.write(problem);
-            auto found =
-                solve(std::move(problem), FIRST_BARRIER,
-                      [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); });
+            return solve(std::move(problem), FIRST_BARRIER,
+                         [&outline](std::size_t interval, double fraction)
+                         { return outline.poseAt(interval, fraction); });
+        }
+
+        /** A solution near a path; none leaves the attempt more careful than it was. */
+        std::optional<Solution> solve(Attempt &attempt)
+        {
+            separation_ = attempt.separation;
+            spacing_ = attempt.spacing;
+            start_ = attempt.start;
+            goal_ = attempt.goal;
+            auto found = solveAlong(*attempt.outline);
             if (found)
             {
                 found->path = attempt.path;
                 return found;
             }
             // What had a solution, but a wrong one, needs to see more; what had none needs more room.
-            attempt.spacing *= 0.5;
             attempt.separation = separation_;
+            attempt.spacing *= 0.5;
             if (wrong_)
                 attempt.separation.range *= 1.5;
             else
@@ -268,13 +280,19 @@ namespace parking
             return std::nullopt;
         }
 
+        /** Solves what follows with what is known of \e solution. */
+        void useFrom(const Solution &solution)
+        {
+            separation_ = solution.separation;
+            spacing_ = solution.spacing;
+            start_ = solution.start;
+            goal_ = solution.goal;
+        }
+
         /** Chooses the lines anew along what was found, as often as that is worth it. */
         void improve(Solution &best)
         {
-            separation_ = best.separation;
-            spacing_ = best.spacing;
-            start_ = best.start;
-            goal_ = best.goal;
+            useFrom(best);
             for (std::size_t round = 0; round < owner_.options_.mostRounds && mayGoOn(); ++round)
             {
                 auto found = solveFrom(best.problem, AGAIN_BARRIER);
@@ -286,6 +304,42 @@ namespace parking
                 }
                 if (gain < ENOUGH_GAIN * best.cost)
                     return;
+            }
+        }
+
+        /** Tries to do without a stretch, again and again, the shortest first: a short one costs more time than its
+            way is worth, and the program can move a cusp, but never do away with it. */
+        void dropStretches(Solution &best)
+        {
+            std::size_t tries = 0;
+            for (bool again = true; again;)
+            {
+                again = false;
+                const std::vector<DrivenStretch> stretches = stretchesOf(best.problem);
+                std::vector<std::size_t> order(stretches.size());
+                std::iota(order.begin(), order.end(), std::size_t{0});
+                std::stable_sort(order.begin(), order.end(),
+                                 [&stretches](std::size_t a, std::size_t b)
+                                 { return stretches[a].length < stretches[b].length; });
+                for (const std::size_t index : order)
+                {
+                    if (tries >= MOST_DROPS || !mayGoOn() || stretches[index].length > LONGEST_DROPPED)
+                        return;
+                    const std::vector<DrivenStretch> rest = withoutStretch(stretches, index);
+                    if (rest.empty())
+                        return;
+                    ++tries;
+                    useFrom(best);
+                    auto found = solveAlong({guessesAlong(rest, owner_.body_), owner_.body_, owner_.options_.step,
+                                             owner_.options_.initialSteering, owner_.options_.finalSteering});
+                    if (!found || found->cost >= best.cost)
+                        continue;
+                    found->path = best.path;
+                    best = std::move(*found);
+                    improve(best);
+                    again = true;
+                    break;
+                }
             }
         }
 
@@ -301,6 +355,7 @@ namespace parking
                                       const std::function<Pose(std::size_t, double)> &poseAt)
         {
             wrong_ = false;
+            separation_.known = touched_;
             const SeparationPlan lines(owner_.pieces_, owner_.body_, separation_,
                                        checkpointsAlong(problem.directions, owner_.body_.wheelbase, spacing_, poseAt),
                                        poseAt, interrupted_);
@@ -310,6 +365,27 @@ namespace parking
                 return std::nullopt;
             }
             lines.write(problem);
+            auto cost = minimize(problem, barrier);
+            if (!cost)
+                return std::nullopt;
+            TimedMotion motion = motionOf(problem, start_);
+            // Along hundreds of metres the small errors of collocation add up.
+            for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion); ++i)
+            {
+                correctIntervals(problem);
+                cost = minimize(problem, AGAIN_BARRIER);
+                if (!cost)
+                    return std::nullopt;
+                motion = motionOf(problem, start_);
+            }
+            if (!holds(motion))
+                return std::nullopt;
+            return Solution{std::move(problem), std::move(motion), *cost, 0, separation_, spacing_, start_, goal_};
+        }
+
+        /** Solves the program itself, and gives its nodes to \e problem. \return the cost */
+        std::optional<double> minimize(MotionProblem &problem, double barrier)
+        {
             MotionProgram program(problem);
             InteriorPointOptions options;
             options.firstBarrier = barrier;
@@ -329,26 +405,12 @@ namespace parking
             if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)
                 return std::nullopt;
             problem.nodes = std::move(solved.nodes);
-            TimedMotion motion = motionOf(problem);
-            if (!holds(motion))
-                return std::nullopt;
-            return Solution{std::move(problem), std::move(motion), solved.cost, 0,
-                            separation_,        spacing_,          start_,      goal_};
+            return solved.cost;
         }
 
-        TimedMotion motionOf(const MotionProblem &problem) const
+        bool reachesGoal(const TimedMotion &motion) const
         {
-            TimedMotion motion{start_, {}};
-            for (std::size_t k = 0; k < problem.nodes.size(); ++k)
-            {
-                // A node between a standstill and a drive is at rest, whatever the direction.
-                const int before = k > 0 ? problem.directions[k - 1] : 0;
-                const int behind = k < problem.directions.size() ? problem.directions[k] : 0;
-                motion.append(k > 0 ? problem.nodes[k - 1][NODE_DURATION] : 0.0,
-                              (before != 0 ? before : behind) * problem.nodes[k][NODE_SPEED],
-                              problem.nodes[k][NODE_STEERING]);
-            }
-            return motion;
+            return isSamePose(endOf(motion, owner_.checker_.vehicle()), goal_, GOAL_TOLERANCE);
         }
 
         /** Does the motion reach the goal and touch nothing? Notes what it touches, and that it is wrong. */
@@ -356,15 +418,14 @@ namespace parking
         {
             wrong_ = true;
             report_.reason = "the goal was missed";
-            if (!isSamePose(endOf(motion, owner_.checker_.vehicle()), goal_, GOAL_TOLERANCE))
+            if (!reachesGoal(motion))
                 return false;
             report_.reason = "the motions found touch obstacles";
             const std::vector<Pose> hits = collisionsOf(motion, owner_.checker_, MOST_HITS);
-            std::vector<std::size_t> &always = separation_.always;
             for (const Pose &pose : hits)
                 for (const std::size_t piece : piecesNear(owner_.pieces_, owner_.body_, owner_.toLocal(pose), NEAR_HIT))
-                    if (std::find(always.begin(), always.end(), piece) == always.end())
-                        always.push_back(piece);
+                    if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
+                        touched_.push_back(piece);
             wrong_ = !hits.empty();
             return hits.empty();
         }
@@ -375,9 +436,10 @@ namespace parking
         Pose start_, goal_;
         double spacing_{SPACING};
         SeparationOptions separation_;
-        bool wrong_{false};    // the last program had a solution, which did not hold
-        bool stopped_{false};  // by the caller
-        bool isFound_{false};  // something that holds
+        std::vector<std::size_t> touched_;  // pieces that motions touched: what one ran into is in the way of others
+        bool wrong_{false};                 // the last program had a solution, which did not hold
+        bool stopped_{false};               // by the caller
+        bool isFound_{false};               // something that holds
         /** Iterations, each by the nodes of its program and a twelfth of its rows, which is what takes the time:
            about 1.5 microseconds. Counted instead of time, so that equal input gives equal output. @{ */
         double work_{0.0}, budget_{0.0};

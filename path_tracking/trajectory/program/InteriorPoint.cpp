@@ -19,8 +19,9 @@ namespace parking
            and joints and inequalities are this near to holding. Else the last millisecond takes half of the time. */
         constexpr double SMALL_CHANGE = 1e-4, NEARLY = 1e-4;
         constexpr int ENOUGH_SMALL_CHANGES = 3;
-        /** Metres and radians that joints may gape in what is not optimal. */
-        constexpr double FEASIBLE_GAP = 1e-5;
+        /** Metres and radians that a joint may gape in what is not optimal, and all of them together: a motion misses
+            its goal by their sum. */
+        constexpr double FEASIBLE_GAP = 1e-5, FEASIBLE_SUM = 5e-4;
         /** Attempts to make the system positive definite. */
         constexpr int MOST_SHIFTS = 40;
 
@@ -92,7 +93,7 @@ namespace parking
                 result.cost = cost_;
                 result.gap = gap();
                 result.violation = violation();
-                if (result.status == InteriorPointStatus::Infeasible && result.gap <= FEASIBLE_GAP &&
+                if (result.status == InteriorPointStatus::Infeasible && result.gap <= feasibleGap() &&
                     result.violation <= options_.limitTolerance)
                     result.status = InteriorPointStatus::Feasible;
                 return result;
@@ -105,6 +106,11 @@ namespace parking
                 for (const auto &joint : joints_)
                     widest = std::max(widest, joint.lpNorm<Eigen::Infinity>());
                 return widest;
+            }
+
+            double feasibleGap() const
+            {
+                return std::min(FEASIBLE_GAP, FEASIBLE_SUM / static_cast<double>(joints_.size()));
             }
 
             double violation() const
@@ -151,7 +157,7 @@ namespace parking
                 {
                     if (barrier_ <= options_.lastBarrier)
                     {
-                        if (gap() <= (settled ? FEASIBLE_GAP : options_.jointTolerance) &&
+                        if (gap() <= (settled ? feasibleGap() : options_.jointTolerance) &&
                             violation() <= options_.limitTolerance)
                             return true;
                         break;

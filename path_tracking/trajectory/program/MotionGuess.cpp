@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking
 {
     namespace
     {
-        constexpr double GRID = 0.02;  // metres between two points
+        constexpr double GRID = 0.02;       // metres between two points
+        constexpr double LEAST_WAY = 1e-3;  // metres between two points, so that a drive takes time
 
         /** Means of \e values over \e reach neighbours to either side, as far as there are any. */
         std::vector<double> averaged(const std::vector<double> &values, std::size_t reach)
@@ -50,14 +52,36 @@ namespace parking
         const std::vector<double> steering = averaged(angles, static_cast<std::size_t>(window / grid));
         for (std::size_t i = 0; i <= parts; ++i)
             points_[i].steering = std::clamp(steering[i], -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
-        const double gain = 2.0 * vehicle.maxAcceleration * grid;
+        setSpeeds(std::vector<double>(parts, grid), vehicle);
+    }
+
+    StretchGuess::StretchGuess(int direction, std::vector<GuessPoint> points, const Vehicle &vehicle)
+      : direction_(direction),
+        points_(std::move(points))
+    {
+        std::vector<double> ways;
+        for (std::size_t i = 1; i < points_.size(); ++i)
+            ways.push_back(std::max(LEAST_WAY, positionDistance(points_[i - 1].pose, points_[i].pose)));
+        setSpeeds(ways, vehicle);
+    }
+
+    void StretchGuess::setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle)
+    {
+        const double doubled = 2.0 * vehicle.maxAcceleration;
+        const auto reachable = [doubled](const GuessPoint &from, double way)
+        {
+            return std::sqrt(from.speed * from.speed + doubled * way);
+        };
+        for (GuessPoint &point : points_)
+            point.speed = vehicle.maxSpeed;
         points_.front().speed = points_.back().speed = 0.0;
-        for (std::size_t i = 1; i <= parts; ++i)
-            points_[i].speed = std::min(points_[i].speed, std::sqrt(std::pow(points_[i - 1].speed, 2) + gain));
-        for (std::size_t i = parts; i-- > 0;)
-            points_[i].speed = std::min(points_[i].speed, std::sqrt(std::pow(points_[i + 1].speed, 2) + gain));
-        for (std::size_t i = 1; i <= parts; ++i)
-            points_[i].t = points_[i - 1].t + 2.0 * grid / (points_[i - 1].speed + points_[i].speed);
+        for (std::size_t i = 0; i < ways.size(); ++i)
+            points_[i + 1].speed = std::min(points_[i + 1].speed, reachable(points_[i], ways[i]));
+        for (std::size_t i = ways.size(); i-- > 0;)
+            points_[i].speed = std::min(points_[i].speed, reachable(points_[i + 1], ways[i]));
+        points_.front().t = 0.0;
+        for (std::size_t i = 0; i < ways.size(); ++i)
+            points_[i + 1].t = points_[i].t + 2.0 * ways[i] / (points_[i].speed + points_[i + 1].speed);
     }
 
     GuessPoint StretchGuess::at(double t) const

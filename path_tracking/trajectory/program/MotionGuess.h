@@ -26,6 +26,10 @@ namespace parking
             \param window metres to either side over which the steering angle is averaged, positive */
         StretchGuess(const Path &path, const Vehicle &vehicle, double window);
 
+        /** \brief A drive through poses, whose steering angles are taken as they are.
+            \param points two at least, in order, with pose and steering angle; time and speed are made anew */
+        StretchGuess(int direction, std::vector<GuessPoint> points, const Vehicle &vehicle);
+
         /** \brief 1 forwards, -1 in reverse. */
         int direction() const
         {
@@ -42,6 +46,8 @@ namespace parking
         GuessPoint at(double t) const;
 
     private:
+        void setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle);
+
         int direction_;
         std::vector<GuessPoint> points_;
     };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking
 {
@@ -17,20 +18,33 @@ namespace parking
         }
 
         constexpr int POSE = bit(NODE_X) | bit(NODE_Y) | bit(NODE_YAW);
+
+        std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle)
+        {
+            std::vector<StretchGuess> guesses;
+            double yaw = path.start.yaw;
+            for (const Stretch &stretch : path.stretches())
+            {
+                Path part = path.part(stretch.first, stretch.last);
+                part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
+                guesses.emplace_back(part, vehicle, STEERING_WINDOW);
+                yaw = guesses.back().at(guesses.back().duration()).pose.yaw;
+            }
+            return guesses;
+        }
     }  // namespace
 
     MotionOutline::MotionOutline(const Path &path, const Vehicle &vehicle, double step,
                                  std::optional<double> initialSteering, std::optional<double> finalSteering)
-      : steeringRate_(vehicle.maxSteeringRate)
+      : MotionOutline(guessesAlong(path, vehicle), vehicle, step, initialSteering, finalSteering)
     {
-        double yaw = path.start.yaw;
-        for (const Stretch &stretch : path.stretches())
-        {
-            Path part = path.part(stretch.first, stretch.last);
-            part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
-            guesses_.emplace_back(part, vehicle, STEERING_WINDOW);
-            yaw = guesses_.back().at(guesses_.back().duration()).pose.yaw;
-        }
+    }
+
+    MotionOutline::MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
+                                 std::optional<double> initialSteering, std::optional<double> finalSteering)
+      : steeringRate_(vehicle.maxSteeringRate),
+        guesses_(std::move(guesses))
+    {
         const auto standstill = [&](GuessPoint at, double from, double to, int fixed)
         {
             at.steering = from;

@@ -26,6 +26,10 @@ namespace parking
         MotionOutline(const Path &path, const Vehicle &vehicle, double step, std::optional<double> initialSteering,
                       std::optional<double> finalSteering);
 
+        /** \brief Along the stretches of \e guesses, one at least. */
+        MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
+                      std::optional<double> initialSteering, std::optional<double> finalSteering);
+
         /** \brief Seconds that driving along the path takes when the wheels need no time to turn. */
         double duration() const;
 

@@ -79,10 +79,12 @@ namespace parking
         /** Metres beyond a row from which on it costs nothing to be near; nearer the price grows with the square of
             what is missing. */
         double clearance{0.0};
-        double leastDuration{0.01};                 ///< seconds, of an interval that drives
-        std::vector<int> directions;                ///< per interval: 1 forwards, -1 in reverse, 0 at a standstill
-        std::vector<NodeVector> nodes;              ///< one more than intervals: where to begin
-        std::vector<std::uint8_t> fixed;            ///< per node, bit by bit: entries that keep their value
+        double leastDuration{0.01};       ///< seconds, of an interval that drives
+        std::vector<int> directions;      ///< per interval: 1 forwards, -1 in reverse, 0 at a standstill
+        std::vector<NodeVector> nodes;    ///< one more than intervals: where to begin
+        std::vector<std::uint8_t> fixed;  ///< per node, bit by bit: entries that keep their value
+        /** Per interval: x, y and yaw by which it leads farther than its collocation says; empty for no difference. */
+        std::vector<Eigen::Vector3d> corrections;
         std::vector<MotionCheckpoint> checkpoints;  ///< by interval
         std::vector<BodyRow> rows;                  ///< demands on poses, grouped by checkpoint
 

@@ -112,6 +112,8 @@ namespace parking
         Eigen::Vector4d joints;
         joints << model.gaps(),
             problem_.sharesDuration(k) ? nodes[k + 1][NODE_DURATION] - nodes[k][NODE_DURATION] : 0.0;
+        if (!problem_.corrections.empty())
+            joints.head<3>() -= problem_.corrections[k];
         return joints;
     }
 

@@ -60,7 +60,7 @@ namespace parking
             const bool near = (box.min.array() <= region.max.array() + reach).all() &&
                               (box.max.array() >= region.min.array() - reach).all();
             if (pieces_[i].normals.size() > 2 &&
-                (near || std::count(options_.always.begin(), options_.always.end(), i) != 0))
+                (near || std::count(options_.known.begin(), options_.known.end(), i) != 0))
                 candidates_.push_back(i);
         }
         for (const GuessedCheckpoint &point : checkpoints)
@@ -137,7 +137,7 @@ namespace parking
             const Box &box = pieces_[i].box;
             const bool near =
                 (box.min.array() <= part_.max.array()).all() && (box.max.array() >= part_.min.array()).all();
-            if (near || std::count(options_.always.begin(), options_.always.end(), i) != 0)
+            if (near || std::count(options_.known.begin(), options_.known.end(), i) != 0)
                 partCandidates_.push_back(i);
         }
         return partCandidates_;
@@ -146,16 +146,18 @@ namespace parking
     SeparationPlan::Place SeparationPlan::makePlace(const GuessedCheckpoint &point, const Place *before) const
     {
         Place place{point, std::cos(point.pose.yaw), std::sin(point.pose.yaw), {}, {}};
-        const double offset = vehicle_.centreOffset(), reach = options_.range + reach_;
+        const double offset = vehicle_.centreOffset();
         const Eigen::Vector2d middle(point.pose.x + offset * place.cosine, point.pose.y + offset * place.sine);
         auto old = before != nullptr ? before->choices.begin() : std::vector<Choice>::const_iterator();
-        const Eigen::Vector2d far(reach, reach);
+        const double farthest = options_.range + reach_;
+        const Eigen::Vector2d far(farthest, farthest);
         for (const std::size_t i : candidatesWithin({middle - far, middle + far}))
         {
             const Box &box = pieces_[i].box;
             const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);
-            const bool always = std::count(options_.always.begin(), options_.always.end(), i) != 0;
-            if (!always && off.squaredNorm() > reach * reach)
+            const bool known = std::count(options_.known.begin(), options_.known.end(), i) != 0;
+            const double range = known ? options_.knownRange : options_.range;
+            if (off.squaredNorm() > (range + reach_) * (range + reach_))
                 continue;
             Choice choice = best(place, i);
             if (before != nullptr)
@@ -169,7 +171,7 @@ namespace parking
                         choice = {i, old->line, kept};
                 }
             }
-            if (always || choice.gap < options_.range)
+            if (choice.gap < range)
                 place.choices.push_back(choice);
         }
         share(place);

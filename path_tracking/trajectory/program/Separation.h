@@ -41,7 +41,8 @@ namespace parking
         double range{1.0};     ///< metres within which pieces matter
         double worstSwitch{
             0.01};  ///< metres of overlap that a change of lines may ask for before poses are put between
-        std::vector<std::size_t> always;  ///< pieces that matter however far they are
+        std::vector<std::size_t> known;  ///< pieces that are known to be in the way
+        double knownRange{15.0};         ///< metres within which those matter
     };
 
     /** \brief Chooses lines that keep a moving body apart from obstacles.
