@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -33,12 +34,13 @@ namespace parking
         constexpr double WORK_TO_FIND = 2.5;        // times as much work as long as nothing is found
         constexpr double LONGEST_DROPPED = 0.5;     // metres of a stretch that is tried to do without
         constexpr std::size_t MOST_DROPS = 4;       // such attempts
-        constexpr double LIMITS_LEFT = 2e-5;        // share of the limits that is left for rounding
-        constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
-        constexpr std::size_t MOST_HITS = 50;       // that are looked into
-        constexpr double GOAL_TOLERANCE = 2e-3;     // metres and radians that integration may miss the goal by
-        constexpr int MOST_CORRECTIONS = 2;         // of where the intervals of a program lead
-        constexpr double PATH_STEP = 0.01;          // metres between poses of a path that is looked at
+        constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
+        constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
+        constexpr double NEAR_HIT = 0.05;                 // metres within which obstacles are to blame for a hit
+        constexpr std::size_t MOST_HITS = 50;             // that are looked into
+        constexpr double GOAL_TOLERANCE = 2e-3;           // metres and radians that integration may miss the goal by
+        constexpr int MOST_CORRECTIONS = 2;               // of where the intervals of a program lead
+        constexpr double PATH_STEP = 0.01;                // metres between poses of a path that is looked at
 
         bool isFree(const FootprintChecker &checker, const Path &path)
         {
@@ -330,8 +332,10 @@ namespace parking
                         return;
                     ++tries;
                     useFrom(best);
+                    mostIterations_ = MOST_DROP_ITERATIONS;
                     auto found = solveAlong({guessesAlong(rest, owner_.body_), owner_.body_, owner_.options_.step,
                                              owner_.options_.initialSteering, owner_.options_.finalSteering});
+                    mostIterations_ = std::numeric_limits<std::size_t>::max();
                     if (!found || found->cost >= best.cost)
                         continue;
                     found->path = best.path;
@@ -394,7 +398,8 @@ namespace parking
             if (budget_ == 0.0)
                 budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
             const double affordable = std::max(0.0, left() / size);
-            options.mostIterations = std::min(options.mostIterations, 1 + static_cast<std::size_t>(affordable));
+            options.mostIterations =
+                std::min({options.mostIterations, mostIterations_, 1 + static_cast<std::size_t>(affordable)});
             InteriorPointResult solved = solveMotion(program, options, interrupted_);
             work_ += size * static_cast<double>(solved.iterations);
             ++report_.rounds;
@@ -437,9 +442,10 @@ namespace parking
         double spacing_{SPACING};
         SeparationOptions separation_;
         std::vector<std::size_t> touched_;  // pieces that motions touched: what one ran into is in the way of others
-        bool wrong_{false};                 // the last program had a solution, which did not hold
-        bool stopped_{false};               // by the caller
-        bool isFound_{false};               // something that holds
+        std::size_t mostIterations_{std::numeric_limits<std::size_t>::max()};  // of the next program
+        bool wrong_{false};    // the last program had a solution, which did not hold
+        bool stopped_{false};  // by the caller
+        bool isFound_{false};  // something that holds
         /** Iterations, each by the nodes of its program and a twelfth of its rows, which is what takes the time:
            about 1.5 microseconds. Counted instead of time, so that equal input gives equal output. @{ */
         double work_{0.0}, budget_{0.0};
