@@ -268,8 +268,11 @@ namespace parking
                 found->path = attempt.path;
                 return found;
             }
-            // What had a solution, but a wrong one, needs to see more; what had none needs more room.
+            // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
+            // known already, more of everything. What had none needs more room.
             attempt.separation = separation_;
+            if (wrong_ && learnt_)
+                return std::nullopt;
             attempt.spacing *= 0.5;
             if (wrong_)
                 attempt.separation.range *= 1.5;
@@ -358,7 +361,7 @@ namespace parking
         std::optional<Solution> solve(MotionProblem problem, double barrier,
                                       const std::function<Pose(std::size_t, double)> &poseAt)
         {
-            wrong_ = false;
+            wrong_ = learnt_ = false;
             separation_.known = touched_;
             const SeparationPlan lines(owner_.pieces_, owner_.body_, separation_,
                                        checkpointsAlong(problem.directions, owner_.body_.wheelbase, spacing_, poseAt),
@@ -430,7 +433,10 @@ namespace parking
             for (const Pose &pose : hits)
                 for (const std::size_t piece : piecesNear(owner_.pieces_, owner_.body_, owner_.toLocal(pose), NEAR_HIT))
                     if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
+                    {
                         touched_.push_back(piece);
+                        learnt_ = true;
+                    }
             wrong_ = !hits.empty();
             return hits.empty();
         }
@@ -444,6 +450,7 @@ namespace parking
         std::vector<std::size_t> touched_;  // pieces that motions touched: what one ran into is in the way of others
         std::size_t mostIterations_{std::numeric_limits<std::size_t>::max()};  // of the next program
         bool wrong_{false};    // the last program had a solution, which did not hold
+        bool learnt_{false};   // and touched what was not known to be in the way
         bool stopped_{false};  // by the caller
         bool isFound_{false};  // something that holds
         /** Iterations, each by the nodes of its program and a twelfth of its rows, which is what takes the time:
