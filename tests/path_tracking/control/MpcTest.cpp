@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -74,11 +75,15 @@ namespace parking::test
         TEST(Mpc, ItsAnswerIsAMinimum)
         {
             // No feasible change of the controls, small or large, in any of many directions, does noticeably better.
+            // For one of these problems (seed 56) one does by 0.9 %, however small the gain is at which the solver may
+            // stop. Figures of more problems: docs/path-tracking.md.
             const Vehicle vehicle;
             MpcParameters mpc;
             mpc.maxIterations = 30;
+            std::size_t worse = 0;
             for (std::uint64_t seed = 0; seed < 60; ++seed)
             {
+                double least = std::numeric_limits<double>::infinity();
                 const MpcProblem problem = randomProblem(seed, mpc);
                 Mpc controller(vehicle, mpc);
                 const MpcSolution solution = controller.solve(problem);
@@ -102,9 +107,12 @@ namespace parking::test
                         other[k] += size * random.between(-1.0, 1.0);
                     cutToLimits(limits, other);
                     cost.evaluate(other, residuals, nullptr);
-                    EXPECT_GE(residuals.squaredNorm(), value * (1.0 - 1e-2) - 1e-6) << seed;
+                    least = std::min(least, residuals.squaredNorm());
                 }
+                EXPECT_GE(least, value * (1.0 - 1e-2) - 1e-6) << seed;
+                worse += least < value * (1.0 - 5e-3) - 1e-6 ? 1 : 0;
             }
+            EXPECT_LE(worse, 1U);
         }
 
         TEST(Mpc, OnThePathItAnswersWithThePathsControls)
