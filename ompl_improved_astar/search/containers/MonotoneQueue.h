@@ -57,7 +57,7 @@ namespace parking::search
             \param item its key grows with the priority */
         void push(float priority, const Item &item)
         {
-            const auto bucket = static_cast<std::uint64_t>(priority * PER_UNIT);
+            const std::uint64_t bucket = bucketOf(priority);
             if (bucket <= current_)
             {
                 heap_.push_back(item);
@@ -78,10 +78,48 @@ namespace parking::search
             return item;
         }
 
+        /** \brief Number of items. */
+        std::size_t size() const
+        {
+            return heap_.size() + inRing_ + beyond_.size();
+        }
+
+        /** \brief Gives all items new priorities, which may be smaller than any before.
+
+            \param renew gets an item, sets its key, and returns its priority; a negative one drops the item */
+        template <class Renew>
+        void renewAll(const Renew &renew)
+        {
+            std::vector<Item> items;
+            items.reserve(size());
+            items.insert(items.end(), heap_.begin(), heap_.end());
+            for (std::size_t k = 0, left = inRing_; left > 0; ++k)
+                for (std::uint32_t place = first_[k]; place != NONE; place = pool_[place].next, --left)
+                    items.push_back(pool_[place].item);
+            for (const Waiting &each : beyond_)
+                items.push_back(each.item);
+            clear();
+            std::vector<float> priorities(items.size());
+            std::transform(items.begin(), items.end(), priorities.begin(), renew);
+            float least = -1.0f;
+            for (const float priority : priorities)
+                if (priority >= 0.0f && (least < 0.0f || priority < least))
+                    least = priority;
+            current_ = least < 0.0f ? 0 : bucketOf(least);
+            for (std::size_t k = 0; k < items.size(); ++k)
+                if (priorities[k] >= 0.0f)
+                    push(priorities[k], items[k]);
+        }
+
     private:
         static constexpr float PER_UNIT = 32.0f;     // buckets
         static constexpr std::uint64_t RING = 1024;  // buckets that are told apart at a time, a power of two
         static constexpr std::uint32_t NONE = 0xffffffffu;
+
+        static std::uint64_t bucketOf(float priority)
+        {
+            return static_cast<std::uint64_t>(priority * PER_UNIT);
+        }
 
         struct Waiting
         {

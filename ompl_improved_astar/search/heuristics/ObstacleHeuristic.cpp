@@ -14,7 +14,9 @@ namespace parking::search
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
-    }  // namespace
+        constexpr std::uint64_t MANY_CELLS = 128;     // settled for one question
+        constexpr std::size_t LARGEST_POCKET = 1000;  // cells: what is larger is no pocket
+    }                                                 // namespace
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
     {
@@ -53,9 +55,14 @@ namespace parking::search
         open_.clear();
         settled_ = 0;
         leftGrid_ = false;
+        pocket_.cells.clear();
+        pocket_.next = 0;
         // The grid is centred where the questions will be.
         origin_ = toward;
         towardColumn_ = towardRow_ = 0.5f;
+        // A hair more than the octile distance: of many equally short ways in the open one is followed to its end. What
+        // is settled is longer than the shortest way by no more than this hair.
+        hair_ = 1.00002f;
     }
 
     bool ObstacleHeuristic::isOpen(CellState &state, std::int32_t column, std::int32_t row)
@@ -105,15 +112,37 @@ namespace parking::search
     {
         const float dx = std::abs(static_cast<float>(column) + 0.5f - towardColumn_);
         const float dy = std::abs(static_cast<float>(row) + 0.5f - towardRow_);
-        // A hair more than the octile distance: of many equally short ways in the open one is followed to its end. What
-        // is settled is longer than the shortest way by no more than this hair.
-        return 1.00002f * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
+        return hair_ * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
     }
 
     void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)
     {
         const float f = g + estimate(column, row);
-        open_.push(f, {(static_cast<std::uint64_t>(bitsOf(f)) << 32) | (0xffffffffu - bitsOf(g)), column, row});
+        open_.push(f, entryOf(f, g, column, row));
+    }
+
+    ObstacleHeuristic::Entry ObstacleHeuristic::entryOf(float f, float g, std::int32_t column, std::int32_t row) const
+    {
+        return {(static_cast<std::uint64_t>(bitsOf(f)) << 32) | (0xffffffffu - bitsOf(g)), column, row};
+    }
+
+    void ObstacleHeuristic::aimAt(std::int32_t column, std::int32_t row)
+    {
+        // Some cell of every shortest way waits with the length of that way up to it, whatever was made for until now,
+        // so that what is settled from now on is settled with the length of its shortest way as well.
+        towardColumn_ = static_cast<float>(column) + 0.5f;
+        towardRow_ = static_cast<float>(row) + 0.5f;
+        hair_ = 1.0f;
+        open_.renewAll(
+            [this](Entry &entry)
+            {
+                const CellState &state = states_.at(entry.column, entry.row);
+                if (state.settled)
+                    return -1.0f;
+                const float f = state.g + estimate(entry.column, entry.row);
+                entry = entryOf(f, state.g, entry.column, entry.row);
+                return f;
+            });
     }
 
     void ObstacleHeuristic::addTarget(double x, double y)
@@ -159,16 +188,79 @@ namespace parking::search
         return false;
     }
 
+    void ObstacleHeuristic::beginPocket(std::int32_t column, std::int32_t row)
+    {
+        CellState &state = states_.at(column, row);
+        if (state.looked != Looked::Never)
+            return;
+        state.looked = Looked::Now;
+        pocket_.cells.push_back({0, column, row});
+    }
+
+    void ObstacleHeuristic::widenPocket()
+    {
+        if (pocket_.cells.empty())
+            return;
+        if (pocket_.next == pocket_.cells.size())
+        {
+            // Meanwhile the search may have come in.
+            endPocket(std::none_of(pocket_.cells.begin(), pocket_.cells.end(),
+                                   [this](const Entry &each) { return isReached(states_.at(each.column, each.row)); }));
+            return;
+        }
+        const Entry cell = pocket_.cells[pocket_.next++];
+        bool hasWayOut = false;
+        const bool inside =
+            states_.forEachNeighbour(cell.column, cell.row,
+                                     [this, &hasWayOut](CellState &next, std::int32_t column, std::int32_t row, bool)
+                                     {
+                                         if (next.looked == Looked::Now || !isOpen(next, column, row))
+                                             return;
+                                         hasWayOut = hasWayOut || isReached(next) || next.looked == Looked::Before;
+                                         next.looked = Looked::Now;
+                                         pocket_.cells.push_back({0, column, row});
+                                     });
+        if (hasWayOut || !inside || pocket_.cells.size() > LARGEST_POCKET)
+            endPocket(false);
+    }
+
+    void ObstacleHeuristic::endPocket(bool isClosed)
+    {
+        for (const Entry &each : pocket_.cells)
+        {
+            CellState &state = states_.at(each.column, each.row);
+            state.looked = Looked::Before;
+            state.settled = state.settled || isClosed;
+        }
+        pocket_.cells.clear();
+        pocket_.next = 0;
+    }
+
     double ObstacleHeuristic::distance(double x, double y)
     {
         stopped_ = false;
         const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
         if (!TiledGrid<CellState>::contains(u, v))
             return 0.0;
-        const CellState &asked = states_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+        const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+        CellState &asked = states_.at(column, row);
+        if (!asked.settled && !isReached(asked) && !isOpen(asked, column, row))
+            asked.settled = true;
+        // Cells beside the way to the place that is made for come late, and those of a pocket never. A new aim costs as
+        // much as a part of what waits.
+        const std::uint64_t patienceEnds = settled_ + std::max<std::uint64_t>(MANY_CELLS, open_.size() / 4);
         Entry entry;
         while (!asked.settled)
         {
+            if (settled_ >= patienceEnds)
+            {
+                if (settled_ == patienceEnds)
+                {
+                    aimAt(column, row);
+                    beginPocket(column, row);
+                }
+                widenPocket();
+            }
             if (settled_ % CELLS_BETWEEN_STOPS == CELLS_BETWEEN_STOPS - 1 && shouldStop())
             {
                 stopped_ = true;
@@ -179,6 +271,8 @@ namespace parking::search
             if (!settleNext(entry))
                 return leftGrid_ ? 0.0 : std::numeric_limits<double>::infinity();
         }
+        if (!pocket_.cells.empty())
+            endPocket(false);
         return static_cast<double>(asked.g) * resolution_;
     }
 

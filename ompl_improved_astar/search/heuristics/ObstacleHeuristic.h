@@ -27,7 +27,9 @@ namespace parking::search
 
         A resumable A* from the targets over a grid of eight neighbours (D. Silver, "Cooperative pathfinding", 2005:
         reverse resumable A*): asking for a cell continues the search until that cell is settled, so the cost grows with
-        the area that is asked about, not with the map. Cells live in tiles that are made when first touched.
+        the area that is asked about, not with the map. Cells live in tiles that are made when first touched. A cell
+       that takes long is made for itself, and looked round: where it lies in a pocket that the disc cannot leave, this
+       is found out from within.
 
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
         an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
@@ -88,12 +90,20 @@ namespace parking::search
         }
 
     private:
+        enum class Looked : std::uint8_t
+        {
+            Never,
+            Now,
+            Before  // there is a way out, or it is too far
+        };
+
         struct CellState
         {
             float g{std::numeric_limits<float>::infinity()};
             Occupancy passage{Occupancy::Unknown};  // of the disc
-            bool settled{false};
+            bool settled{false};                    // with an infinite g: there is no way
             bool dear{false};
+            Looked looked{Looked::Never};  // round this cell, in search of a pocket
         };
 
         /** Ordered by f, then by the larger g. */
@@ -103,11 +113,21 @@ namespace parking::search
             std::int32_t column, row;
         };
 
+        static bool isReached(const CellState &state)
+        {
+            return state.g < std::numeric_limits<float>::infinity();
+        }
+
         bool isOpen(CellState &state, std::int32_t column, std::int32_t row);
         bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         float estimate(std::int32_t column, std::int32_t row) const;
         void push(float g, std::int32_t column, std::int32_t row);
+        Entry entryOf(float f, float g, std::int32_t column, std::int32_t row) const;
+        void aimAt(std::int32_t column, std::int32_t row);
         bool settleNext(Entry &settled);
+        void beginPocket(std::int32_t column, std::int32_t row);
+        void widenPocket();
+        void endPocket(bool isClosed);
 
         bool shouldStop()
         {
@@ -120,9 +140,16 @@ namespace parking::search
         Disc disc_;
         std::uint64_t mostCells_{0};
         Eigen::Vector2d origin_{0.0, 0.0};
-        float towardColumn_{0.0f}, towardRow_{0.0f};
+        float towardColumn_{0.0f}, towardRow_{0.0f};  // the middle of the cell that is made for
+        float hair_{1.0f};                            // factor on what is estimated to be ahead
         TiledGrid<CellState> states_;
         MonotoneQueue<Entry> open_;
+        /** Cells round the one that is asked for, as far as they are known: perhaps there is no way out. */
+        struct Pocket
+        {
+            std::vector<Entry> cells;
+            std::size_t next{0};
+        } pocket_;
         std::uint64_t settled_{0};
         bool stopped_{false};   // the last answer is what it is for want of time
         bool leftGrid_{false};  // a target or a way lies beyond the reach of the grid

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <queue>
@@ -79,5 +80,57 @@ TEST(MonotoneQueue, forgetsOnClear)
         EXPECT_EQ(queue.pop().key, itemOf(1.0f, 1).key) << "and not what was left in the round before";
         EXPECT_TRUE(queue.empty());
         queue.clear();
+    }
+}
+
+TEST(MonotoneQueue, takesNewPriorities)
+{
+    for (const double widest : {0.5, 20.0, 500.0})
+    {
+        SCOPED_TRACE(widest);
+        Random random(11);
+        MonotoneQueue<Item> queue;
+        std::vector<std::uint64_t> kept;
+        for (int round = 0; round < 20; ++round)
+        {
+            for (std::size_t i = 0; i < 300; ++i)
+            {
+                const auto priority = static_cast<float>(random.between(0.0, widest));
+                const Item item = itemOf(priority, i);
+                queue.push(priority, item);
+                kept.push_back(item.key);
+            }
+            EXPECT_EQ(queue.size(), kept.size());
+            for (int i = 0; i < 50; ++i)
+            {
+                const auto least = std::min_element(kept.begin(), kept.end());
+                ASSERT_EQ(queue.pop().key, *least);
+                kept.erase(least);
+            }
+            // What was last is first now, and every third item is dropped.
+            const auto renewed = [widest](std::uint64_t key)
+            {
+                const double priority = static_cast<double>(key >> 20) / 1024.0;
+                return key % 3 == 0 ? -1.0f : static_cast<float>(widest - priority);
+            };
+            queue.renewAll(
+                [&renewed](Item &item)
+                {
+                    const float priority = renewed(item.key);
+                    item = itemOf(std::max(0.0f, priority), item.key % 1000);
+                    return priority;
+                });
+            std::vector<std::uint64_t> left;
+            for (const std::uint64_t key : kept)
+                if (const float priority = renewed(key); priority >= 0.0f)
+                    left.push_back(itemOf(priority, key % 1000).key);
+            kept = left;
+        }
+        std::sort(kept.begin(), kept.end());
+        for (const std::uint64_t key : kept)
+            ASSERT_EQ(queue.pop().key, key);
+        EXPECT_TRUE(queue.empty());
+        queue.renewAll([](Item &) { return 1.0f; });
+        EXPECT_TRUE(queue.empty());
     }
 }
