@@ -221,7 +221,7 @@ namespace parking::search
                 least = std::min(least, admissible(side, root));
             ofRoots = std::max(ofRoots, least);
         }
-        if (!boundIsKept_)
+        if (!boundIsKept_ || guides_.front().base->overestimates())
             return std::min(ofRoots, costBound_);
         // A complete model's motions are the same from both ends, so that either side bounds all paths; otherwise each
         // bounds those that are made of its own motions.

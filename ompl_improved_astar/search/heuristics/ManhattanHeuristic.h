@@ -13,6 +13,12 @@ namespace parking::search
         straight distance serves. */
     class ManhattanHeuristic final : public StraightHeuristic
     {
+    public:
+        bool overestimates() const override
+        {
+            return true;
+        }
+
     protected:
         double between(const Pose &pose, const Pose &target) const override
         {
