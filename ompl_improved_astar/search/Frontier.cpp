@@ -12,6 +12,7 @@ namespace parking::search
         levels_ = levels;
         turnsRatio_ = turnsRatio;
         queueCount_ = 0;
+        doneByFormerQueues_ = {};
         queueTurn_ = 0;
         setQueues(1);
         nodes_.clear();
@@ -69,13 +70,10 @@ namespace parking::search
 
     OpenList::Work Frontier::work() const
     {
-        OpenList::Work sum;
-        for (std::size_t queue = 0; queue < queueCount_; ++queue)
+        OpenList::Work sum = doneByFormerQueues_;
+        for (std::size_t queue = 0; queue < std::min(queueCount_, queues_.size()); ++queue)
             for (const std::unique_ptr<OpenList> &list : queues_[queue].open)
-            {
-                sum.operations += list->work().operations;
-                sum.comparisons += list->work().comparisons;
-            }
+                sum += list->work();
         return sum;
     }
 
@@ -96,7 +94,9 @@ namespace parking::search
             queues_.resize(count);
         for (; queueCount_ < count; ++queueCount_)
             clear(queues_[queueCount_]);
-        queueCount_ = count;
+        for (; queueCount_ > count; --queueCount_)
+            for (const std::unique_ptr<OpenList> &list : queues_[queueCount_ - 1].open)
+                doneByFormerQueues_ += list->work();
     }
 
     bool Frontier::Queue::isEmpty() const

@@ -181,6 +181,7 @@ namespace parking::search
         CellTable cells_;
         std::vector<Queue> queues_;
         std::size_t queueCount_{1};
+        OpenList::Work doneByFormerQueues_;
         std::size_t queueTurn_{0};
         std::size_t levels_{1};
         std::string openListName_;

@@ -35,8 +35,8 @@ namespace parking::search
             target to the pose. */
         virtual double estimate(const Pose &pose) = 0;
 
-        /** \brief May estimates exceed what the shortest way costs by more than its steps are rounded? With weights of 1
-            the search then leaves out cheaper ways without taking note of them, and bounds its solutions by
+        /** \brief May estimates exceed what the shortest way costs by more than its steps are rounded? With weights of
+           1 the search then leaves out cheaper ways without taking note of them, and bounds its solutions by
             lowerBound() of the roots only. */
         virtual bool overestimates() const
         {

@@ -32,6 +32,13 @@ namespace parking::search
         {
             std::uint64_t operations{0};   ///< entries that were pushed, and entries that were popped
             std::uint64_t comparisons{0};  ///< of two entries with each other
+
+            Work &operator+=(const Work &other)
+            {
+                operations += other.operations;
+                comparisons += other.comparisons;
+                return *this;
+            }
         };
 
         virtual ~OpenList() = default;

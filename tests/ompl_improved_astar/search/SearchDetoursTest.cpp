@@ -41,8 +41,17 @@ namespace
         parameters.bounds = {-half, half};
         Search search;
         problem.begin(search, parameters);
-        const SearchOutcome outcome = search.run([&] { return search.statistics().expanded >= MOST_EXPANSIONS; });
+        std::uint64_t operations = 0;
+        const SearchOutcome outcome = search.run(
+            [&]
+            {
+                const SearchStatistics statistics = search.statistics();
+                EXPECT_GE(statistics.openListOperations, operations);
+                operations = statistics.openListOperations;
+                return statistics.expanded >= MOST_EXPANSIONS;
+            });
         EXPECT_EQ(search.hasSolution(), outcome == SearchOutcome::Improved);
+        EXPECT_GE(search.statistics().openListOperations, operations) << "those of the detours count after their end";
         if (search.hasSolution())
         {
             const Path path = search.bestPath();
