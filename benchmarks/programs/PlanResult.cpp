@@ -1,5 +1,6 @@
 #include "benchmarks/programs/PlanResult.h"
 
+#include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
 #include "benchmarks/problems/PathDrive.h"
@@ -7,6 +8,7 @@
 #include "parking_geometry/drawing/Svg.h"
 #include "parking_geometry/text/Text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -344,8 +346,9 @@ namespace parking
         return figure.toString();
     }
 
-    void addTrajectory(const Problem &problem, PlanResult &result)
+    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven)
     {
+        constexpr double ERROR_OF_TRACKING = 0.02;  // metres, without disturbances
         const PlanRun &run = result.first();
         if (!run.path)
             return;
@@ -355,6 +358,10 @@ namespace parking
             QuickestTrajectoryOptions options;
             options.alternatives = run.status == PlanStatus::Exact && problem.isDrivable();
             options.forwardOnly = problem.settings().space == SpaceKind::Dubins;
+            if (isDriven)
+                options.trajectory.margin =
+                    std::max(options.trajectory.margin,
+                             std::min(ERROR_OF_TRACKING, 0.5 * leastClearance(problem.footprint(), run.path->path)));
             result.trajectory =
                 quickestTrajectory(problem.footprint(), problem.scenario().bounds, run.path->path, options);
         }

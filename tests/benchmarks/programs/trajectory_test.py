@@ -10,6 +10,18 @@ LIMITS = {'v': 'max_speed', 'acceleration': 'max_acceleration', 'steering': 'max
 BUNDLED = ('parallel', 'perpendicular', 'angled45', 'narrow_parallel')
 
 
+def clearance(vehicle, sample, corners):
+    """Metres between the body and the nearest of some points."""
+    front, rear = vehicle['wheelbase'] + vehicle['front_overhang'], -vehicle['rear_overhang']
+    c, s = math.cos(sample['yaw']), math.sin(sample['yaw'])
+    least = math.inf
+    for x, y in corners:
+        along, across = (c * (x - sample['x']) + s * (y - sample['y']), c * (y - sample['y']) - s * (x - sample['x']))
+        least = min(least, math.hypot(max(rear - along, 0.0, along - front),
+                                      max(abs(across) - 0.5 * vehicle['width'], 0.0)))
+    return least
+
+
 class TrajectoryTest(ProgramTest):
 
     def test_a_trajectory_keeps_to_the_limits_from_start_to_goal(self):
@@ -51,6 +63,22 @@ class TrajectoryTest(ProgramTest):
             self.assertAlmostEqual(cost['J'], 100.0 * cost['time_s'] + 10.0 * cost['control_effort'] +
                                    10.0 * cost['steering_integral'] + 5.0 * cost['gear_changes'], delta=1e-6)
             self.assertGreater(figures['time_ms'], 0.0)
+
+    def test_one_that_is_driven_keeps_what_a_controller_errs_by(self):
+        # Two corners that the quickest way between them all but touches, while the path keeps 12 cm.
+        blocks = [[(-6.0, 1.2), (4.0, 1.2), (4.0, 12.0), (-6.0, 12.0)],
+                  [(9.0, -8.0), (24.0, -8.0), (24.0, 2.6), (9.0, 2.6)]]
+        lines = ''.join('  - [%s]\n' % ', '.join('[%g, %g]' % corner for corner in block) for block in blocks)
+        scenario = self.write('corners.yaml', 'start: [0, 0, 0]\ngoal: [14, 4, 0]\npolygons:\n' + lines)
+        kept = {}
+        for options in ((), ('--track',)):
+            result = self.planned(scenario, '--trajectory', *options)
+            kept[options] = min(clearance(result['vehicle'], sample, block)
+                                for sample in result['planned_trajectory'] for block in blocks)
+            self.assertGreater(result['min_clearance_m'], 0.1)
+        self.assertLess(kept[()], 0.01)
+        self.assertGreater(kept[('--track',)], 0.018)
+        self.assertEqual(result['tracking']['collisions'], 0)
 
     def test_equal_runs_give_equal_trajectories(self):
         first, second = (self.planned(bundled('parallel'), '--trajectory') for _ in range(2))
