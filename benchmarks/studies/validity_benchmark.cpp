@@ -362,7 +362,8 @@ namespace
             benchmark::RegisterBenchmark(("sweptArc1m/free" + how).c_str(), sweptArc, 3.0, 100.0, prepared);
             benchmark::RegisterBenchmark(("sweptArc1m/clearance_20cm" + how).c_str(), sweptArc, 0.15, 0.25, prepared);
         }
-        for (const auto &[name, build] : {std::pair("distanceField", distanceField), {"checkerOfMap", checkerOfMap}})
+        using Named = std::pair<const char *, void (*)(benchmark::State &)>;
+        for (const auto &[name, build] : {Named("distanceField", distanceField), Named("checkerOfMap", checkerOfMap)})
             benchmark::RegisterBenchmark(name, build)
                 ->Arg(200)
                 ->Arg(500)

@@ -33,6 +33,7 @@ namespace parking::search
             std::uint64_t operations{0};   ///< entries that were pushed, and entries that were popped
             std::uint64_t comparisons{0};  ///< of two entries with each other
 
+            /** \brief Adds what another list has done. */
             Work &operator+=(const Work &other)
             {
                 operations += other.operations;
