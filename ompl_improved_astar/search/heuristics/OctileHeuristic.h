@@ -14,11 +14,26 @@ namespace parking::search
         bound the straight distance serves. */
     class OctileHeuristic final : public StraightHeuristic
     {
+    public:
+        void begin(const HeuristicQuery &query) override
+        {
+            StraightHeuristic::begin(query);
+            hasLongerSteps_ = query.parameters.motionModel != "grid8";
+        }
+
+        bool overestimates() const override
+        {
+            return hasLongerSteps_;
+        }
+
     protected:
         double between(const Pose &pose, const Pose &target) const override
         {
             const double dx = std::abs(pose.x - target.x), dy = std::abs(pose.y - target.y);
             return std::max(dx, dy) + (std::sqrt(2.0) - 1.0) * std::min(dx, dy);
         }
+
+    private:
+        bool hasLongerSteps_{true};
     };
 }  // namespace parking::search

@@ -222,16 +222,22 @@ TEST(SearchBound, ofOneSideOnAGridIsTheOptimum)
 TEST(SearchBound, ofBothSidesOnAGridIsNeverAboveTheOptimum)
 {
     int compared = 0;
-    for (const char *heuristic : {"straight", "octile", "manhattan"})
+    for (const auto &[model, heuristic] : {std::pair("grid8", "straight"),
+                                           {"grid8", "octile"},
+                                           {"grid8", "manhattan"},
+                                           {"grid16", "straight"},
+                                           {"grid16", "octile"},
+                                           {"grid16", "manhattan"}})
         for (std::uint64_t seed = 0; seed < 200; ++seed)
         {
-            SCOPED_TRACE(seed);
+            SCOPED_TRACE(std::string(model) + ", " + heuristic + ", " + std::to_string(seed));
             GridWorld world = randomGrid(seed, 0.3);
             Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             SearchParameters parameters = unweighted(world.parameters());
+            parameters.motionModel = model;
             parameters.heuristic = heuristic;
-            const double best = shortestByDijkstra(world, start, goal, false);
+            const double best = shortestByDijkstra(world, start, goal, std::string(model) == "grid16");
             Search search;
             search.begin(world, parameters);
             search.addStart(start);
