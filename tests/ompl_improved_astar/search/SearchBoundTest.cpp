@@ -24,7 +24,6 @@ using namespace parking_test;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     constexpr std::size_t MOST_NODES = 60000;
 
     SearchParameters unweighted(SearchParameters parameters)

@@ -151,6 +151,6 @@ TEST(ReedsShepp, RejectsBadRadius)
     EXPECT_THROW(ReedsShepp(0.0), Error);
     EXPECT_THROW(ReedsShepp(-1.0), Error);
     EXPECT_THROW(ReedsShepp(std::nan("")), Error);
-    EXPECT_THROW(ReedsShepp(std::numeric_limits<double>::infinity()), Error);
+    EXPECT_THROW(ReedsShepp{std::numeric_limits<double>::infinity()}, Error);
     EXPECT_NO_THROW(ReedsShepp(1e-3));
 }

@@ -130,7 +130,7 @@ TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
 {
     RandomParking random(53);
     const Vehicle car = robot();
-    std::size_t denser = 0, kept = 0;
+    std::size_t denser = 0;
     for (int i = 0; i < 200; ++i)
     {
         const Points points = gridWalk(random, 60);
@@ -164,7 +164,6 @@ TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
             EXPECT_GT(result.denserSpans + result.polylineSpans, 0u);
         }
         denser += result.denserSpans;
-        kept += result.polylineSpans;
         for (const PathState &state : result.path.sample(0.1))
             ASSERT_TRUE(world.isFree(state.pose)) << i;
     }

@@ -137,9 +137,9 @@ TEST(CurveSpace, PlainSE2HasNoCurves)
 
 TEST(CurveSpace, RefusesOtherSpaces)
 {
-    EXPECT_THROW(CurveSpace(ob::SE3StateSpace()), ompl::Exception);
-    EXPECT_THROW(CurveSpace(ob::RealVectorStateSpace(3)), ompl::Exception);
-    EXPECT_THROW(CurveSpace(ob::ReedsSheppStateSpace(0.0)), ompl::Exception);
+    EXPECT_THROW(CurveSpace{ob::SE3StateSpace()}, ompl::Exception);
+    EXPECT_THROW(CurveSpace{ob::RealVectorStateSpace(3)}, ompl::Exception);
+    EXPECT_THROW(CurveSpace{ob::ReedsSheppStateSpace(0.0)}, ompl::Exception);
 }
 
 TEST(CurveSpace, DoesNotGoByNames)
