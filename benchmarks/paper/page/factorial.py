@@ -4,8 +4,7 @@ import math
 
 from charts import shown
 from design import FACTORS, KEYS, VARIANTS
-from order_statistics import median, median_interval
-from paired import LEVEL, NEAR, Comparison, chance_of_signs, correct
+from paired import LEVEL, NEAR, comparison_of, correct
 from study import MEASURES
 
 EFFECT_MEASURES = ('total', 'cells', 'expanded', 'length', 'turning')
@@ -38,12 +37,7 @@ def effects(study, measure):
     found = {}
     for keys in [key for count in (1, 2) for key in itertools.combinations(KEYS, count)]:
         values = [effect for effect in (effect_of(keys, figures) for figures in per_map.values()) if effect is not None]
-        if not values:
-            found[keys] = Comparison([])
-            continue
-        low, high, certainty = median_interval(values)
-        logarithms = [math.log(value) if abs(math.log(value)) > 1e-9 else 0.0 for value in values]
-        found[keys] = Comparison(values, median(values), low, high, certainty > 0.0, chance_of_signs(logarithms))
+        found[keys] = comparison_of(values)
     correct(list(found.values()))
     return found
 

@@ -40,15 +40,19 @@ def way_of(ratio):
     return 'same' if abs(math.log(ratio)) <= math.log(NEAR) else 'more' if ratio > 1.0 else 'less'
 
 
-def compare(firsts, seconds):
-    """firsts, seconds: figures per map; maps on which one of the two is missing or not positive do not count."""
-    ratios = [firsts[name] / seconds[name] for name in firsts
-              if name in seconds and firsts[name] > 0.0 and seconds[name] > 0.0]
+def comparison_of(ratios):
+    """Of one ratio per map, which is positive."""
     if not ratios:
         return Comparison([])
     low, high, certainty = median_interval(ratios)
     return Comparison(ratios, median(ratios), low, high, certainty > 0.0,
                       chance_of_signs([math.log(ratio) if abs(math.log(ratio)) > 1e-9 else 0.0 for ratio in ratios]))
+
+
+def compare(firsts, seconds):
+    """firsts, seconds: figures per map; maps on which one of the two is missing or not positive do not count."""
+    return comparison_of([firsts[name] / seconds[name] for name in firsts
+                          if name in seconds and firsts[name] > 0.0 and seconds[name] > 0.0])
 
 
 def correct(comparisons):

@@ -3,8 +3,8 @@ import json
 import math
 import os
 
-from order_statistics import median, median_interval
-from paired import LEVEL, Comparison, chance_of_signs, compare, correct
+from order_statistics import median
+from paired import LEVEL, Comparison, compare, comparison_of, correct
 from results import ReportError, read_results
 from word_design import ALGORITHMS, CLUTTER, GROWTH_FACTORS, GROWTH_KEYS, own_file, runs_file
 
@@ -149,15 +149,9 @@ class Growth:
                             logarithms.append(math.log(pair[0] / pair[1]))
                 if len(logarithms) == 2 ** (len(GROWTH_FACTORS) - 1):
                     values.append(math.exp(sum(logarithms) / len(logarithms)))
-            if not values:
-                found[place] = Comparison([])
-                continue
-            if place[1] == 0:  # grounds without boxes are all the same one: no spread, and nothing to be certain of
-                found[place] = Comparison(values, median(values))
-                continue
-            low, high, certainty = median_interval(values)
-            signs = [math.log(value) if abs(math.log(value)) > 1e-9 else 0.0 for value in values]
-            found[place] = Comparison(values, median(values), low, high, certainty > 0.0, chance_of_signs(signs))
+            # Grounds without boxes are all the same one: no spread, and nothing to be certain of.
+            is_one = values and place[1] == 0
+            found[place] = Comparison(values, median(values)) if is_one else comparison_of(values)
         correct(list(found.values()))
         return found
 
