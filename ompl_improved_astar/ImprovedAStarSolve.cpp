@@ -83,7 +83,7 @@ namespace ompl::geometric
     {
         const auto stop = [this, &ptc]
         {
-            expanded_.store(query_->planner.statistics().expanded, std::memory_order_relaxed);
+            expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
             return ptc();
         };
         const auto improved = [this, &ptc](const Path &path, double)
@@ -98,7 +98,7 @@ namespace ompl::geometric
         }
         else if (query_->planner.search().isFull())
             query_->reason = parking::search::outOfMemory(parameters_);
-        expanded_ = query_->planner.statistics().expanded;
+        expanded_ = query_->planner.expanded();
         if (query_->hasSolution)
         {
             query_->outcome = PlanOutcome::Solved;
@@ -120,7 +120,7 @@ namespace ompl::geometric
         const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
         const auto stop = [this, &ptc]
         {
-            expanded_.store(query_->planner.statistics().expanded, std::memory_order_relaxed);
+            expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
             return ptc();
         };
         if (!query_->planner.approximate(target, stop, nearest))

@@ -175,7 +175,13 @@ namespace parking::search
             return frontiers_[static_cast<std::size_t>(side)];
         }
 
-        /** \brief What was done since begin(). */
+        /** \brief Nodes expanded since begin(): statistics().expanded, for those who ask at every step. */
+        std::uint64_t expanded() const
+        {
+            return statistics_.expanded;
+        }
+
+        /** \brief What was done since begin(); put together when asked for. */
         const SearchStatistics &statistics() const;
 
         /** \brief Seconds spent on eagerObstacles. */

@@ -144,13 +144,13 @@ namespace parking::search
         weights_.far = lower(weights_.far);
         weights_.near = lower(weights_.near);
         search_.setWeights(weights_);
-        const std::uint64_t spent = search_.statistics().expanded;
+        const std::uint64_t spent = search_.expanded();
         const double more = tuning.afterthought * static_cast<double>(spent) +
                             tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
         const std::uint64_t end = spent + tuning.leastAfterthought + static_cast<std::uint64_t>(more);
         const StopFunction enough = [this, end]
         {
-            return search_.statistics().expanded >= end || (stop_ && stop_());
+            return search_.expanded() >= end || (stop_ && stop_());
         };
         while (search_.run(enough) == SearchOutcome::Improved)
         {
@@ -186,10 +186,10 @@ namespace parking::search
                     weights_.near = std::max(1.0, weights_.near * tuning.weightDecay);
                     search_.setWeights(weights_);
                 }
-                const std::uint64_t end = search_.statistics().expanded + tuning.expansionsPerRound;
+                const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
                 const StopFunction enough = [&]
                 {
-                    return search_.statistics().expanded >= end || (stop_ && stop_());
+                    return search_.expanded() >= end || (stop_ && stop_());
                 };
                 SearchOutcome outcome;
                 while ((outcome = search_.run(enough)) == SearchOutcome::Improved && !goodEnough_)

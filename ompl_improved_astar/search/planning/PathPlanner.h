@@ -99,6 +99,12 @@ namespace parking::search
             return search_;
         }
 
+        /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
+        std::uint64_t expanded() const
+        {
+            return search_.expanded();
+        }
+
         /** \brief What search and shortening did in this query. */
         SearchStatistics statistics() const;
 

@@ -110,7 +110,7 @@ namespace parking::search
         }
         const StopFunction stop = [&]
         {
-            return (request.maxExpansions > 0 && planner.statistics().expanded >= request.maxExpansions) ||
+            return (request.maxExpansions > 0 && planner.expanded() >= request.maxExpansions) ||
                    (request.stop && request.stop());
         };
         if (goals.empty())
