@@ -14,6 +14,7 @@ namespace parking::search
         queueCount_ = 0;
         doneByFormerQueues_ = {};
         queueTurn_ = 0;
+        extraTurns_ = 0;
         setQueues(1);
         nodes_.clear();
         cells_.clear();
@@ -66,6 +67,7 @@ namespace parking::search
             else
                 list = search::openLists().make(openListName_);
         queue.turns.assign(levels_, 0);
+        queue.nearest = std::numeric_limits<double>::infinity();
     }
 
     OpenList::Work Frontier::work() const
@@ -105,8 +107,23 @@ namespace parking::search
                            [](const std::unique_ptr<OpenList> &list) { return list->empty(); });
     }
 
+    void Frontier::noteEstimate(std::size_t queue, double estimate, std::uint64_t extraTurns)
+    {
+        constexpr double NEARER = 0.01;  // metres: by less is no progress
+        double &nearest = queues_[queue].nearest;
+        if (extraTurns_ > 0)
+            --extraTurns_;
+        if (estimate >= nearest - NEARER)
+            return;
+        nearest = estimate;
+        extraTurns_ = extraTurns;
+    }
+
     std::size_t Frontier::chooseQueue()
     {
+        if (extraTurns_ > 0 && queueTurn_ < queueCount_ && !queues_[queueTurn_].isEmpty())
+            return queueTurn_;
+        extraTurns_ = 0;
         do
             queueTurn_ = (queueTurn_ + 1) % queueCount_;
         while (queues_[queueTurn_].isEmpty());
@@ -115,13 +132,13 @@ namespace parking::search
 
     std::size_t Frontier::chooseLevel(std::size_t queue) const
     {
-        const auto &[open, turnsTaken] = queues_[queue];
+        const Queue &chosen = queues_[queue];
         std::size_t best = 0;
         double fewest = std::numeric_limits<double>::infinity(), ratio = 1.0;
-        for (std::size_t level = 0; level < open.size(); ++level, ratio *= turnsRatio_)
+        for (std::size_t level = 0; level < chosen.open.size(); ++level, ratio *= turnsRatio_)
         {
-            const double turns = static_cast<double>(turnsTaken[level]) * ratio;
-            if (!open[level]->empty() && turns < fewest)
+            const double turns = static_cast<double>(chosen.turns[level]) * ratio;
+            if (!chosen.open[level]->empty() && turns < fewest)
             {
                 fewest = turns;
                 best = level;

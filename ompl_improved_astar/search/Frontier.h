@@ -120,6 +120,11 @@ namespace parking::search
         /** \brief From now on so many queues take turns; those that are new are empty. */
         void setQueues(std::size_t count);
 
+        /** \brief Notes what is estimated of the node that a queue has its turn with. A queue that comes nearer than it
+            ever was gets the next \e extraTurns turns, too (compare "boosting" of the preferred lists in S. Richter and
+            M. Westphal, "The LAMA planner", 2010): past what held the search up, it need not wait for the others. */
+        void noteEstimate(std::size_t queue, double estimate, std::uint64_t extraTurns);
+
         /** \brief The queue whose turn it is among those that are not empty; something must be open. */
         std::size_t chooseQueue();
 
@@ -170,6 +175,7 @@ namespace parking::search
         {
             std::vector<std::unique_ptr<OpenList>> open;
             std::vector<std::uint64_t> turns;
+            double nearest{std::numeric_limits<double>::infinity()};  // of the estimates noted
 
             bool isEmpty() const;
         };
@@ -183,6 +189,7 @@ namespace parking::search
         std::size_t queueCount_{1};
         OpenList::Work doneByFormerQueues_;
         std::size_t queueTurn_{0};
+        std::uint64_t extraTurns_{0};  // that this queue still has
         std::size_t levels_{1};
         std::string openListName_;
         double turnsRatio_{1.0};

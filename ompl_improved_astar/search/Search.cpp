@@ -206,6 +206,8 @@ namespace parking::search
             return;
         own.countTurn(queue, level);
         node.next = static_cast<std::uint8_t>(level + 1);
+        if (own.queues() > 1)
+            own.noteEstimate(queue, entry.h, parameters_.tuning.extraTurns);
         if (first)
             close(own, entry);
         if (first && !traits_.joinsAfar)

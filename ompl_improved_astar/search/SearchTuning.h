@@ -25,6 +25,8 @@ namespace parking::search
         double turnsRatio{8.0};            ///< each finer level gets so many times fewer turns than the one before
         std::uint64_t otherSidePeriod{4};  ///< one expansion in so many goes to the less confined side
         double worthKeeping{0.3};          ///< of a level's step: a node cheaper by that is kept beside another
+        double farCurve{12.0};             ///< curves between poses farther apart than this
+        std::size_t mostFarCurves{2};  ///< are tried only so many, the cheapest: what blocks these blocks the others
         double confined{0.15};  ///< curves from a node that can move less than this part of their length are not tried
         std::uint64_t patience{3000};  ///< expansions without progress after which a hopeless search ends
         double leastProgress{1e-3};    ///< metres: nearer by less is no progress
@@ -43,12 +45,13 @@ namespace parking::search
             Chosen by hand on the problems of docs/planner.md, which they leave as they were, and on random queries with
             the seeds that docs/planner.md names.
             @{ */
-        std::uint64_t leastExpansions{150};     ///< before a search is called stuck,
-        std::uint64_t stalledExpansions{60};    ///< and so many since either side came nearer to the other
+        std::uint64_t leastExpansions{100};     ///< before a search is called stuck,
+        std::uint64_t stalledExpansions{40};    ///< and so many since either side came nearer to the other
         double nearer{0.25};                    ///< by this much
         double narrowDisc{1.6};                 ///< in inscribed radii: of the disc that keeps out of gaps
         double wideDisc{2.5};                   ///< and of the one that keeps to where a car can turn
         double dear{21.0};                      ///< what a metre costs the wide disc where it does not fit
+        std::uint64_t extraTurns{4};            ///< of a queue that comes nearer than it ever was
         double noWay{1.2};                      ///< factor on the estimate of a node that a disc finds no way from
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t stalledDetours{50};       ///< expansions with detours before the world is explored, too,

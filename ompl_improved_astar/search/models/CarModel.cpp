@@ -205,6 +205,14 @@ namespace parking::search
             if (sum < bound)
                 order_.emplace_back(sum, &curve);
         }
+        const SearchTuning &tuning = parameters_->tuning;
+        if (order_.size() > tuning.mostFarCurves &&
+            positionDistance(fromStart.pose, fromGoal.pose) > tuning.farCurve * parameters_->turningRadius)
+        {
+            std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(tuning.mostFarCurves),
+                              order_.end());
+            order_.resize(tuning.mostFarCurves);
+        }
         return offerFreeCurves(*environment_, cost, fromStart.pose, fromGoal.pose, order_,
                                sweptFrom == Side::Start ? CurveEnd::Start : CurveEnd::Goal, bound,
                                [&](const ReedsSheppCurve &curve, double whole)
