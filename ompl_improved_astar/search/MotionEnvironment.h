@@ -4,10 +4,33 @@
 #include "parking_geometry/curves/Path.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 
 namespace parking::search
 {
+    /** \brief Where the car's body surely collides, cell by cell, for proofs that there is no way.
+
+        A cell is a square of places of the body's middle and one of several equal parts of the circle of headings. */
+    class BodyCells
+    {
+    public:
+        virtual ~BodyCells() = default;
+
+        /** \brief A bit for each part of the circle, the first of which begins at a heading of minus pi. */
+        using Headings = std::array<std::uint64_t, 2>;
+
+        /** \brief The body's middle, about which it turns with the least movement, and the heading. */
+        virtual Pose middle(const Pose &rearAxle) const = 0;
+
+        /** \brief The headings of those cells in which the body collides at every place and heading.
+
+            \param x, y middle of the square, whose sides are parallel to the axes */
+        virtual Headings blocked(double x, double y) const = 0;
+    };
+
     /** \brief What the search asks of the world. One search uses one environment from one thread.
 
         Poses are of the rear axle's midpoint, in the coordinates of the problem. */
@@ -79,6 +102,15 @@ namespace parking::search
         virtual bool headingMatters() const
         {
             return true;
+        }
+
+        /** \brief Cells of the body; nullptr when it is not known where it surely collides.
+
+            \param side of the squares in metres
+            \param headings parts of the circle, from 8 to 128 */
+        virtual std::unique_ptr<BodyCells> bodyCells(double /*side*/, int /*headings*/)
+        {
+            return nullptr;
         }
 
         /** \brief A last word on a whole path whose pieces were all found free. */

@@ -48,7 +48,7 @@ namespace parking::search
         confined_ = Side::Goal;
         prepared_ = false;
         loaded_ = false;
-        provenUnreachable_ = false;
+        proof_ = Exhaustion::None;
         exhaustion_ = Exhaustion::None;
         hasTarget_ = false;
         nearest_ = INFINITE;
@@ -94,7 +94,7 @@ namespace parking::search
     bool Search::isHopeless() const
     {
         const SearchTuning &tuning = parameters_.tuning;
-        if (provenUnreachable_)
+        if (proof_ != Exhaustion::None)
             return true;
         if (hasTarget_)
             return nearest_ <= tuning.leastProgress ||
@@ -157,9 +157,9 @@ namespace parking::search
             Side side = confined_;
             if (isHopeless() || !chooseSide(side))
             {
-                exhaustion_ = provenUnreachable_ ? Exhaustion::WalledIn
-                              : hasTarget_       ? Exhaustion::NoProgress
-                                                 : Exhaustion::SearchedOut;
+                exhaustion_ = proof_ != Exhaustion::None ? proof_
+                              : hasTarget_               ? Exhaustion::NoProgress
+                                                         : Exhaustion::SearchedOut;
                 return SearchOutcome::Exhausted;
             }
             step(frontier(side));
@@ -167,6 +167,7 @@ namespace parking::search
                 takeDetours();
             if (mayExplore())
                 explore();
+            widenEnclosures();
         }
     }
 
@@ -323,6 +324,8 @@ namespace parking::search
                 bytes += guides.obstacles.bytes();
         for (const std::unique_ptr<Detour> &detour : detours_)
             bytes += detour->way.bytes();
+        for (const Enclosure &enclosure : enclosures_)
+            bytes += enclosure.bytes();
         return bytes;
     }
 

@@ -6,6 +6,7 @@
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "ompl_improved_astar/search/proofs/Enclosure.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <array>
@@ -29,6 +30,7 @@ namespace parking::search
     {
         None,         ///< there is
         WalledIn,     ///< proven: not even a disc inside of the car finds a way round the obstacles
+        Enclosed,     ///< proven: not even moving sideways and turning on the spot would the car get out (Enclosure)
         SearchedOut,  ///< one end has been left by every motion, down to the finest resolution
         NoProgress    ///< a search for the place nearest to a goal has not come nearer for long
     };
@@ -287,6 +289,8 @@ namespace parking::search
         void explore();
         NodeIndex keepExplored(Frontier &own, Node node);
         NodeIndex nearestExplored(Side side, const Pose &pose) const;
+        void beginEnclosures();
+        void widenEnclosures();
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
@@ -298,7 +302,7 @@ namespace parking::search
         Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
         bool prepared_{false};
         bool loaded_{false};
-        bool provenUnreachable_{false};
+        Exhaustion proof_{Exhaustion::None};  // that no way exists
         Exhaustion exhaustion_{Exhaustion::None};
         bool hasTarget_{false};
         Pose target_;
@@ -320,6 +324,9 @@ namespace parking::search
         UnderWay underWay_;
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, one for each further queue
         Exploration exploration_;
+        std::array<Enclosure, 2> enclosures_;  // of the start and of the goal
+        std::unique_ptr<BodyCells> bodyCells_;
+        std::size_t enclosureLevel_{0};   // of their cells: each finer than the one before
         std::array<double, 2> farthest_;  // least h of the closed nodes, by side
         std::uint64_t progressAt_{0};     // expansions when it fell last
     };

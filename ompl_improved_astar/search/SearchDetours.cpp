@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace parking::search
 {
@@ -83,6 +84,8 @@ namespace parking::search
                 node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded()))
                 pushToDetours(stuck, node.next, i);
         exploration_.since = statistics_.expanded;
+        enclosureLevel_ = 0;
+        bodyCells_.reset();
     }
 
     void Search::endDetours()
@@ -94,6 +97,53 @@ namespace parking::search
         exploration_.samples = 0;
         farthest_ = {INFINITE, INFINITE};
         progressAt_ = statistics_.expanded;
+    }
+
+    void Search::beginEnclosures()
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        bodyCells_.reset();
+        if (parameters_.inscribedRadius <= 0.0)
+            return;
+        const double side = tuning.enclosureCells[enclosureLevel_] * parameters_.inscribedRadius;
+        const int headings = tuning.enclosureHeadings[enclosureLevel_];
+        bodyCells_ = environment_->bodyCells(side, headings);
+        if (!bodyCells_)
+            return;
+        const std::vector<Pose> starts = frontier(Side::Start).rootPoses(), goals = frontier(Side::Goal).rootPoses();
+        enclosures_[0].begin(*bodyCells_, starts, goals, side, headings, tuning.mostColumns);
+        enclosures_[1].begin(*bodyCells_, goals, starts, side, headings, tuning.mostColumns);
+    }
+
+    void Search::widenEnclosures()
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        if (frontier(confined_).queues() == 1 || improved_ ||
+            statistics_.expanded < exploration_.since + tuning.enclosureAfter ||
+            enclosureLevel_ >= std::size(tuning.enclosureCells))
+            return;
+        if (!bodyCells_)
+            beginEnclosures();
+        if (!bodyCells_)
+        {
+            enclosureLevel_ = std::size(tuning.enclosureCells);
+            return;
+        }
+        const std::size_t columns =
+            1 + (statistics_.expanded - exploration_.since - tuning.enclosureAfter) / tuning.expansionsPerColumn;
+        bool isConnected = false, isOver = true;
+        for (Enclosure &enclosure : enclosures_)
+        {
+            const Enclosure::Verdict verdict = enclosure.widen(columns);
+            if (verdict == Enclosure::Verdict::Closed)
+                proof_ = Exhaustion::Enclosed;
+            isConnected = isConnected || verdict == Enclosure::Verdict::Connected;
+            isOver = isOver && verdict != Enclosure::Verdict::Unknown;
+        }
+        if (!isConnected && !isOver)
+            return;
+        ++enclosureLevel_;
+        bodyCells_.reset();
     }
 
     void Search::pushToDetours(Frontier &own, std::size_t level, NodeIndex index)

@@ -31,7 +31,7 @@ namespace parking::search
         else
             guideRoundObstacles();
         prepared_ = true;
-        provenUnreachable_ = isProvenUnreachable();
+        proof_ = isProvenUnreachable() ? Exhaustion::WalledIn : Exhaustion::None;
         for (Frontier &each : frontiers_)
             queueRoots(each);
     }

@@ -58,6 +58,18 @@ namespace parking::search
         std::uint64_t explorationPeriod{3};     ///< by one move in so many expansions
         /** @} */
 
+        /** \name Proving that there is no way, when the search stays stuck
+
+            Chosen by hand on the random queries of docs/planner.md. The cells of the second try are finer.
+            @{ */
+        std::uint64_t enclosureAfter{800};        ///< expansions with detours before the proof begins
+        std::uint64_t expansionsPerColumn{3000};  ///< an expansion is worth a column of cells at each end, and one more
+                                                  ///< for each so many that came before it
+        std::size_t mostColumns{100000};          ///< at each end
+        double enclosureCells[2]{0.2, 0.1};       ///< side of a cell, in inscribed radii
+        int enclosureHeadings[2]{72, 120};        ///< cells round the circle
+        /** @} */
+
         /** \name Thinking again after the first solution
             @{ */
         double afterthought{0.3};            ///< share of the expansions so far that is spent on it,

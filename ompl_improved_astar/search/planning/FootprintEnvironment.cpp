@@ -1,5 +1,6 @@
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 
+#include "state_validity/FootprintCells.h"
 #include "state_validity/sweeps/SweptBox.h"
 
 #include <algorithm>
@@ -11,6 +12,30 @@ namespace parking
     {
         constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
         constexpr double RADIANS_AT_A_TIME = 1.0;
+
+        class CellsOfChecker final : public search::BodyCells
+        {
+        public:
+            CellsOfChecker(const FootprintChecker &checker, double side, int headings)
+              : centreOffset_(checker.vehicle().centreOffset()),
+                cells_(checker, side, headings)
+            {
+            }
+
+            Pose middle(const Pose &rearAxle) const override
+            {
+                return advance(rearAxle, 0.0, centreOffset_);
+            }
+
+            Headings blocked(double x, double y) const override
+            {
+                return cells_.blocked(x, y);
+            }
+
+        private:
+            double centreOffset_;
+            FootprintCells cells_;
+        };
     }  // namespace
 
     FootprintEnvironment::FootprintEnvironment(const FootprintChecker &checker, const Box &bounds, double tolerance,
@@ -139,6 +164,11 @@ namespace parking
         if (covered >= 0.5 * moved)
             return !boundsMatter_ || (bounds_.contains(middle.x, middle.y) && bounds_.contains(from.x, from.y));
         return moved > tolerance_ && covered > 0.0 && isMotionFree(from, middle) && isMotionFree(middle, to);
+    }
+
+    std::unique_ptr<search::BodyCells> FootprintEnvironment::bodyCells(double side, int headings)
+    {
+        return std::make_unique<CellsOfChecker>(checker_, side, headings);
     }
 
     bool FootprintEnvironment::acceptPath(const Path &path)

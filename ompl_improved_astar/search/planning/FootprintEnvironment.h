@@ -5,6 +5,8 @@
 #include "parking_geometry/Box.h"
 #include "state_validity/FootprintChecker.h"
 
+#include <memory>
+
 namespace parking
 {
     /** \brief The world of the search when the validity checker is this project's own: motions are swept exactly.
@@ -31,6 +33,7 @@ namespace parking
         /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
         bool isMotionFree(const Pose &from, const Pose &to) override;
         bool acceptPath(const Path &path) override;
+        std::unique_ptr<search::BodyCells> bodyCells(double side, int headings) override;
         bool wasInterrupted() const override
         {
             return judge_ != nullptr && judge_->wasInterrupted();

@@ -72,6 +72,10 @@ namespace parking::search
             case Exhaustion::WalledIn:
                 return "obstacles are in the way: not even a disc of " + formatNumber(car.inscribedRadius) +
                        " m, which is smaller than the car, gets from the start to the goal";
+            case Exhaustion::Enclosed:
+                return "obstacles are in the way: even if it could move sideways and turn on the spot, the car would "
+                       "not "
+                       "get from the start to the goal";
             case Exhaustion::SearchedOut:
                 return "nothing is left to try: every motion of the motion model, down to its finest resolution, has "
                        "been followed from one end";

@@ -104,14 +104,14 @@ TEST(SearchDetours, areTheSameEachTime)
     EXPECT_EQ(once.length, again.length);
 }
 
-// Where nothing is known of the room, no disc shows another way. In small worlds exploration seldom pays: these are the
-// two of 400 fields in which it does.
+// Where nothing is known of the room, no disc shows another way. In small worlds exploration seldom pays: of 600 fields
+// it is used in 57, and these are the three that are not solved without it.
 TEST(SearchDetours, explorationFindsWaysWithoutDiscs)
 {
     std::uint64_t with = 0, without = 0;
     SearchParameters notExploring = carParameters();
     notExploring.tuning.stalledDetours = 2 * MOST_EXPANSIONS;
-    for (const std::uint64_t seed : {349u, 393u})
+    for (const std::uint64_t seed : {393u, 446u, 550u})
     {
         CarProblem problem = randomProblem(seed, 14);
         problem.world.tellsRoom = false;

@@ -1,0 +1,79 @@
+#include "state_validity/FootprintCells.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace parking
+{
+    namespace
+    {
+        // On the size of cells: rounding of coordinates within a few kilometres of the frame, with room to spare.
+        constexpr double HAIR = 1e-9;
+    }  // namespace
+
+    FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings) : checker_(checker)
+    {
+        Require("cells of footprints").positive("side", side, "metres");
+        if (headings < 8 || headings > MOST_HEADINGS)
+            throw Error("cells of footprints need 8 to " + std::to_string(MOST_HEADINGS) + " headings, not " +
+                        std::to_string(headings));
+        const double wholeLength = 0.5 * checker.vehicle().length() + checker.margin();
+        const double wholeWidth = 0.5 * checker.vehicle().width + checker.margin();
+        const double halfTurn = PI / headings + HAIR, sine = std::sin(halfTurn), diagonal = std::sqrt(2.0);
+        circumradius_ = inradius_ = 0.0;
+        for (int i = 0; i < headings; ++i)
+        {
+            const double yaw = 2.0 * PI * (i + 0.5) / headings - PI;
+            // A point of the box is seen from a body that stands and points elsewhere in the cell as moved by the
+            // distance along the body's axes, and as turned about its middle.
+            const double along =
+                std::min(diagonal, std::abs(std::cos(yaw)) + std::abs(std::sin(yaw)) + diagonal * halfTurn);
+            const double shift = 0.5 * side * along + HAIR;
+            const double length = wholeLength - shift - wholeWidth * sine;
+            const double width = wholeWidth - shift - wholeLength * sine;
+            cannotTell_ = cannotTell_ || length <= 0.0 || width <= 0.0;
+            const double local = yaw - checker.obstacles().frame().yaw;
+            Body body{std::cos(local), std::sin(local), {}};
+            const double half = length / static_cast<double>(body.circles.size());
+            for (std::size_t k = 0; k < body.circles.size(); ++k)
+            {
+                const double offset = half * static_cast<double>(2 * k + 1) - length;
+                body.circles[k] = {offset, std::min(width, length - std::abs(offset)) - HAIR};
+            }
+            bodies_.push_back(body);
+            circumradius_ = std::max(circumradius_, std::hypot(length, width) + HAIR);
+            inradius_ = i == 0 ? std::min(length, width) : std::min(inradius_, std::min(length, width));
+        }
+        inradius_ -= HAIR;
+    }
+
+    bool FootprintCells::isBlocked(const Body &body, double x, double y) const
+    {
+        const DistanceField &field = checker_.field();
+        return std::any_of(body.circles.begin(), body.circles.end(),
+                           [&](const Circle &circle)
+                           {
+                               const double cx = x + body.cosine * circle.offset, cy = y + body.sine * circle.offset;
+                               return field.upperBound(cx, cy) < circle.radius;
+                           });
+    }
+
+    FootprintCells::Headings FootprintCells::blocked(double x, double y) const
+    {
+        Headings bits{};
+        if (cannotTell_)
+            return bits;
+        const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
+        const bool anywhere = !isFinite(local) || checker_.field().upperBound(local.x, local.y) < inradius_;
+        if (!anywhere && checker_.field().lowerBound(local.x, local.y) > circumradius_)
+            return bits;
+        for (std::size_t i = 0; i < bodies_.size(); ++i)
+            if (anywhere || isBlocked(bodies_[i], local.x, local.y))
+                bits[i / 64] |= std::uint64_t{1} << (i % 64);
+        return bits;
+    }
+}  // namespace parking
