@@ -6,6 +6,7 @@
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/trajectory/MotionCheck.h"
 #include "state_validity/fcl/FclContactTest.h"
+#include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,6 +28,8 @@ namespace parking
 
         /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */
         constexpr double BRAKE_USED = 0.95;
+        /** Metres that the supervisor keeps even where the plan keeps nothing: poses are known no better. */
+        constexpr double LEAST_GAP = 0.005;
 
         double yawBetween(const Pose &a, const Pose &b)
         {
@@ -217,10 +220,15 @@ namespace parking
             return BRAKE_USED * (1.0 - parameters_.drive.tracking.brakeReserve);
         }
 
-        /** The body keeps this much of what \e leg keeps while it stops. */
+        /** The body keeps this much of what \e leg keeps while it stops, and from what appears. */
+        double gapOf(const ParkingLeg &leg) const
+        {
+            return std::min(parameters_.stopClearance, std::max(LEAST_GAP, 0.5 * leg.plan.clearance));
+        }
+
         void supervise(const ParkingLeg &leg)
         {
-            supervisor_.emplace(world_, std::min(parameters_.stopClearance, 0.5 * leg.plan.clearance));
+            supervisor_.emplace(world_, gapOf(leg));
         }
 
         /** Drives the plan of \e leg; false when it cannot be driven. */
@@ -327,22 +335,30 @@ namespace parking
             // Goals from perception jitter; the one under way counts as long as a car that stands there would do.
             const bool moved = std::none_of(changed.goals.begin(), changed.goals.end(),
                                             [this](const Pose &goal) { return isAt(goal, goal_); });
+            const ParkingWorld before = world_;
             world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
             supervise(leg);
+            const double driven = std::max(0.0, s - parameters_.lookBack), gap = gapOf(leg);
+            // What is passed nearer than the supervisor allows would be crept past, with nothing left for the
+            // controller's errors; where it was like that before, it was planned like that.
             if (moved)
                 cause_ = "the goal has changed";
-            else if (!isFreeFrom(leg, std::max(0.0, s - parameters_.lookBack)))
+            else if (!isFreeFrom(leg, driven, world_, 0.0) ||
+                     (!isFreeFrom(leg, driven, world_, gap) && isFreeFrom(leg, driven, before, gap)))
                 cause_ = "the map has changed";
         }
 
-        /** Is what lies behind the first \e driven metres of the drive free? */
-        bool isFreeFrom(const ParkingLeg &leg, double driven) const
+        /** Is what lies behind the first \e driven metres of the drive free in \e world, with \e gap to spare? */
+        bool isFreeFrom(const ParkingLeg &leg, double driven, const ParkingWorld &world, double gap) const
         {
+            const std::shared_ptr<const FootprintChecker> checker = world.enlarged(gap);
+            if (!checker)
+                return false;
             if (!leg.trajectory)
-                return world_.isFree(leg.plan.path.rest(driven));
+                return isPathFree(*checker, leg.plan.path.rest(driven));
             const TimedMotion rest = restOf(leg.trajectory->trajectory.motion, scenario_.vehicle, driven);
-            return collisionsOf(rest, world_.footprint(), 1).empty();
+            return collisionsOf(rest, *checker, 1).empty();
         }
 
         /** Is it over? Otherwise \e reason says why to plan anew. */

@@ -41,8 +41,8 @@ namespace parking
         double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
         double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
         /** Metres that the body keeps on the way that it needs to stop (half of what the plan keeps, where that is
-           less); a car that could not slows down before. drive.tracking.brakeReserve is what it counts on the brake
-           for. */
+           less, but 5 mm); a car that could not slows down before. What appears nearer to the way ahead is a reason to
+           plan anew. drive.tracking.brakeReserve is what it counts on the brake for. */
         double stopClearance{0.03};
         double lookBack{0.1};  ///< metres of path behind the car that a changed map must leave free, too
 

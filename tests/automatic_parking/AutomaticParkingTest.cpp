@@ -105,6 +105,34 @@ namespace
         EXPECT_GT(updates, 10);
     }
 
+    TEST(AutomaticParkingTest, plansAnewForWhatAppearsTooNearBesideThePath)
+    {
+        // Free, but nearer than the supervisor allows: a car with another wheelbase than believed crept into it.
+        const Scenario scenario = openGround(25.0);
+        const double side = 0.5 * scenario.vehicle.width;
+        for (const double gap : {0.01, 0.05})
+        {
+            AutomaticParking parking;
+            parking.setMapUpdate(
+                [&](double time, const Pose &) -> std::optional<Scenario>
+                {
+                    if (time < 3.0)
+                        return std::nullopt;
+                    Scenario other = scenario;
+                    other.polygons = {box(16.0, side + gap, 17.0, side + 3.0)};
+                    return other;
+                });
+            const ParkingResult result = parking.park(scenario);
+            EXPECT_TRUE(result.parked()) << result.message;
+            ASSERT_EQ(result.legs.size(), gap < 0.03 ? 2u : 1u);
+            if (gap < 0.03)
+            {
+                EXPECT_EQ(result.legs[1].reason, "the map has changed");
+                EXPECT_GT(result.legs[1].plan.clearance, 0.03);
+            }
+        }
+    }
+
     TEST(AutomaticParkingTest, followsAGoalThatMoves)
     {
         const Scenario scenario = openGround(20.0);
@@ -309,6 +337,20 @@ namespace
         const double bumper = bad.trajectory.back().x + scenario.vehicle.wheelbase + scenario.vehicle.frontOverhang;
         EXPECT_LT(bumper, 8.0);
         EXPECT_GT(bumper, 7.0);
+    }
+
+    TEST(AutomaticParkingTest, stopsBeforeWhatAPathLeavesMillimetresTo)
+    {
+        Scenario scenario = openGround();
+        const double side = 0.5 * scenario.vehicle.width;
+        for (const double gap : {0.003, 0.008})
+        {
+            scenario.polygons = {box(8.0, side + gap, 9.0, side + 1.0)};
+            const ParkingResult result = AutomaticParking().drive(scenario, {scenario.start, {{0.0, 15.0}}});
+            EXPECT_EQ(result.status, gap < 0.005 ? ParkingStatus::Stopped : ParkingStatus::Parked) << result.message;
+            EXPECT_EQ(result.evaluation.collisions, 0u);
+            EXPECT_EQ(result.trajectory.back().v, 0.0);
+        }
     }
 
     TEST(AutomaticParkingTest, pathsThatNobodyCanDriveAreRefused)
