@@ -11,6 +11,8 @@ SOURCE = os.environ['PARKING_SOURCE_DIR']
 PLAN = os.environ['PARKING_PLAN']
 BENCHMARK = os.environ['PARKING_BENCHMARK']
 SHARED_DATA = os.environ['PARKING_SHARED_DATA']
+SANITIZER = os.environ.get('PARKING_SANITIZER', '')
+PATIENCE = int(os.environ.get('PARKING_PATIENCE', '1'))  # times the seconds that a program may take
 SCENARIOS = os.path.join(SOURCE, 'benchmarks', 'scenarios')
 VERIFY = os.path.join(os.path.dirname(SHARED_DATA.rstrip('/')), 'tools', 'verify_path.py')
 
@@ -53,7 +55,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *command, timeout=120, **options):
         return subprocess.run([str(part) for part in command], cwd=self.folder, capture_output=True, text=True,
-                              timeout=timeout, check=False, **options)
+                              timeout=timeout * PATIENCE, check=False, **options)
 
     def plan(self, *arguments, status=0, **options):
         """Runs parking_plan; its exit status must be this one."""
