@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <exception>
+#include <fstream>
 #include <limits>
 #include <new>
 
@@ -24,6 +25,22 @@ namespace parking
         }
 
         std::atomic<bool> countsProcessorTime{false};
+
+        constexpr double LOOK = 0.05;  // seconds between two questions to the kernel
+
+        double secondsBetween(const std::timespec &a, const std::timespec &b)
+        {
+            return static_cast<double>(b.tv_sec - a.tv_sec) + 1e-9 * static_cast<double>(b.tv_nsec - a.tv_nsec);
+        }
+
+        /** Seconds in which this thread could have run and had no processor; infinite where the kernel does not tell.
+         */
+        double queuedTime()
+        {
+            std::ifstream stream("/proc/thread-self/schedstat");
+            double ran = 0.0, queued = 0.0;
+            return stream >> ran >> queued ? 1e-9 * queued : std::numeric_limits<double>::infinity();
+        }
     }  // namespace
 
     SolveRecord::Clock::time_point SolveRecord::Clock::now()
@@ -45,6 +62,9 @@ namespace parking
         improvements_.clear();
         wallTime_ = cpuTime_ = 0.0;
         cpuBegin_ = processorTime();
+        thread_ = std::this_thread::get_id();
+        steadyBegin_ = lastLook_ = std::chrono::steady_clock::now();
+        queuedBefore_ = countsProcessorTime ? queuedTime() : 0.0;
         begin_ = Clock::now();
     }
 
@@ -54,8 +74,7 @@ namespace parking
         const std::timespec cpu = processorTime();
         const std::lock_guard<std::mutex> lock(mutex_);
         wallTime_ = std::chrono::duration<double>(now - begin_).count();
-        cpuTime_ = static_cast<double>(cpu.tv_sec - cpuBegin_.tv_sec) +
-                   1e-9 * static_cast<double>(cpu.tv_nsec - cpuBegin_.tv_nsec);
+        cpuTime_ = secondsBetween(cpuBegin_, cpu);
     }
 
     void SolveRecord::note(double cost)
@@ -99,6 +118,20 @@ namespace parking
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         return improvements_;
+    }
+
+    bool SolveRecord::sleptLongerThan(double seconds)
+    {
+        if (!countsProcessorTime.load(std::memory_order_relaxed))
+            return false;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const auto now = std::chrono::steady_clock::now();
+        if (std::this_thread::get_id() != thread_ || std::chrono::duration<double>(now - lastLook_).count() < LOOK)
+            return false;
+        lastLook_ = now;
+        const double awake = secondsBetween(cpuBegin_, processorTime());
+        const double passed = std::chrono::duration<double>(now - steadyBegin_).count();
+        return passed - awake > seconds && passed - awake - (queuedTime() - queuedBefore_) > seconds;
     }
 
     PlannerFailure currentFailure(const std::string &where)

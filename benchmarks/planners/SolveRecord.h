@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -68,12 +69,22 @@ namespace parking
         /** \brief All that were noted, in order of time, each of a lower cost than the one before. */
         std::vector<Improvement> improvements() const;
 
+        /** \brief Whether the thread that called begin() has slept for longer than \e seconds since, while no thread of
+            this process computed: by processor time, a planner that waits would not come to its limit.
+
+            Time in which it had to wait for a processor does not count. False by the wall clock, from other threads,
+            and where the kernel does not tell (/proc/thread-self/schedstat). Looks at most every 50 ms. */
+        bool sleptLongerThan(double seconds);
+
     private:
         void add(double time, double cost);
 
         mutable std::mutex mutex_;
         Clock::time_point begin_;
         std::timespec cpuBegin_{};
+        std::thread::id thread_;  // that called begin()
+        std::chrono::steady_clock::time_point steadyBegin_, lastLook_;
+        double queuedBefore_{0.0};  // seconds in which it waited for a processor before begin()
         double wallTime_{0.0};
         double cpuTime_{0.0};
         std::vector<Improvement> improvements_;
@@ -199,6 +210,7 @@ namespace parking
                 [&]
                 {
                     const bool stop = SolveRecord::Clock::now() - begin >= limit || ptc() ||
+                                      record_->sleptLongerThan(limit.count()) ||
                                       (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
                     if (stop)
                         wasStopped_ = true;

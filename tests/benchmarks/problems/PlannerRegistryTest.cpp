@@ -139,6 +139,22 @@ namespace
         EXPECT_NEAR(record.bestCost(), prepared.problem()->getSolutionPath()->length(), 1e-6);
     }
 
+    TEST(MeasuredPlanner, ByProcessorTimeComesBackFromAPlannerThatSleeps)
+    {
+        // RRTConnect waits for another goal for as long as it may, as this one is in collision.
+        const parking_test::TemporaryFolder folder;
+        const Problem problem(readScenario(folder.write("goal.yaml",
+                                                        "start: [0, 0, 0]\ngoal: [12, 0, 0]\n"
+                                                        "polygons: [[[11, -2], [14, -2], [14, 2], [11, 2]]]\n")),
+                              ProblemSettings{});
+        const PreparedPlanner prepared = problem.prepare(PlannerRegistry::builtIn().find("RRTConnect"), {});
+        prepared.measured->setTimeLimit(0.1);
+        SolveRecord::Clock::countProcessorTime(true);
+        prepared.planner->solve(ompl::base::plannerNonTerminatingCondition());  // or it never comes back
+        SolveRecord::Clock::countProcessorTime(false);
+        EXPECT_TRUE(prepared.measured->wasStopped());
+    }
+
     TEST(MeasuredPlanner, GivingUpIsNotRunningOutOfTime)
     {
         // A wall from side to side, and no curve from start to goal that misses it.
