@@ -17,6 +17,7 @@
 #include <ctime>
 #include <exception>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace ob = ompl::base;
@@ -386,7 +387,8 @@ namespace parking
             prepared.measured->setStop(&stop_);
         }
 
-        const QuietChildren quiet;
+        // Not while the planner is at work: what it starts may have something to say.
+        std::optional<QuietChildren> quiet(std::in_place);
         ompl::tools::Benchmark benchmark(*prepared.setup, record.experiment);
         benchmark.addPlanner(prepared.planner);
         // clear() has thrown samplers away; those that solve() makes shall not depend on how many were made before. And
@@ -397,6 +399,7 @@ namespace parking
             {
                 seedRandomNumbers(record.seed);
                 world.resetCounts();
+                quiet.reset();
                 memory.begin();
             });
         std::exception_ptr failure;
@@ -404,6 +407,7 @@ namespace parking
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
                 record.peakMemory = memory.megabytes();
+                quiet.emplace();
                 solved();
                 takeOmplProperties(record, properties);
                 try
