@@ -256,9 +256,13 @@ namespace parking
     MatValue readMat(const std::string &file, const std::string &variable)
     {
         const std::string begin = readFile(file, LARGEST).substr(0, 128);
-        if (begin.compare(0, 10, "MATLAB 7.3") == 0)
+        // The text is for people. The version is two bytes at 124, in either order; matio believes them.
+        const std::string version = begin.size() < 126 ? std::string() : begin.substr(124, 2);
+        const bool five = version == std::string("\0\1", 2) || version == std::string("\1\0", 2);
+        const bool seven = version == std::string("\0\2", 2) || version == std::string("\2\0", 2);
+        if (begin.compare(0, 10, "MATLAB 7.3") == 0 || (begin.compare(0, 6, "MATLAB") == 0 && seven))
             throw Error(file + ": a file of MATLAB 7.3 (HDF5); save it with save(..., '-v7')");
-        if (begin.compare(0, 10, "MATLAB 5.0") != 0)
+        if (begin.compare(0, 10, "MATLAB 5.0") != 0 || !five)
             throw Error(file + ": no MATLAB 5 file (what save(..., '-v7') or '-v6' writes)");
         const File opened(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
         if (!opened || Mat_GetVersion(opened.get()) != MAT_FT_MAT5)

@@ -196,7 +196,8 @@ class ScenariosTest(ConvertTest):
         with open(self.path('good.mat'), 'rb') as stream:
             good = stream.read()
         for content, word in ((b'MATLAB 7.3 MAT-file' + good[19:], '7.3'), (good[:200], 'caseData'),
-                              (b'MATLAB 4.2' + good[10:], 'MATLAB 5'), (good[:128], 'caseData')):
+                              (b'MATLAB 4.2' + good[10:], 'MATLAB 5'), (good[:128], 'caseData'),
+                              (good[:124] + b'\x00\x02' + good[126:], '7.3'), (good[:124] + b'ab' + good[126:], 'MATLAB 5')):
             self.write('bad.mat', content)
             self.assertIn(word, self.refused('bad.mat', 'out.yaml'))
         self.assertFalse(os.path.exists(self.path('out.yaml')))
