@@ -119,6 +119,25 @@ class FiguresTest(Folder):
             curve = stream.read()
         self.assertEqual(len(xml.etree.ElementTree.fromstring(curve).findall('.//{*}polyline')), 4)
 
+    def test_what_more_time_brings(self):
+        def folder(name, lengths):
+            made_results.write(self.path(name), [
+                record(problem, planner, k, 'solved' if math.isfinite(length) else 'none', 0.01, length)
+                for (problem, planner), runs in lengths.items() for k, length in enumerate(runs)])
+            return self.path(name)
+        inf = math.inf
+        short = folder('short', {('a', 'p'): [12.0, 12.0, 11.0], ('a', 'q'): [20.0], ('b', 'p'): [inf, 30.0, inf],
+                                 ('b', 'q'): [inf], ('c', 'p'): [inf], ('c', 'q'): [inf]})
+        long = folder('long', {('a', 'p'): [10.0], ('a', 'q'): [11.0], ('b', 'p'): [24.0], ('b', 'q'): [20.0],
+                               ('c', 'p'): [inf], ('c', 'q'): [inf]})
+        program = [sys.executable, '-B', os.path.join(made_results.REPORT, 'results_page')]
+        done = subprocess.run(program + ['--limits', short, long], capture_output=True, text=True, check=True)
+        rows = [[cell.strip() for cell in line.split('|')[1:-1]] for line in done.stdout.splitlines()]
+        # Shortest known: 10 and 20; nobody solves c. Medians over a and b: of 1.2 and infinity, 1 and 1.2, ...
+        self.assertEqual(rows[2:], [['p', '4 of 7, –', '2 of 3, 1.1'], ['q', '1 of 3, –', '2 of 3, 1.05']])
+        done = subprocess.run(program + [self.path('nowhere')], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1))
+
     def test_random_results_against_an_independent_computation(self):
         runs = made_results.random_records(3, 4, 23, seed=7)
         made_results.write(self.folder, runs)
