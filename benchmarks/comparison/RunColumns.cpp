@@ -79,7 +79,8 @@ namespace parking
             add("densely valid", &R::denselyValid, "", "what the second check says");
             add("dense collisions", &R::denseCollisions, "", "poses that collide in the second check");
 
-            add("attains goal", &R::attainsGoal, "", "ends within 1 cm (in x and in y) and 1 degree of a goal");
+            add("attains goal", &R::attainsGoal, "", "ends within 1 cm (in x and in y) and 1 degree of a goal",
+                InSummary{"attains goal", Statistic::Share, 3, false}, InReport{"attains goal", 100.0, "%", true});
             add("angle over length", &R::angleOverLength, "rad/m",
                 "turns of the direction of travel over the length; a cusp is half a turn",
                 InSummary{"angle over length", Statistic::Median, 3, false},
@@ -105,7 +106,9 @@ namespace parking
             add("cusp to cusp cost", &R::profileCost, "", "TPCAP's J of that drive",
                 InSummary{"cusp to cusp cost", Statistic::Median, 0, false},
                 InReport{"J, cusp to cusp", 1.0, "", true});
-            add("cusp to cusp jerk", &R::profileJerk, "m/s^3", "of that drive: mean of the absolute value");
+            add("cusp to cusp jerk", &R::profileJerk, "m/s^3", "of that drive: mean of the absolute value",
+                InSummary{"cusp to cusp jerk", Statistic::Median, 3, false},
+                InReport{"jerk, cusp to cusp", 1.0, "m/s³", true});
             add("steering at standstill time", &R::standingSteeringTime, "s",
                 "in which the wheels of that drive turn where the curvature jumps; not in the time above",
                 InSummary{"steering at standstill", Statistic::Median, 0, false},
@@ -122,7 +125,8 @@ namespace parking
             add("simplified dense collisions", &R::simplifiedDenseCollisions, "", "after that");
 
             add("driven to the end", &R::drivenToTheEnd, "", "with `track`: the controller got there");
-            add("travel time", &R::travelTime, "s", "of the drive", std::nullopt, InReport{"travel time", 1.0, "s"});
+            add("travel time", &R::travelTime, "s", "of the drive",
+                InSummary{"travel time", Statistic::Median, 0, false}, InReport{"travel time", 1.0, "s"});
             add("driven length", &R::drivenLength, "m", "of the drive");
             add("mean acceleration", &R::meanAcceleration, "m/s^2", "of the drive: mean of the absolute value",
                 std::nullopt, InReport{"mean acceleration", 1.0, "m/s²"});
@@ -134,26 +138,38 @@ namespace parking
             add("collisions while driving", &R::drivingCollisions, "", "poses of the drive that collide");
             add("median MPC time", &R::medianMpcTime, "s", "of a step of the controller");
 
-            add("drive attains goal", &R::driveAttainsGoal, "", "of the drive: as `attains_goal`");
-            add("drive colliding frames", &R::driveCollidingFrames, "", "of the drive: share of its frames of 1 ms");
+            add("drive attains goal", &R::driveAttainsGoal, "", "of the drive: as `attains_goal`",
+                InSummary{"drive attains goal", Statistic::Share, 3, false},
+                InReport{"drive attains goal", 100.0, "%", true});
+            add("drive colliding frames", &R::driveCollidingFrames, "", "of the drive: share of its frames of 1 ms",
+                InSummary{"drive colliding frames", Statistic::Median, 4, false},
+                InReport{"colliding frames, driven", 100.0, "%", true});
             add("drive standing time", &R::driveStandingTime, "s", "of the drive, at less than 1 mm/s",
                 InSummary{"drive standing time", Statistic::Median, 0, false}, InReport{"standing", 1.0, "s", true});
             add("drive jerk", &R::driveJerk, "m/s^3", "of the drive: mean of the absolute value",
                 InSummary{"drive jerk", Statistic::Median, 3, false}, InReport{"jerk", 1.0, "m/s³", true});
 
             add("trajectory duration", &R::trajectoryDuration, "s",
-                "with `trajectory`: of the quickest trajectory near the path", std::nullopt,
-                InReport{"trajectory", 1.0, "s"});
+                "with `trajectory`: of the quickest trajectory near the path",
+                InSummary{"trajectory duration", Statistic::Median, 0, false}, InReport{"trajectory", 1.0, "s"});
             add("trajectory cost", &R::trajectoryCost, "",
                 "its cost in the competition of TPCAP: J = 100 T + 10 (control effort + steering integral) + 5 gear "
                 "changes",
-                std::nullopt, InReport{"J", 1.0, ""});
-            add("trajectory control effort", &R::controlEffort, "", "integral of a^2 + (v w)^2, in SI units");
-            add("trajectory steering integral", &R::steeringIntegral, "rad^2 s", "of the squared steering angle");
-            add("trajectory gear changes", &R::trajectoryGearChanges, "", "between forwards and reverse");
+                InSummary{"trajectory cost", Statistic::Median, 0, false}, InReport{"J", 1.0, ""});
+            add("trajectory control effort", &R::controlEffort, "", "integral of a^2 + (v w)^2, in SI units",
+                InSummary{"trajectory control effort", Statistic::Median, 3, false},
+                InReport{"control effort", 1.0, "", true});
+            add("trajectory steering integral", &R::steeringIntegral, "rad^2 s", "of the squared steering angle",
+                InSummary{"trajectory steering integral", Statistic::Median, 3, false},
+                InReport{"steering integral", 1.0, "rad² s", true});
+            add("trajectory gear changes", &R::trajectoryGearChanges, "", "between forwards and reverse",
+                InSummary{"trajectory gear changes", Statistic::Median, 0, false},
+                InReport{"gear changes", 1.0, "", true});
             add("trajectory stops to steer", &R::trajectoryStopsToSteer, "",
                 "nothing better was found than the path itself with standstills");
-            add("trajectory attains goal", &R::trajectoryAttainsGoal, "", "as `attains_goal`");
+            add("trajectory attains goal", &R::trajectoryAttainsGoal, "", "as `attains_goal`",
+                InSummary{"trajectory attains goal", Statistic::Share, 3, false},
+                InReport{"trajectory attains goal", 100.0, "%", true});
             add("trajectory colliding frames", &R::trajectoryCollidingFrames, "", "share of its frames of 1 ms",
                 InSummary{"trajectory colliding frames", Statistic::Median, 4, false},
                 InReport{"colliding frames", 100.0, "%", true});

@@ -22,7 +22,8 @@ namespace parking
     {
         Median,              ///< over the successful runs
         MedianWithInterval,  ///< the same, with the confidence interval of the median
-        Distribution  ///< over all runs, those without success being infinite: quartiles and interval with its level
+        Distribution,  ///< over all runs, those without success being infinite: quartiles and interval with its level
+        Share          ///< of the successful runs for which it is true
     };
 
     /** \brief A column's place in the summary. */
@@ -34,7 +35,8 @@ namespace parking
         bool inTable{true};   ///< on the terminal and in summary.md, too; otherwise in summary.csv only
     };
 
-    /** \brief A column's place in the HTML report, beside those that the report knows by name. */
+    /** \brief A column's place in the HTML report, beside those that the report knows by name: a median over the solved
+        runs, of what is yes or no the share of them. */
     struct InReport
     {
         const char *heading;  ///< of the column, without its unit

@@ -51,6 +51,11 @@ class Cell:
         """Median of a property over the solved runs; NaN without one."""
         return median([run.figure(name) for run in self.runs if run.solved and not math.isnan(run.figure(name))])
 
+    def share_of_solved(self, name):
+        """Share of the solved runs for which a property is true; NaN without one that has it."""
+        values = [run.figure(name) for run in self.runs if run.solved and not math.isnan(run.figure(name))]
+        return sum(values) / len(values) if values else math.nan
+
 
 def interval_html(interval, show, count):
     """[low, high], or the range of values when there are too few for an interval."""
@@ -84,7 +89,7 @@ def sortable(value):
 # Further columns, shown where the runs have such figures: column, heading, factor, unit. The file is made from the
 # table in benchmarks/comparison/RunColumns.cpp.
 with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
-    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit'], column['folded'])
+    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit'], column['share'], column['folded'])
              for column in json.load(_columns)]
 
 
@@ -93,11 +98,12 @@ def extra_columns(results, folded):
     there = {name for name, *_ in EXTRA for run in results.runs[:2000] if not math.isnan(run.figure(name))}
     if 'travel time' not in there:
         there.discard('map loading time')
-    return [column[:4] for column in EXTRA if column[0] in there and column[4] == folded]
+    return [column[:5] for column in EXTRA if column[0] in there and column[5] == folded]
 
 
 def extra_cells(cell, extra):
-    values = [(factor * cell.of_solved(name), unit) for name, _, factor, unit in extra]
+    values = [(factor * (cell.share_of_solved(name) if share else cell.of_solved(name)), unit)
+              for name, _, factor, unit, share in extra]
     return ''.join(f'<td{sortable(value)}>{shown(value)}{f" {unit}" if value == value else ""}</td>'
                    for value, unit in values)
 
@@ -107,7 +113,7 @@ def more_table(results, cells, more):
     rows = [(index, extra_cells(cell, more)) for index, cell in cells.items() if cell.solved]
     if not more or not rows:
         return ''
-    return ('<details><summary>Further figures: medians over the solved runs</summary><div class="scroll"><table class="figures '
+    return ('<details><summary>Further figures: medians over the solved runs, goals attained as a share of them</summary><div class="scroll"><table class="figures '
             'sortable"><thead><tr><th class=name>planner</th>' + ''.join(f'<th>{heading}</th>' for _, heading, *_ in more)
             + '</tr></thead><tbody>'
             + ''.join(f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(results.planners[index])}</th>{row}</tr>'

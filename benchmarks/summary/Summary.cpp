@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace parking
@@ -141,6 +142,8 @@ namespace parking
                     return {median, low, high, begin, end, level};
                 case Statistic::MedianWithInterval:
                     return {median, begin, end};
+                case Statistic::Share:
+                    return {{"share", false, median.value}};
                 case Statistic::Median:
                     break;
             }
@@ -163,6 +166,15 @@ namespace parking
                     values.push_back(column.numberOf(*record));
                 else if (column.summary->statistic == Statistic::Distribution)
                     values.push_back(INFINITE);
+            // Of those that have the figure: a path without a trajectory has none of its figures.
+            values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
+                         values.end());
+            if (column.summary->statistic == Statistic::Share)
+            {
+                const double share =
+                    std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+                return {share, share, share, {}};
+            }
             return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), medianInterval(values)};
         }
 

@@ -71,6 +71,17 @@ namespace
         EXPECT_DOUBLE_EQ(rows[1].figure("path length").median, 20.0);
     }
 
+    TEST_F(SummaryTest, WhatIsYesOrNoIsAShareOfTheSuccessfulRunsThatHaveIt)
+    {
+        records_[0].attainsGoal = true;
+        records_[1].attainsGoal = false;  // and the third one does not say
+        records_[4].attainsGoal = true;   // not valid
+        const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);
+        EXPECT_EQ(rows[0].figure("attains goal").median, 0.5);
+        EXPECT_TRUE(std::isnan(rows[1].figure("attains goal").median));
+        EXPECT_NE(summaryCsv(rows).find(",attains_goal_share,"), std::string::npos);
+    }
+
     TEST_F(SummaryTest, TablesSayTheSame)
     {
         const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);

@@ -15,7 +15,8 @@ int main()
                               {"heading", column.report->heading},
                               {"factor", column.report->factor},
                               {"unit", column.report->unit},
-                              {"folded", column.report->folded}};
+                              {"folded", column.report->folded},
+                              {"share", column.type() == std::string("BOOLEAN")}};
         columns.push_back(std::move(each));
     }
     std::cout << columns.dump(1) << '\n';

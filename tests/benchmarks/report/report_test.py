@@ -153,6 +153,10 @@ class FiguresTest(Folder):
                 curvature = statistics.median(each['figures']['normalized curvature'] for each in good)
                 self.assertAlmostEqual(float(further[planner][1 + made_results.FURTHER.index('normalized curvature')]
                                              .split(' ')[0]), curvature, delta=0.006 * curvature)
+                # What is yes or no is shown as a share, not as a median.
+                attained = 100.0 * statistics.mean(each['figures']['attains goal'] for each in good)
+                self.assertAlmostEqual(float(further[planner][1 + made_results.FURTHER.index('attains goal')].split(' ')[0]),
+                                       attained, delta=0.006 * attained)
                 times = [each['figures']['first solution time'] for each in good]
                 middle = statistics.median(times + [math.inf] * (23 - len(times)))
                 shown = row[2].split(' ')[0]
