@@ -78,6 +78,40 @@ namespace parking
                     std::move(settings)};
         }
 
+#ifdef PARKING_HAVE_AORRTC
+        /** AORRTC of OMPL 2.0.2 crashes when it is cleared, or goes, before it was set up, and asks no objective about
+           its solutions: when it found which could not be told. */
+        class Aorrtc : public og::AORRTC
+        {
+        public:
+            explicit Aorrtc(const ompl::base::SpaceInformationPtr &si) : og::AORRTC(si)
+            {
+                aox_planner = std::make_shared<og::AOXRRTConnect>(si);
+            }
+
+            using og::AORRTC::solve;
+
+            ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
+            {
+                std::size_t known = 0;
+                const auto tell = [&]
+                {
+                    if (pdef_->getSolutionCount() == known || !pdef_->hasExactSolution())
+                        return;
+                    known = pdef_->getSolutionCount();
+                    if (const auto objective = pdef_->getOptimizationObjective())
+                        objective->isSatisfied(ompl::base::Cost(pdef_->getSolutionPath()->length()));
+                };
+                return og::AORRTC::solve(ompl::base::PlannerTerminationCondition(
+                    [&]
+                    {
+                        tell();
+                        return ptc();
+                    }));
+            }
+        };
+#endif
+
         template <class... Types>
         bool isOneOf(const ompl::base::GenericParam &parameter)
         {
@@ -185,7 +219,7 @@ namespace parking
         registry.add(entry<og::EITstar>("EITstar", "OMPL's EIT*", true));
 #endif
 #ifdef PARKING_HAVE_AORRTC
-        registry.add(entry<og::AORRTC>("AORRTC", "OMPL's AORRTC", true));
+        registry.add(entry<Aorrtc>("AORRTC", "OMPL's AORRTC", true));
 #endif
 #ifdef PARKING_HAVE_BLITSTAR
         registry.add(entry<og::BLITstar>("BLITstar", "OMPL's BLIT*", true));
