@@ -24,11 +24,13 @@ namespace parking
         constexpr std::size_t LONGEST_HORIZON = 200;
         constexpr double MOST_WEIGHT = 1e9;
         constexpr double FUNCTION_TOLERANCE = 1e-5;  // relative gain at which Ceres stops
-        constexpr double SETTLED = 1e-3;             // relative gain of a step after which another is not worth it
+        constexpr double SETTLED = 1e-4;             // relative gain of a step after which another is not worth it
         constexpr int MOST_REJECTIONS = 8;           // of steps by the trust region, per working set
         constexpr double FIRST_RADIUS = 1e4;
         constexpr double LARGEST_COST = 1e30;
-        constexpr double LEAST_RADIUS = 1.0;
+        /** Bounds of the trust region between steps, and how it grows from one to the next. It shrinks where a step was
+            cut to a limit, which the next working set holds: without growing again it crept to a stop elsewhere. */
+        constexpr double LEAST_RADIUS = 1.0, LARGEST_RADIUS = 1e8, GROWTH = 30.0;
 
         /** A cost with what it was last asked for, so that nobody asks twice. */
         struct Evaluation
@@ -257,7 +259,7 @@ namespace parking
             unknowns_ = cost.unknowns(step.data());
             if (!summary.iterations.empty())
                 options_.initial_trust_region_radius =
-                    std::max(LEAST_RADIUS, summary.iterations.back().trust_region_radius);
+                    std::clamp(GROWTH * summary.iterations.back().trust_region_radius, LEAST_RADIUS, LARGEST_RADIUS);
         }
 
         /** First guess: the last answer, one step on, or the reference's own controls. */

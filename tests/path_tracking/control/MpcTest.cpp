@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace parking::test
 {
@@ -75,13 +76,15 @@ namespace parking::test
         TEST(Mpc, ItsAnswerIsAMinimum)
         {
             // No feasible change of the controls, small or large, in any of many directions, does noticeably better.
-            // For one of these problems (seed 56) one does by 0.9 %, however small the gain is at which the solver may
-            // stop. Figures of more problems: docs/path-tracking.md.
+            // Seeds 155 and 176 need a trust region that grows again: it stopped a fifth and a quarter above these.
+            // Figures of more problems: docs/path-tracking.md.
             const Vehicle vehicle;
             MpcParameters mpc;
             mpc.maxIterations = 30;
-            std::size_t worse = 0;
+            std::vector<std::uint64_t> seeds{155, 176};
             for (std::uint64_t seed = 0; seed < 60; ++seed)
+                seeds.push_back(seed);
+            for (const std::uint64_t seed : seeds)
             {
                 double least = std::numeric_limits<double>::infinity();
                 const MpcProblem problem = randomProblem(seed, mpc);
@@ -109,10 +112,8 @@ namespace parking::test
                     cost.evaluate(other, residuals, nullptr);
                     least = std::min(least, residuals.squaredNorm());
                 }
-                EXPECT_GE(least, value * (1.0 - 1e-2) - 1e-6) << seed;
-                worse += least < value * (1.0 - 5e-3) - 1e-6 ? 1 : 0;
+                EXPECT_GE(least, value * (1.0 - 5e-3) - 1e-6) << seed;
             }
-            EXPECT_LE(worse, 1U);
         }
 
         TEST(Mpc, OnThePathItAnswersWithThePathsControls)
