@@ -98,7 +98,6 @@ namespace parking
     private:
         class Search;
 
-        Pose toLocal(const Pose &pose) const;
         double costOf(const TimedMotion &motion) const;
 
         const FootprintChecker &checker_;

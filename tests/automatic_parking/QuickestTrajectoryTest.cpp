@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace
 {
     using namespace parking;
@@ -34,6 +37,34 @@ namespace
         }
     }
 
+    TEST(QuickestTrajectory, AlternativesDriveInOneDirectionAllTheWayWhereThatIsPossible)
+    {
+        const Vehicle car;
+        const Box ground{{-40.0, -40.0}, {60.0, 40.0}};
+        const FootprintChecker checker(ObstacleSet::fromPolygons({}, ground), car);
+        Path path;  // with two cusps
+        for (const double length : {-2.0, 27.0, -5.0})
+            path.append({0.0, length});
+        const auto drivesOnly = [](int direction)
+        {
+            return [direction](const Path &each)
+            {
+                return std::all_of(each.pieces.begin(), each.pieces.end(),
+                                   [direction](const PathPiece &piece) { return piece.length * direction >= 0.0; });
+            };
+        };
+        std::vector<Path> paths = alternativePaths(checker, ground, path, {});
+        EXPECT_TRUE(std::any_of(paths.begin(), paths.end(), drivesOnly(1)));
+        const auto reverse = std::find_if(paths.begin(), paths.end(), drivesOnly(-1));
+        ASSERT_NE(reverse, paths.end());
+        EXPECT_TRUE(isSamePose(reverse->start, path.start, 1e-6));
+        EXPECT_TRUE(isSamePose(reverse->end(), path.end(), 1e-6));
+        QuickestTrajectoryOptions options;
+        options.forwardOnly = true;
+        paths = alternativePaths(checker, ground, path, options);
+        EXPECT_TRUE(std::all_of(paths.begin(), paths.end(), drivesOnly(1)));
+    }
+
     TEST(QuickestTrajectory, IsNoSlowerForLookingAtAlternatives)
     {
         const Planned problem;
@@ -49,8 +80,9 @@ namespace
         EXPECT_EQ(one.paths, 1U);
         EXPECT_GT(best.paths, 1U);
         EXPECT_FALSE(best.trajectory.fallback) << best.trajectory.reason;
-        // A program is solved until its cost changes by less than 0.01 %: measured here, 0.1 ms of 11.9 s.
-        EXPECT_LE(best.trajectory.motion.duration(), 1.0001 * one.trajectory.motion.duration());
+        // Of paths that lie side by side only one is optimised, and solutions that differ by a thousandth count as one:
+        // measured here, 12 ms of 11.9 s.
+        EXPECT_LE(best.trajectory.motion.duration(), 1.002 * one.trajectory.motion.duration());
         EXPECT_TRUE(collisionsOf(best.trajectory.motion, problem.checker, 1).empty());
         EXPECT_TRUE(isSamePose(endOf(best.trajectory.motion, problem.scenario.vehicle), problem.path.end(), 5e-3));
     }

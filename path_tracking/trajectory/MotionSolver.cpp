@@ -1,0 +1,152 @@
+#include "path_tracking/trajectory/MotionSolver.h"
+
+#include "path_tracking/trajectory/MotionCheck.h"
+#include "path_tracking/trajectory/program/InteriorPoint.h"
+#include "path_tracking/trajectory/program/MotionOutline.h"
+#include "path_tracking/trajectory/program/MotionProgram.h"
+#include "path_tracking/trajectory/program/SolvedMotion.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double AGAIN_BARRIER = 1e-3;      // seconds, of programs that begin with a solution
+        constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
+        constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
+        constexpr double WORK_TO_FIND = 2.5;        // times as much work as long as nothing is found
+        constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
+        constexpr std::size_t MOST_HITS = 50;       // that are looked into
+        constexpr double GOAL_TOLERANCE = 2e-3;     // metres and radians that integration may miss the goal by
+        constexpr int MOST_CORRECTIONS = 2;         // of where the intervals of a program lead
+    }                                               // namespace
+
+    Pose MotionWorld::toLocal(const Pose &pose) const
+    {
+        Pose local = checker.obstacles().toLocal(pose);
+        local.yaw = pose.yaw - checker.obstacles().frame().yaw;
+        return local;
+    }
+
+    double MotionSolver::left() const
+    {
+        return (spares_ ? 1.0 : WORK_TO_FIND) * budget_ - work_;
+    }
+
+    bool MotionSolver::mayGoOn() const
+    {
+        return !isStopped_ && (budget_ == 0.0 || left() > 0.0);
+    }
+
+    void MotionSolver::stop()
+    {
+        isStopped_ = true;
+        reason_ = "interrupted";
+    }
+
+    std::optional<MotionSolution> MotionSolver::takeWrong()
+    {
+        return std::exchange(wrong_, std::nullopt);
+    }
+
+    std::optional<MotionSolution> MotionSolver::solveAgain(const MotionSolution &solution)
+    {
+        const MotionProblem &guess = solution.problem;
+        auto found = solve(
+            guess, AGAIN_BARRIER,
+            [&guess](std::size_t interval, double fraction) { return guess.poseAt(interval, fraction); },
+            solution.view);
+        if (found)
+            found->path = solution.path;
+        return found;
+    }
+
+    std::optional<MotionSolution> MotionSolver::solve(MotionProblem problem, double barrier, const Guess &guess,
+                                                      const MotionView &view, std::size_t mostIterations)
+    {
+        wasWrong_ = hasLearnt_ = false;
+        wrong_.reset();
+        SeparationOptions separation = view.separation;
+        separation.known = touched_;
+        const SeparationPlan lines(world_.pieces, world_.body, separation,
+                                   checkpointsAlong(problem.directions, world_.body.wheelbase, view.spacing, guess),
+                                   guess, world_.interrupted);
+        if (!lines.isComplete())
+        {
+            stop();
+            return std::nullopt;
+        }
+        lines.write(problem);
+        auto cost = minimize(problem, barrier, mostIterations);
+        if (!cost)
+            return std::nullopt;
+        TimedMotion motion = motionOf(problem, view.start);
+        // Along hundreds of metres the small errors of collocation add up.
+        for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion, view); ++i)
+        {
+            correctIntervals(problem);
+            cost = minimize(problem, AGAIN_BARRIER, mostIterations);
+            if (!cost)
+                return std::nullopt;
+            motion = motionOf(problem, view.start);
+        }
+        const bool isRight = holds(motion, view);
+        MotionSolution solution{std::move(problem), std::move(motion), *cost, view};
+        if (isRight)
+            return solution;
+        wrong_ = std::move(solution);
+        return std::nullopt;
+    }
+
+    /** Solves the program itself, and gives its nodes to \e problem. \return the cost */
+    std::optional<double> MotionSolver::minimize(MotionProblem &problem, double barrier, std::size_t mostIterations)
+    {
+        MotionProgram program(problem);
+        InteriorPointOptions options;
+        options.firstBarrier = barrier;
+        const double size = static_cast<double>(problem.nodes.size()) + static_cast<double>(problem.rows.size()) / 12.0;
+        if (budget_ == 0.0)
+            budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
+        const double affordable = std::max(0.0, left() / size);
+        options.mostIterations =
+            std::min({options.mostIterations, mostIterations, 1 + static_cast<std::size_t>(affordable)});
+        InteriorPointResult solved = solveMotion(program, options, world_.interrupted);
+        work_ += size * static_cast<double>(solved.iterations);
+        ++rounds_;
+        iterations_ += solved.iterations;
+        reason_ = "no motion found that holds all limits";
+        if (solved.status == InteriorPointStatus::Interrupted)
+            stop();
+        if (solved.status != InteriorPointStatus::Converged && solved.status != InteriorPointStatus::Feasible)
+            return std::nullopt;
+        problem.nodes = std::move(solved.nodes);
+        return solved.cost;
+    }
+
+    bool MotionSolver::reachesGoal(const TimedMotion &motion, const MotionView &view) const
+    {
+        return isSamePose(endOf(motion, world_.checker.vehicle()), view.goal, GOAL_TOLERANCE);
+    }
+
+    /** Does the motion reach the goal and touch nothing? Notes what it touches, and that it is wrong. */
+    bool MotionSolver::holds(const TimedMotion &motion, const MotionView &view)
+    {
+        wasWrong_ = true;
+        reason_ = "the goal was missed";
+        if (!reachesGoal(motion, view))
+            return false;
+        reason_ = "the motions found touch obstacles";
+        const std::vector<Pose> hits = collisionsOf(motion, world_.checker, MOST_HITS);
+        for (const Pose &pose : hits)
+            for (const std::size_t piece : piecesNear(world_.pieces, world_.body, world_.toLocal(pose), NEAR_HIT))
+                if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
+                {
+                    touched_.push_back(piece);
+                    hasLearnt_ = true;
+                }
+        wasWrong_ = !hits.empty();
+        return hits.empty();
+    }
+}  // namespace parking
