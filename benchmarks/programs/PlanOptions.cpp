@@ -3,6 +3,7 @@
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
+#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <limits>
 #include <sstream>
@@ -31,6 +32,9 @@ namespace parking
                 "(default 1); the first run's path is the result");
             add("seed", oneValue("N"), "of the random numbers (default 1)");
             add("trajectory", "optimise the path in time: the fastest trajectory near it");
+            add("max-jerk", oneValue("J"),
+                "with --trajectory: m/s^3 by which its acceleration may change, from 0.01 to 10000 (default: no "
+                "limit)");
             add("track",
                 "drive it with the model predictive controller: the trajectory, or without --trajectory the path, "
                 "standing "
@@ -72,6 +76,9 @@ namespace parking
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");
+        TrajectoryOptions trajectory;
+        trajectory.maxJerk = result.maxJerk = line.positive("max-jerk").value_or(0.0);
+        trajectory.validate();
         result.track = line.given("track");
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");
@@ -79,6 +86,8 @@ namespace parking
         result.csv = line.outputFile("csv").value_or("");
         if (line.given("csv") && !result.trajectory)
             throw Error("--csv writes the trajectory and needs --trajectory");
+        if (line.given("max-jerk") && !result.trajectory)
+            throw Error("--max-jerk is a limit of the trajectory and needs --trajectory");
         if (line.given("html") && !result.track)
             throw Error("--html shows the drive and needs --track");
         return result;

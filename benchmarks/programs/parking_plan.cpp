@@ -63,7 +63,7 @@ namespace
         if (options.trajectory)
         {
             const LongStep step("optimising the trajectory");
-            addTrajectory(problem, result, options.track);
+            addTrajectory(problem, result, options.track, options.maxJerk);
         }
         if (options.track)
         {

@@ -3,6 +3,8 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
+#include "path_tracking/trajectory/JerkLimit.h"
+#include "path_tracking/trajectory/MotionCheck.h"
 #include "path_tracking/trajectory/MotionSolver.h"
 #include "path_tracking/trajectory/PathLikeness.h"
 #include "path_tracking/trajectory/StopAndSteer.h"
@@ -11,6 +13,7 @@
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -31,7 +34,9 @@ namespace parking
         constexpr std::size_t MOST_DROPS = 4;    // such attempts
         constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
-        constexpr double PATH_STEP = 0.01;                // metres between poses of a path that is looked at
+        constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
+        constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
+        constexpr double PATH_STEP = 0.01;  // metres between poses of a path that is looked at
 
         bool isFree(const FootprintChecker &checker, const Path &path)
         {
@@ -353,10 +358,16 @@ namespace parking
             result.path = i;
         }
         if (interrupted && interrupted())
-        {
             result.reason = "interrupted";
-            return result;
-        }
+        else
+            improve(paths, interrupted, result);
+        limitJerk(result);
+        return result;
+    }
+
+    void TrajectoryOptimizer::improve(const std::vector<Path> &paths, const std::function<bool()> &interrupted,
+                                      OptimizedTrajectory &result) const
+    {
         Search search(*this, interrupted);
         auto found = search.run(paths, costOf(result.motion));
         result.rounds = search.solver().rounds();
@@ -371,6 +382,24 @@ namespace parking
             result.path = found->path;
             result.fallback = false;
         }
-        return result;
+    }
+
+    void TrajectoryOptimizer::limitJerk(OptimizedTrajectory &result) const
+    {
+        if (options_.maxJerk == 0.0)
+            return;
+        const Pose end = endOf(result.motion, checker_.vehicle());
+        // Knots in time leave the way by some hundredths of a millimetre; what touches an obstacle then needs more of
+        // them.
+        for (const double step : JERK_STEPS)
+        {
+            TimedMotion limited = withJerkLimit(result.motion, body_, options_.maxJerk, step);
+            if (!isSamePose(endOf(limited, checker_.vehicle()), end, SAME_END) ||
+                !collisionsOf(limited, checker_, 1).empty())
+                continue;
+            result.motion = std::move(limited);
+            return;
+        }
+        throw Error("trajectory: the jerk limit of " + formatNumber(options_.maxJerk) + " m/s^3 cannot be held");
     }
 }  // namespace parking

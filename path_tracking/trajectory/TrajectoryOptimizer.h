@@ -30,6 +30,11 @@ namespace parking
         double steeringShare{1.0};      ///< of the steering angle; where the path needs more the motion may fail
         double steeringRateShare{1.0};  ///< of the steering rate
 
+        /** m/s^3 by which the acceleration may change; 0 for no limit. The motion that is the quickest without one is
+            then driven along the same way with it, see withJerkLimit(): some milliseconds, up to 0.1 s for hundreds of
+            metres, in which nobody is asked about interruptions. */
+        double maxJerk{0.0};
+
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
         std::optional<double> finalSteering{0.0};    ///< likewise at the end
         std::size_t mostRounds{6};                   ///< attempts near a path, and improvements of a motion, at most
@@ -86,7 +91,8 @@ namespace parking
 
             \param interrupted asked about every millisecond; once it says yes the path is driven as it is, unless the
             result is there already; may be empty
-            Throws parking::Error for a path that no car can drive, or that collides. */
+            Throws parking::Error for a path that no car can drive, or that collides, and for a jerk limit that cannot
+        be held. */
         OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
 
         /** \brief The best motion found near any of several paths, from the same pose to the same pose.
@@ -99,6 +105,9 @@ namespace parking
         class Search;
 
         double costOf(const TimedMotion &motion) const;
+        void improve(const std::vector<Path> &paths, const std::function<bool()> &interrupted,
+                     OptimizedTrajectory &result) const;
+        void limitJerk(OptimizedTrajectory &result) const;
 
         const FootprintChecker &checker_;
         TrajectoryOptions options_;

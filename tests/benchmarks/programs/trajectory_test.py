@@ -94,6 +94,24 @@ class TrajectoryTest(ProgramTest):
             self.assertEqual([float(text) for text in line.split(',')], [sample[field] for field in fields])
         self.refused_plan(bundled('parallel'), '--csv', 'a.csv', parts=['--trajectory'])
 
+    def test_a_limit_of_the_jerk_is_held_along_the_same_way(self):
+        free, limited = (self.planned(bundled('parallel'), '--trajectory', *options)
+                         for options in ((), ('--max-jerk', '1.5')))
+        self.assertGreater(limited['trajectory_optimization']['duration_s'],
+                           free['trajectory_optimization']['duration_s'] + 1.0)
+        last, goal = limited['planned_trajectory'][-1], free['planned_trajectory'][-1]
+        self.assertLess(math.hypot(last['x'] - goal['x'], last['y'] - goal['y']), 0.001)
+
+        def greatest_jerk(samples):
+            middles = [(0.5 * (a['t'] + b['t']), (b['v'] - a['v']) / (b['t'] - a['t']))
+                       for a, b in zip(samples, samples[1:])]
+            return max(abs(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(middles, middles[1:]))
+        self.assertGreater(greatest_jerk(free['planned_trajectory']), 3.0)
+        self.assertLess(greatest_jerk(limited['planned_trajectory']), 1.5001)
+        self.refused_plan(bundled('parallel'), '--max-jerk', '1', parts=['--trajectory'])
+        for text in ('0', '-1', 'nan', 'much', '1e9', '0.001'):
+            self.refused_plan(bundled('parallel'), '--trajectory', '--max-jerk', text, parts=['jerk'])
+
     def test_paths_that_no_car_can_drive_are_refused_in_one_line(self):
         result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
         self.assertEqual(result['planned_trajectory'], [])

@@ -1,0 +1,290 @@
+#include "path_tracking/trajectory/JerkLimit.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double LIMITS_LEFT = 1e-4;         // share of the limits that is left for rounding
+        constexpr int BISECTIONS = 24;               // to find how much jerk a step may have
+        constexpr double SHORTEST = 1e-6;            // seconds of a phase of braking
+        constexpr double LEAST_STEP = 2e-3;          // seconds between two knots
+        constexpr double AT_REST = 1e-9;             // m/s, and m/s^2, that count as none
+        constexpr std::size_t MOST_STEPS = 1000000;  // of a stretch: more never happens
+
+        /** How far a stretch has been driven, how fast, and with which acceleration. */
+        struct Progress
+        {
+            double s{0.0}, v{0.0}, a{0.0};
+
+            /** After \e time with constant \e jerk. */
+            Progress after(double time, double jerk) const
+            {
+                return {s + time * (v + time * (a / 2.0 + time * jerk / 6.0)), v + time * (a + time * jerk / 2.0),
+                        a + time * jerk};
+            }
+        };
+
+        /** A time with constant jerk. */
+        struct Phase
+        {
+            double time, jerk;
+        };
+
+        /** What is driven between two standstills: speed and steering angle by the way. */
+        class DrivenWay
+        {
+        public:
+            DrivenWay(const std::vector<MotionKnot> &knots, std::size_t first, std::size_t last)
+            {
+                double s = 0.0;
+                for (std::size_t k = first; k <= last; ++k)
+                {
+                    if (k > first)
+                        s += 0.5 * std::abs(knots[k].v + knots[k - 1].v) * (knots[k].t - knots[k - 1].t);
+                    knots_.push_back({knots[k].t, std::abs(knots[k].v), knots[k].steering});
+                    way_.push_back(s);
+                }
+            }
+
+            double length() const
+            {
+                return way_.back();
+            }
+
+            /** Speed and steering angle at \e s; the time is that of the motion as it was. */
+            MotionKnot at(double s) const
+            {
+                const auto above = std::upper_bound(way_.begin() + 1, way_.end() - 1, s);
+                const auto k = static_cast<std::size_t>(above - way_.begin()) - 1;
+                const MotionKnot &a = knots_[k], &b = knots_[k + 1];
+                const double duration = b.t - a.t, acceleration = (b.v - a.v) / duration;
+                const double off = std::clamp(s - way_[k], 0.0, way_[k + 1] - way_[k]);
+                const double speed = std::sqrt(std::max(0.0, a.v * a.v + 2.0 * acceleration * off));
+                const double time = a.v + speed > 0.0 ? std::min(duration, 2.0 * off / (a.v + speed)) : 0.0;
+                return {a.t + time, speed, a.steering + (b.steering - a.steering) * time / duration};
+            }
+
+            /** The steering angle at its end. */
+            double lastAngle() const
+            {
+                return knots_.back().steering;
+            }
+
+            /** The ways to the knots. */
+            const std::vector<double> &knots() const
+            {
+                return way_;
+            }
+
+        private:
+            std::vector<MotionKnot> knots_;  // speeds without a sign
+            std::vector<double> way_;        // metres from the first knot
+        };
+
+        /** Drives a way from rest to rest: at any time as fast as is possible if it has to be able to brake from there
+            without ever being faster than allowed. */
+        class Driver
+        {
+        public:
+            Driver(const DrivenWay &way, double acceleration, double jerk, double step)
+              : way_(way),
+                acceleration_((1.0 - LIMITS_LEFT) * acceleration),
+                // More would be over within a step.
+                jerk_(std::min((1.0 - LIMITS_LEFT) * jerk, 0.5 * acceleration_ / step)),
+                step_(step)
+            {
+            }
+
+            /** The phases of the drive; none when there are too many of them. */
+            std::vector<Phase> drive() const
+            {
+                std::vector<Phase> phases;
+                Progress now;
+                while (phases.size() < MOST_STEPS)
+                {
+                    phases.push_back(next(now));
+                    now = now.after(phases.back().time, phases.back().jerk);
+                    if (now.v < AT_REST && std::abs(now.a) < AT_REST)
+                    {
+                        now.v = now.a = 0.0;  // but for rounding
+                        if (way_.length() - now.s < LIMITS_LEFT * way_.length())
+                            return phases;
+                    }
+                }
+                return {};
+            }
+
+        private:
+            /** How the car stops soonest: the brake is pressed, held and released. */
+            std::array<Phase, 3> braking(const Progress &from) const
+            {
+                const double most =
+                    std::min(acceleration_, std::sqrt(std::max(0.0, jerk_ * from.v + 0.5 * from.a * from.a)));
+                const double press = std::max(0.0, (from.a + most) / jerk_);
+                const double left = from.v + (from.a * from.a - 2.0 * most * most) / (2.0 * jerk_);
+                return {Phase{press, -jerk_}, Phase{most > 0.0 ? std::max(0.0, left / most) : 0.0, 0.0},
+                        Phase{most / jerk_, jerk_}};
+            }
+
+            bool isAllowed(const Progress &at) const
+            {
+                return at.s <= way_.length() && at.v <= way_.at(at.s).v + AT_REST;
+            }
+
+            /** Can the car stop from here before the end, and without being too fast on its way? */
+            bool isSafe(const Progress &from) const
+            {
+                if (std::abs(from.a) > acceleration_ || from.v < 0.0 ||
+                    (from.a < 0.0 && 2.0 * jerk_ * from.v < from.a * from.a) || !isAllowed(from))
+                    return false;
+                Progress begin = from, end = from;
+                const std::array<Phase, 3> phases = braking(from);
+                for (const Phase &phase : phases)
+                    end = end.after(phase.time, phase.jerk);
+                if (end.s > way_.length())
+                    return false;
+                for (const Phase &phase : phases)
+                {
+                    for (double time = step_; time < phase.time; time += step_)
+                        if (!isAllowed(begin.after(time, phase.jerk)))
+                            return false;
+                    begin = begin.after(phase.time, phase.jerk);
+                    if (begin.v > AT_REST && !isAllowed(begin))
+                        return false;
+                }
+                return true;
+            }
+
+            /** What is done next: a step with as much jerk as is safe, or a step of braking. */
+            Phase next(const Progress &now) const
+            {
+                const auto isSafeWith = [&](double jerk)
+                {
+                    return isSafe(now.after(step_, jerk));
+                };
+                if (isSafeWith(jerk_))
+                    return {step_, jerk_};
+                for (const double least : {-jerk_, 0.0})
+                {
+                    if (!isSafeWith(least))
+                        continue;
+                    double safe = least, unsafe = jerk_;
+                    for (int i = 0; i < BISECTIONS; ++i)
+                    {
+                        const double middle = 0.5 * (safe + unsafe);
+                        (isSafeWith(middle) ? safe : unsafe) = middle;
+                    }
+                    return {step_, safe};
+                }
+                for (const Phase &phase : braking(now))
+                    if (phase.time > SHORTEST)
+                        return {std::min(step_, phase.time), phase.jerk};
+                return {step_, 0.0};
+            }
+
+            const DrivenWay &way_;
+            double acceleration_, jerk_, step_;
+        };
+
+        /** Appends the drive along a way, with \e direction for the sign of its speeds; slower where it would turn the
+            wheels faster than \e steeringRate by a rounding error. */
+        void appendDrive(const DrivenWay &way, const std::vector<Phase> &phases, double direction, double steeringRate,
+                         TimedMotion &motion)
+        {
+            // Knots where the steps end, and where the motion had some: its steering angle has a bend there.
+            std::vector<MotionKnot> knots{{0.0, 0.0, 0.0}};
+            const auto add = [&knots](double t, double v)
+            {
+                if (t - knots.back().t >= LEAST_STEP)
+                    knots.push_back({t, v, 0.0});
+            };
+            Progress now;
+            double begin = 0.0;
+            std::size_t bend = 1;
+            for (const Phase &phase : phases)
+            {
+                const Progress end = now.after(phase.time, phase.jerk);
+                for (double low = 0.0; bend + 1 < way.knots().size() && way.knots()[bend] <= end.s; ++bend)
+                {
+                    double high = phase.time;
+                    for (int i = 0; i < BISECTIONS; ++i)
+                    {
+                        const double middle = 0.5 * (low + high);
+                        (now.after(middle, phase.jerk).s < way.knots()[bend] ? low : high) = middle;
+                    }
+                    add(begin + high, now.after(high, phase.jerk).v);
+                }
+                now = end;
+                begin += phase.time;
+                add(begin, now.v);
+            }
+            if (knots.size() > 1 && begin - knots.back().t < LEAST_STEP)
+                knots.pop_back();
+            knots.push_back({begin, 0.0, 0.0});
+            // Where the speed is linear between knots the way is another one by some micrometres: the angles go by
+            // that.
+            std::vector<double> ways{0.0};
+            for (std::size_t k = 1; k < knots.size(); ++k)
+                ways.push_back(ways.back() + 0.5 * (knots[k].t - knots[k - 1].t) * (knots[k].v + knots[k - 1].v));
+            const double scale = way.length() / ways.back();
+            double slower = 1.0;
+            for (std::size_t k = 0; k < knots.size(); ++k)
+            {
+                knots[k].v *= scale;
+                knots[k].steering = k + 1 < knots.size() ? way.at(scale * ways[k]).steering : way.lastAngle();
+                if (k > 0)
+                    slower = std::max(slower, std::abs(knots[k].steering - knots[k - 1].steering) /
+                                                  ((knots[k].t - knots[k - 1].t) * steeringRate));
+            }
+            for (std::size_t k = 1; k < knots.size(); ++k)
+                motion.append(slower * (knots[k].t - knots[k - 1].t), direction * knots[k].v / slower,
+                              knots[k].steering);
+        }
+    }  // namespace
+
+    TimedMotion withJerkLimit(const TimedMotion &motion, const Vehicle &vehicle, double jerk, double step)
+    {
+        const Require require("jerk limit");
+        require.positive("jerk", jerk, "m/s^3");
+        require.positive("step", step, "seconds");
+        const std::vector<MotionKnot> &knots = motion.knots;
+        const auto rests = [&knots](std::size_t k)
+        {
+            return std::abs(knots[k].v) < AT_REST;
+        };
+        if (knots.empty() || !rests(0) || !rests(knots.size() - 1))
+            throw Error("jerk limit: the motion does not begin and end at rest");
+        TimedMotion limited;
+        limited.start = motion.start;
+        limited.knots.push_back(knots.front());
+        for (std::size_t first = 0; first + 1 < knots.size();)
+        {
+            std::size_t last = first + 1;
+            while (last + 1 < knots.size() && !rests(last))
+                ++last;
+            if (last == first + 1 && rests(last))
+                limited.append(knots[last].t - knots[first].t, 0.0, knots[last].steering);
+            else
+            {
+                const DrivenWay way(knots, first, last);
+                const std::vector<Phase> phases = Driver(way, vehicle.maxAcceleration, jerk, step).drive();
+                if (phases.empty())
+                    throw Error("jerk limit: " + formatNumber(jerk) + " m/s^3 is too little to get anywhere");
+                appendDrive(way, phases, knots[first + 1].v + knots[first].v > 0.0 ? 1.0 : -1.0,
+                            vehicle.maxSteeringRate, limited);
+            }
+            first = last;
+        }
+        return limited;
+    }
+}  // namespace parking
