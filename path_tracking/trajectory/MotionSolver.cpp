@@ -13,9 +13,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double AGAIN_BARRIER = 1e-3;      // seconds, of programs that begin with a solution
+        constexpr double AGAIN_BARRIER = 3e-4;      // seconds, of programs that begin with a solution
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
-        constexpr double LEAST_ITERATIONS = 200.0;  // that may be done for any path, of programs of the first's size
+        constexpr double LEAST_ITERATIONS = 150.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 2.5;        // times as much work as long as nothing is found
         constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
         constexpr std::size_t MOST_HITS = 50;       // that are looked into
