@@ -324,7 +324,7 @@ namespace parking::search
         UnderWay underWay_;
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, one for each further queue
         Exploration exploration_;
-        std::array<Enclosure, 2> enclosures_;  // of the start and of the goal
+        std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;
         std::size_t enclosureLevel_{0};   // of their cells: each finer than the one before
         std::array<double, 2> farthest_;  // least h of the closed nodes, by side

@@ -111,6 +111,8 @@ namespace parking::search
         if (!bodyCells_)
             return;
         const std::vector<Pose> starts = frontier(Side::Start).rootPoses(), goals = frontier(Side::Goal).rootPoses();
+        if (enclosures_.empty())
+            enclosures_ = std::vector<Enclosure>(2);
         enclosures_[0].begin(*bodyCells_, starts, goals, side, headings, tuning.mostColumns);
         enclosures_[1].begin(*bodyCells_, goals, starts, side, headings, tuning.mostColumns);
     }
