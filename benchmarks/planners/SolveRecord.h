@@ -197,7 +197,7 @@ namespace parking
         using Planner::solve;
 
         /** \brief The planner's own, timed, and ended in time. CRASH when it throws or its answer is no path, see
-            failure(). */
+            failure(); TIMEOUT when it speaks of an approximate solution and there is none. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
         {
             const auto limit = std::chrono::duration<double>(timeLimit_);
@@ -227,6 +227,9 @@ namespace parking
                 this->getProblemDefinition()->clearSolutionPaths();
                 return ompl::base::PlannerStatus::CRASH;
             }
+            // BLIT* of OMPL 2.0.2 does so, and OMPL's benchmark throws for want of a path.
+            if (!exact && status && !this->getProblemDefinition()->getSolutionPath())
+                return ompl::base::PlannerStatus::TIMEOUT;
             if (exact)
                 record_->noteAtEnd(this->getProblemDefinition()->getSolutionPath()->length());
             return status;

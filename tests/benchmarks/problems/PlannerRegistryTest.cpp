@@ -1,6 +1,7 @@
 // Planners by name, and parameters as texts that must be what the planner makes of them.
 
 #include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/planners/SolveRecord.h"
 #include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/problems/Problem.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -153,6 +154,30 @@ namespace
         prepared.planner->solve(ompl::base::plannerNonTerminatingCondition());  // or it never comes back
         SolveRecord::Clock::countProcessorTime(false);
         EXPECT_TRUE(prepared.measured->wasStopped());
+    }
+
+    /** Speaks of an approximate solution, and has none. */
+    class Vague : public ompl::base::Planner
+    {
+    public:
+        explicit Vague(const ompl::base::SpaceInformationPtr &si) : ompl::base::Planner(si, "Vague")
+        {
+        }
+
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition & /*ptc*/) override
+        {
+            return ompl::base::PlannerStatus::APPROXIMATE_SOLUTION;
+        }
+    };
+
+    TEST(MeasuredPlanner, AnApproximateSolutionIsAPath)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PreparedPlanner prepared = problem->prepare(PlannerRegistry::builtIn().find("RRT"), {});
+        Measured<Vague> vague(prepared.setup->getSpaceInformation());
+        vague.setProblemDefinition(prepared.problem());
+        EXPECT_EQ(vague.solve(ompl::base::plannerNonTerminatingCondition()), ompl::base::PlannerStatus::TIMEOUT);
+        EXPECT_EQ(vague.failure().kind, PlannerFailure::Kind::None);
     }
 
     TEST(MeasuredPlanner, GivingUpIsNotRunningOutOfTime)
