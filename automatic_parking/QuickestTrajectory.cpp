@@ -19,24 +19,26 @@ namespace parking
         /** Metres that a change of direction, and turning the wheels to full lock, are worth where seconds count. */
         constexpr double GEAR_CHANGE = 10.0, STEERING_CHANGE = 0.1;
 
-        /** What makes the search prefer paths that are driven quickly. Chosen from 60 settings on the queries of seed
-            Ttune5-20261122 and the known problems: wide arcs leave the wheels time to turn, a search that is less hasty
-            finds other ways round, and so does one to which it costs nothing to be near obstacles. */
+        /** What makes the search prefer paths that are driven quickly. Chosen from a hundred settings on the queries of
+            seed Ttune5-20261122 and the known problems: wide arcs leave the wheels time to turn, a search that is less
+            hasty finds other ways round, and so does one to which it costs nothing to be near obstacles, or much to
+            reverse. */
         struct Taste
         {
-            double radius;   // in turning radii of the car
-            double haste;    // weight of the heuristic
-            bool keepsAway;  // whether it costs to be near obstacles
-            int direction;   // 0 for both, 1 for forwards all the way, -1 for reverse
+            double radius;          // in turning radii of the car
+            double haste;           // weight of the heuristic
+            bool keepsAway;         // whether it costs to be near obstacles
+            double reversePenalty;  // metres' worth, per metre
+            int direction;          // 0 for both, 1 for forwards all the way, -1 for reverse
             std::uint64_t mostExpansions;
         };
 
         constexpr std::uint64_t ANY = std::numeric_limits<std::uint64_t>::max();
 
         /** A change of direction costs as much time as six metres at full speed: the last two do without. */
-        constexpr std::array<Taste, 5> TASTES{Taste{1.1, 1.5, false, 0, ANY}, Taste{1.25, 2.5, true, 0, ANY},
-                                              Taste{1.5, 1.5, true, 0, ANY}, Taste{1.1, 1.5, true, 1, 250},
-                                              Taste{1.1, 1.5, true, -1, 250}};
+        constexpr std::array<Taste, 6> TASTES{Taste{1.1, 1.5, false, 0.0, 0, ANY}, Taste{1.25, 2.5, true, 0.0, 0, ANY},
+                                              Taste{1.5, 1.5, true, 0.0, 0, ANY},  Taste{1.25, 1.5, false, 3.0, 0, ANY},
+                                              Taste{1.1, 1.5, true, 0.0, 1, 250},  Taste{1.1, 1.5, true, 0.0, -1, 250}};
 
         search::PlanRequest requestFor(const Taste &taste, const FootprintChecker &checker, const Box &bounds,
                                        const Path &path, const QuickestTrajectoryOptions &options)
@@ -50,6 +52,7 @@ namespace parking
             request.car = {car.minTurningRadius() * taste.radius, options.forwardOnly || taste.direction != 0,
                            car.inscribedRadius(checker.margin()), bounds};
             request.parameters.gearChangePenalty = GEAR_CHANGE;
+            request.parameters.reversePenalty = taste.reversePenalty;
             request.parameters.steeringChangePenalty = STEERING_CHANGE;
             request.parameters.heuristicWeightFar = request.parameters.heuristicWeightNear = taste.haste;
             if (!taste.keepsAway)
