@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace parking
@@ -16,8 +17,11 @@ namespace parking
     {
         constexpr double LIMITS_LEFT = 1e-4;         // share of the limits that is left for rounding
         constexpr int BISECTIONS = 24;               // to find how much jerk a step may have
+        constexpr double LEFT_OVER = 1e-5;           // share of a way that is too short to be driven
+        constexpr double LEAST_SHARE = 1e-3;         // of a step or a jerk, that is tried
         constexpr double SHORTEST = 1e-6;            // seconds of a phase of braking
         constexpr double LEAST_STEP = 2e-3;          // seconds between two knots
+        constexpr double CREEPING = 5e-4;            // m/s of a knot that count as a standstill
         constexpr double AT_REST = 1e-9;             // m/s, and m/s^2, that count as none
         constexpr std::size_t MOST_STEPS = 1000000;  // of a stretch: more never happens
 
@@ -49,9 +53,10 @@ namespace parking
                 double s = 0.0;
                 for (std::size_t k = first; k <= last; ++k)
                 {
+                    const double v = k > first && k < last ? std::abs(knots[k].v) : 0.0;
                     if (k > first)
-                        s += 0.5 * std::abs(knots[k].v + knots[k - 1].v) * (knots[k].t - knots[k - 1].t);
-                    knots_.push_back({knots[k].t, std::abs(knots[k].v), knots[k].steering});
+                        s += 0.5 * (knots_.back().v + v) * (knots[k].t - knots[k - 1].t);
+                    knots_.push_back({knots[k].t, v, knots[k].steering});
                     way_.push_back(s);
                 }
             }
@@ -112,14 +117,17 @@ namespace parking
                 Progress now;
                 while (phases.size() < MOST_STEPS)
                 {
+                    if (way_.length() - stopOf(now).s < LEFT_OVER * way_.length())
+                    {
+                        for (const Phase &phase : braking(now))
+                            for (double left = phase.time; left > 0.0; left -= step_)
+                                phases.push_back({std::min(step_, left), phase.jerk});
+                        return phases;
+                    }
                     phases.push_back(next(now));
                     now = now.after(phases.back().time, phases.back().jerk);
                     if (now.v < AT_REST && std::abs(now.a) < AT_REST)
-                    {
                         now.v = now.a = 0.0;  // but for rounding
-                        if (way_.length() - now.s < LIMITS_LEFT * way_.length())
-                            return phases;
-                    }
                 }
                 return {};
             }
@@ -136,6 +144,14 @@ namespace parking
                         Phase{most / jerk_, jerk_}};
             }
 
+            /** Where that ends. */
+            Progress stopOf(Progress at) const
+            {
+                for (const Phase &phase : braking(at))
+                    at = at.after(phase.time, phase.jerk);
+                return at;
+            }
+
             bool isAllowed(const Progress &at) const
             {
                 return at.s <= way_.length() && at.v <= way_.at(at.s).v + AT_REST;
@@ -147,13 +163,10 @@ namespace parking
                 if (std::abs(from.a) > acceleration_ || from.v < 0.0 ||
                     (from.a < 0.0 && 2.0 * jerk_ * from.v < from.a * from.a) || !isAllowed(from))
                     return false;
-                Progress begin = from, end = from;
-                const std::array<Phase, 3> phases = braking(from);
-                for (const Phase &phase : phases)
-                    end = end.after(phase.time, phase.jerk);
-                if (end.s > way_.length())
+                if (stopOf(from).s > way_.length())
                     return false;
-                for (const Phase &phase : phases)
+                Progress begin = from;
+                for (const Phase &phase : braking(from))
                 {
                     for (double time = step_; time < phase.time; time += step_)
                         if (!isAllowed(begin.after(time, phase.jerk)))
@@ -168,28 +181,36 @@ namespace parking
             /** What is done next: a step with as much jerk as is safe, or a step of braking. */
             Phase next(const Progress &now) const
             {
-                const auto isSafeWith = [&](double jerk)
-                {
-                    return isSafe(now.after(step_, jerk));
-                };
-                if (isSafeWith(jerk_))
-                    return {step_, jerk_};
-                for (const double least : {-jerk_, 0.0})
-                {
-                    if (!isSafeWith(least))
-                        continue;
-                    double safe = least, unsafe = jerk_;
-                    for (int i = 0; i < BISECTIONS; ++i)
-                    {
-                        const double middle = 0.5 * (safe + unsafe);
-                        (isSafeWith(middle) ? safe : unsafe) = middle;
-                    }
-                    return {step_, safe};
-                }
+                // Near rest, and below a speed that rises slowly, a whole step is too much for any jerk.
+                for (double step = step_; step > LEAST_SHARE * step_; step *= 0.25)
+                    if (const auto jerk = greatestJerk(now, step))
+                        return {step, *jerk};
                 for (const Phase &phase : braking(now))
                     if (phase.time > SHORTEST)
                         return {std::min(step_, phase.time), phase.jerk};
                 return {step_, 0.0};
+            }
+
+            /** The greatest jerk after a step of which the car can brake; none when there is none. */
+            std::optional<double> greatestJerk(const Progress &now, double step) const
+            {
+                const auto isSafeWith = [&](double jerk)
+                {
+                    return isSafe(now.after(step, jerk));
+                };
+                if (isSafeWith(jerk_))
+                    return jerk_;
+                // At rest it is safe to stay there, and useless.
+                const double least = now.v < AT_REST ? LEAST_SHARE * jerk_ : -jerk_;
+                if (!isSafeWith(least))
+                    return std::nullopt;
+                double safe = least, unsafe = jerk_;
+                for (int i = 0; i < BISECTIONS; ++i)
+                {
+                    const double middle = 0.5 * (safe + unsafe);
+                    (isSafeWith(middle) ? safe : unsafe) = middle;
+                }
+                return safe;
             }
 
             const DrivenWay &way_;
@@ -260,7 +281,7 @@ namespace parking
         const std::vector<MotionKnot> &knots = motion.knots;
         const auto rests = [&knots](std::size_t k)
         {
-            return std::abs(knots[k].v) < AT_REST;
+            return std::abs(knots[k].v) < CREEPING;
         };
         if (knots.empty() || !rests(0) || !rests(knots.size() - 1))
             throw Error("jerk limit: the motion does not begin and end at rest");

@@ -102,6 +102,19 @@ namespace parking
             }
         }
 
+        TEST(JerkLimit, WheelsThatTurnWhileTheCarHardlyMovesDoNotSlowItDown)
+        {
+            // A twentieth of a radian over ten micrometres: as if the car stood.
+            const Vehicle car;
+            const double fast = car.maxAcceleration;
+            TimedMotion motion;
+            motion.knots = {{0.0, 0.0, 0.0}, {0.1, 2e-4, 0.05}, {1.1, fast, 0.05}, {2.1, 0.0, 0.05}};
+            const TimedMotion limited = withJerkLimit(motion, car, 5.0);
+            EXPECT_LE(limited.duration(), 2.1 + 2.0 * car.maxAcceleration / 5.0);
+            EXPECT_LE(greatestJerk(limited), 5.0 * (1.0 + 1e-6));
+            EXPECT_TRUE(isSamePose(endOf(limited, car), endOf(motion, car), 2e-4));
+        }
+
         TEST(JerkLimit, OfTheOptimiserTouchesNothing)
         {
             for (std::uint64_t seed = 1; seed <= 8; ++seed)
