@@ -18,7 +18,7 @@ namespace parking
     class FootprintCells
     {
     public:
-        static constexpr int MOST_HEADINGS = 128;
+        static constexpr int MOST_HEADINGS = 128;  ///< parts of the circle at the most
 
         /** \brief A bit for each part of the circle, the first of which begins at a heading of minus pi. */
         using Headings = std::array<std::uint64_t, MOST_HEADINGS / 64>;

@@ -104,10 +104,8 @@ namespace parking::search
             return true;
         }
 
-        /** \brief Cells of the body; nullptr when it is not known where it surely collides.
-
-            \param side of the squares in metres
-            \param headings parts of the circle, from 8 to 128 */
+        /** \brief Cells of the body, squares of that side in metres and 8 to 128 equal parts of the circle of headings;
+            nullptr when it is not known where the body surely collides. */
         virtual std::unique_ptr<BodyCells> bodyCells(double /*side*/, int /*headings*/)
         {
             return nullptr;
