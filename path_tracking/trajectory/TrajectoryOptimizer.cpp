@@ -36,16 +36,7 @@ namespace parking
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
         constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
         constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
-        constexpr double PATH_STEP = 0.01;  // metres between poses of a path that is looked at
 
-        bool isFree(const FootprintChecker &checker, const Path &path)
-        {
-            if (isPathFree(checker, path))
-                return true;
-            const SampledPath states = path.sample(PATH_STEP);
-            return std::all_of(states.begin(), states.end(),
-                               [&checker](const PathState &state) { return checker.isFree(state.pose); });
-        }
     }  // namespace
 
     TrajectoryOptimizer::TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options)
@@ -350,7 +341,7 @@ namespace parking
         {
             TimedMotion motion =
                 stopAndSteer(paths[i], checker_.vehicle(), options_.initialSteering, options_.finalSteering);
-            if (!isFree(checker_, paths[i]))
+            if (!touchesNothing(checker_, paths[i]))
                 throw Error("trajectory: the path collides");
             if (i > 0 && costOf(motion) >= costOf(result.motion))
                 continue;

@@ -13,6 +13,10 @@ namespace parking
         Turns on the spot, which no car can make, are covered by poses. */
     bool isPathFree(const FootprintChecker &checker, const Path &path);
 
+    /** \brief As isPathFree(), but content with a path that passes an obstacle within that millimetre, as long as it
+        keeps 0.015 mm: for paths of any origin, which have to touch nothing and need not keep anything. */
+    bool touchesNothing(const FootprintChecker &checker, const Path &path);
+
     /** \brief The world as manoeuvres and smoothing ask about it; whole paths are swept.
 
         \param checker is referred to, and must live as long as what is returned */

@@ -52,6 +52,33 @@ namespace
         }
         return poses;
     }
+
+    /** The least clearance along a path without turns on the spot, negative when a pose touches: every 5 mm, and every
+        0.2 mm where little is left. */
+    double leastClearance(const Path &path, const PolygonWorld &world)
+    {
+        constexpr double STEP = 5e-3, FINE_STEP = 2e-4;
+        double least = 1e9;
+        Pose begin = path.start;
+        for (const PathPiece &piece : path.pieces)
+        {
+            const auto clearanceAt = [&](double driven)
+            {
+                const Pose pose = advance(begin, piece, std::min(driven, piece.driven()));
+                return world.isFree(pose) ? world.clearance(pose) : -1.0;
+            };
+            for (double driven = 0.0; driven < piece.driven() + STEP; driven += STEP)
+            {
+                const double clearance = clearanceAt(driven);
+                least = std::min(least, clearance);
+                if (clearance < 0.01)
+                    for (double fine = driven - STEP; fine < driven + STEP; fine += FINE_STEP)
+                        least = std::min(least, clearanceAt(std::max(fine, 0.0)));
+            }
+            begin = advance(begin, piece);
+        }
+        return least;
+    }
 }  // namespace
 
 TEST(PathSweep, AgreesWithDenseSampling)
@@ -92,6 +119,47 @@ TEST(PathSweep, AgreesWithDenseSampling)
     }
     EXPECT_GT(free, 100);
     EXPECT_GT(blocked, 100);
+}
+
+TEST(PathSweep, APathThatPassesWithinAMillimetreTouchesNothing)
+{
+    RandomParking random(2);
+    int passed = 0, refused = 0, touched = 0;
+    for (int i = 0; i < 100; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        const Path path = anyPath(random, false);
+        const std::vector<Pose> poses = densely(path);
+        const Pose near = poses[static_cast<std::size_t>(random.below(static_cast<int>(poses.size())))];
+        const Pose spot = compose(
+            near, {random.between(-1.0, 4.0), (random.chance(0.5) ? 1.0 : -1.0) * (0.5 * car.width + 0.3), 0.0});
+        const double wanted = random.between(-2e-4, 6e-4);  // metres that the car keeps from the box
+        double halfSize = 0.2, least = 0.0;
+        for (int grown = 0; grown < 10; ++grown)
+        {
+            least = leastClearance(path, PolygonWorld(car, {box(spot.x, spot.y, halfSize)}));
+            if (std::abs(least - wanted) < 1e-4)
+                break;
+            halfSize = std::max(1e-3, halfSize + (least < 0.0 ? -0.01 : 0.7 * (least - wanted)));
+        }
+        least = leastClearance(path, PolygonWorld(car, {box(spot.x, spot.y, halfSize)}));
+        const FootprintChecker checker(
+            ObstacleSet::fromPolygons({box(spot.x, spot.y, halfSize)}, Box{{-100.0, -100.0}, {100.0, 100.0}}), car);
+        if (least < 0.0)
+        {
+            ++touched;
+            EXPECT_FALSE(touchesNothing(checker, path)) << i;
+        }
+        else if (least > 5e-5 && least < 9e-4)
+        {
+            ++passed;
+            refused += isPathFree(checker, path) ? 0 : 1;
+            EXPECT_TRUE(touchesNothing(checker, path)) << i << " at " << least;
+        }
+    }
+    EXPECT_GT(passed, 20);
+    EXPECT_GT(refused, 10) << "of those that passed, by the sweep that keeps a millimetre";
+    EXPECT_GT(touched, 20);
 }
 
 TEST(PathSweep, TheEndOfAPathCountsAndSoDoesItsOnlyPose)
