@@ -10,9 +10,19 @@ namespace parking
     class Error : public std::runtime_error
     {
     public:
-        /** \brief An error that says \e message. */
-        explicit Error(const std::string &message) : std::runtime_error(message)
+        /** \brief An error that says \e message. Names from files may contain line ends and other control characters;
+            each becomes a '?'. */
+        explicit Error(const std::string &message) : std::runtime_error(onOneLine(message))
         {
+        }
+
+    private:
+        static std::string onOneLine(std::string message)
+        {
+            for (char &letter : message)
+                if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7F)
+                    letter = '?';
+            return message;
         }
     };
 }  // namespace parking

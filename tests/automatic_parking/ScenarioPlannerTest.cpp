@@ -62,14 +62,16 @@ namespace
         grid.xyResolution = 0.25;
         const double width = Vehicle().width;
         const ScenarioPlanner wide(gap(width + 0.6)), narrow(gap(width - 0.1));
-        const ScenarioPlan plan = wide.plan(grid);
+        PlanLimits limits;
+        limits.time = std::numeric_limits<double>::infinity();
+        const ScenarioPlan plan = wide.plan(grid, limits);
         ASSERT_EQ(plan.outcome, PlanOutcome::Solved);
         EXPECT_TRUE(plan.isDisc);
         EXPECT_TRUE(Referee(wide.scenario(), wide.circleRadius()).check(plan.path).valid);
         EXPECT_GT(wide.clearance(plan), 0.0);
         // Round the end of the wall there is always a way.
         EXPECT_LT(plan.path.length(), 25.0);
-        EXPECT_GT(narrow.plan(grid).path.length(), 45.0);
+        EXPECT_GT(narrow.plan(grid, limits).path.length(), 45.0);
     }
 
     TEST(ScenarioPlanner, EndsWhenItShall)
