@@ -6,6 +6,7 @@
 #include "benchmarks/metrics/PathMetrics.h"
 #include "benchmarks/metrics/PeakMemory.h"
 #include "benchmarks/problems/PathDrive.h"
+#include "benchmarks/system/ProcessorTime.h"
 #include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -14,7 +15,6 @@
 #include <ompl/util/Console.h>
 
 #include <chrono>
-#include <ctime>
 #include <exception>
 #include <map>
 #include <optional>
@@ -157,7 +157,7 @@ namespace parking
         /** The quickest trajectory near the path. */
         void optimize(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
-            const std::clock_t begin = std::clock();
+            const double begin = processorTime();
             try
             {
                 QuickestTrajectoryOptions options;
@@ -171,7 +171,7 @@ namespace parking
                 record.steeringIntegral = cost.steeringIntegral;
                 record.trajectoryGearChanges = cost.gearChanges;
                 record.trajectoryStopsToSteer = found.fallback;
-                record.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+                record.trajectoryTime = processorTime() - begin;
                 const DriveFigures frames = driveFigures(found.motion, problem.scenario().goals, problem.footprint());
                 record.trajectoryAttainsGoal = frames.attainsGoal;
                 record.trajectoryCollidingFrames = frames.collidingShare();

@@ -1,5 +1,6 @@
 #include "benchmarks/planners/SolveRecord.h"
 
+#include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/OmplPose.h"
 
@@ -17,21 +18,9 @@ namespace parking
     {
         constexpr double FARTHEST = 1e6;  // metres; assertions of OMPL about Reeds-Shepp curves fail far beyond
 
-        std::timespec processorTime()
-        {
-            std::timespec now{};
-            clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-            return now;
-        }
-
         std::atomic<bool> countsProcessorTime{false};
 
         constexpr double LOOK = 0.05;  // seconds between two questions to the kernel
-
-        double secondsBetween(const std::timespec &a, const std::timespec &b)
-        {
-            return static_cast<double>(b.tv_sec - a.tv_sec) + 1e-9 * static_cast<double>(b.tv_nsec - a.tv_nsec);
-        }
 
         /** Seconds in which this thread could have run and had no processor; infinite where the kernel does not tell.
          */
@@ -47,8 +36,7 @@ namespace parking
     {
         if (!countsProcessorTime.load(std::memory_order_relaxed))
             return time_point(std::chrono::steady_clock::now().time_since_epoch());
-        const std::timespec now = processorTime();
-        return time_point(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
+        return time_point(std::chrono::duration_cast<duration>(std::chrono::duration<double>(processorTime())));
     }
 
     void SolveRecord::Clock::countProcessorTime(bool processorTime)
@@ -71,10 +59,10 @@ namespace parking
     void SolveRecord::end()
     {
         const Clock::time_point now = Clock::now();
-        const std::timespec cpu = processorTime();
+        const double cpu = processorTime();
         const std::lock_guard<std::mutex> lock(mutex_);
         wallTime_ = std::chrono::duration<double>(now - begin_).count();
-        cpuTime_ = secondsBetween(cpuBegin_, cpu);
+        cpuTime_ = cpu - cpuBegin_;
     }
 
     void SolveRecord::note(double cost)
@@ -129,7 +117,7 @@ namespace parking
         if (std::this_thread::get_id() != thread_ || std::chrono::duration<double>(now - lastLook_).count() < LOOK)
             return false;
         lastLook_ = now;
-        const double awake = secondsBetween(cpuBegin_, processorTime());
+        const double awake = processorTime() - cpuBegin_;
         const double passed = std::chrono::duration<double>(now - steadyBegin_).count();
         return passed - awake > seconds && passed - awake - (queuedTime() - queuedBefore_) > seconds;
     }

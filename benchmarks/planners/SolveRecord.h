@@ -81,7 +81,7 @@ namespace parking
 
         mutable std::mutex mutex_;
         Clock::time_point begin_;
-        std::timespec cpuBegin_{};
+        double cpuBegin_{0.0};
         std::thread::id thread_;  // that called begin()
         std::chrono::steady_clock::time_point steadyBegin_, lastLook_;
         double queuedBefore_{0.0};  // seconds in which it waited for a processor before begin()

@@ -4,6 +4,7 @@
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
 #include "benchmarks/problems/PathDrive.h"
+#include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/drawing/Svg.h"
 #include "parking_geometry/text/Text.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <map>
 #include <utility>
 
@@ -140,13 +140,6 @@ namespace parking
             return each;
         }
 
-        std::string fixed(double value, int decimals)
-        {
-            char text[64];
-            std::snprintf(text, sizeof text, "%.*f", decimals, value);
-            return text;
-        }
-
         std::string counted(std::size_t count, const std::string &what)
         {
             return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -273,8 +266,8 @@ namespace parking
     {
         const PlanRun &run = result.first();
         std::string text = problem.scenario().name + ": " + statusOf(run) + " (" + result.planner + ", " +
-                           fixed(MS * run.planningTime, 1) + " ms; loading the map " +
-                           fixed(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
+                           formatNumber(MS * run.planningTime, 1) + " ms; loading the map " +
+                           formatNumber(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
         if (!run.reason.empty())
             text += "  " + run.reason + "\n";
         if (result.runs.size() > 1)
@@ -286,17 +279,17 @@ namespace parking
         }
         if (run.path)
         {
-            text += "  " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
-                    " of direction, least clearance " + fixed(run.path->clearance, 3) + " m";
+            text += "  " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                    " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
             if (run.status == PlanStatus::Approximate)
-                text += ", ends " + fixed(run.goalDistance, 2) + " m from the goal";
+                text += ", ends " + formatNumber(run.goalDistance, 2) + " m from the goal";
             text += run.hasValidPath()
                         ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
                         : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
         }
         if (result.trajectory)
-            text += "  trajectory: " + fixed(result.trajectory->trajectory.motion.duration(), 2) + " s, found in " +
-                    fixed(MS * result.trajectoryTime, 1) + " ms" +
+            text += "  trajectory: " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) +
+                    " s, found in " + formatNumber(MS * result.trajectoryTime, 1) + " ms" +
                     (result.trajectory->trajectory.fallback
                          ? " (stops to steer: " + result.trajectory->trajectory.reason + ")"
                          : "") +
@@ -304,8 +297,9 @@ namespace parking
         else if (!result.trajectoryError.empty())
             text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
-            text += "  driven: " + result.drive->message + " after " + fixed(result.drive->evaluation.travelTime, 1) +
-                    " s, " + fixed(100.0 * result.drive->evaluation.finalPositionError, 1) +
+            text += "  driven: " + result.drive->message + " after " +
+                    formatNumber(result.drive->evaluation.travelTime, 1) + " s, " +
+                    formatNumber(100.0 * result.drive->evaluation.finalPositionError, 1) +
                     " cm from the end of the path, " + counted(result.drive->evaluation.collisions, "collision") + "\n";
         else if (!result.driveError.empty())
             text += "  not driven: " + result.driveError + "\n";
@@ -317,10 +311,11 @@ namespace parking
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
         const SampledPath path = run.path ? run.path->states() : SampledPath{};
-        std::string subtitle = result.planner + ", " + statusOf(run) + ", " + fixed(MS * run.planningTime, 1) + " ms";
+        std::string subtitle =
+            result.planner + ", " + statusOf(run) + ", " + formatNumber(MS * run.planningTime, 1) + " ms";
         if (run.path)
-            subtitle += ", " + fixed(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
-                        " of direction, least clearance " + fixed(run.path->clearance, 2) + " m";
+            subtitle += ", " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                        " of direction, least clearance " + formatNumber(run.path->clearance, 2) + " m";
         SvgFigure figure(scenario.name, subtitle);
         const Trajectory planned = plannedSamples(scenario, result);
         SampledPath seen = path;
@@ -352,7 +347,7 @@ namespace parking
         const PlanRun &run = result.first();
         if (!run.path)
             return;
-        const std::clock_t begin = std::clock();
+        const double begin = processorTime();
         try
         {
             QuickestTrajectoryOptions options;
@@ -370,7 +365,7 @@ namespace parking
         {
             result.trajectoryError = error.what();
         }
-        result.trajectoryTime = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        result.trajectoryTime = processorTime() - begin;
     }
 
     Trajectory resultTrajectory(const Problem &problem, const PlanResult &result)
@@ -411,9 +406,9 @@ namespace parking
             throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
         const Evaluation &figures = result.drive->evaluation;
         return driveAnimation(scenario, result.first().path->path, result.drive->trajectory, scenario.name,
-                              result.planner + ", " + fixed(figures.drivenLength, 1) + " m in " +
-                                  fixed(figures.travelTime, 1) + " s, ends " +
-                                  fixed(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
+                              result.planner + ", " + formatNumber(figures.drivenLength, 1) + " m in " +
+                                  formatNumber(figures.travelTime, 1) + " s, ends " +
+                                  formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
                               plannedSamples(scenario, result));
     }
 }  // namespace parking

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
+#include "parking_geometry/text/Text.h"
 
 #include <cstdio>
 #include <iostream>
@@ -72,13 +73,6 @@ namespace parking
         take("clearance-share", parameters.clearanceShare);
         parameters.validate();
         return parameters;
-    }
-
-    std::string fixed(double value, int decimals)
-    {
-        char text[64];
-        std::snprintf(text, sizeof text, "%.*f", decimals, value);
-        return text;
     }
 
     MarkdownTable::MarkdownTable(const std::vector<std::string> &head) : columns_(head.size())

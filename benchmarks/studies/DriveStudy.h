@@ -42,9 +42,6 @@ namespace parking
         boost::program_options::options_description options_{"Options"};
     };
 
-    /** \brief \e value with so many digits behind the point. */
-    std::string fixed(double value, int decimals);
-
     /** \brief A table of Markdown, the first column aligned left and all others right. */
     class MarkdownTable
     {

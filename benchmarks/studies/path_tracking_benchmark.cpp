@@ -1,6 +1,7 @@
 // Times what the figures of docs/path-tracking.md speak of, on paths of 30 m as a Reeds-Shepp planner (full-lock arcs,
 // lines, cusps) and as a smoothing planner (clothoids) deliver them. All counters are in milliseconds.
 
+#include "benchmarks/system/ProcessorTime.h"
 #include "path_tracking/simulation/ClosedLoop.h"
 
 #include <benchmark/benchmark.h>
@@ -10,8 +11,6 @@
 #include <cstdint>
 #include <random>
 #include <vector>
-
-#include <time.h>
 
 namespace
 {
@@ -76,9 +75,7 @@ namespace
 
     double cpuMilliseconds()
     {
-        timespec now{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-        return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+        return 1e3 * threadProcessorTime();
     }
 
     /** Replays the problems of whole drives: the solver's share alone, warm started as on the road. */

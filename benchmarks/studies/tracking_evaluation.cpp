@@ -3,6 +3,7 @@
 // of docs/path-tracking.md comes from here.
 
 #include "benchmarks/studies/DriveStudy.h"
+#include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
 
 #include <algorithm>
@@ -105,15 +106,16 @@ namespace
                 continue;
             }
             const Worst &nominal = row.nominalWorst, &disturbed = row.disturbed;
-            result.add({row.name, fixed(MS * row.planningTime, 0), fixed(row.length, 1), std::to_string(row.cusps),
-                        fixed(CM * row.clearance, 1), fixed(row.nominal.travelTime, 1),
-                        fixed(row.nominal.meanAbsAcceleration, 2), fixed(DEGREES * row.nominal.meanAbsSteering, 1),
-                        fixed(CM * nominal.finalError, 1), fixed(DEGREES * nominal.finalYaw, 2),
-                        fixed(CM * nominal.crossTrack, 1), std::to_string(nominal.collided),
+            result.add({row.name, formatNumber(MS * row.planningTime, 0), formatNumber(row.length, 1),
+                        std::to_string(row.cusps), formatNumber(CM * row.clearance, 1),
+                        formatNumber(row.nominal.travelTime, 1), formatNumber(row.nominal.meanAbsAcceleration, 2),
+                        formatNumber(DEGREES * row.nominal.meanAbsSteering, 1),
+                        formatNumber(CM * nominal.finalError, 1), formatNumber(DEGREES * nominal.finalYaw, 2),
+                        formatNumber(CM * nominal.crossTrack, 1), std::to_string(nominal.collided),
                         std::to_string(disturbed.parked) + "/" + std::to_string(disturbed.drives) +
                             (disturbed.replanned > 0 ? " (" + std::to_string(disturbed.replanned) + " replanned)" : ""),
-                        fixed(CM * disturbed.finalError, 1), fixed(DEGREES * disturbed.finalYaw, 2),
-                        fixed(CM * disturbed.crossTrack, 1), fixed(CM * disturbed.clearance, 1),
+                        formatNumber(CM * disturbed.finalError, 1), formatNumber(DEGREES * disturbed.finalYaw, 2),
+                        formatNumber(CM * disturbed.crossTrack, 1), formatNumber(CM * disturbed.clearance, 1),
                         std::to_string(disturbed.collided), row.good() ? "yes" : "NO"});
         }
         return result.text();

@@ -1,25 +1,14 @@
 #include "parking_geometry/drawing/SvgText.h"
 
+#include "parking_geometry/text/Text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace parking
 {
     namespace
     {
-        std::string fixed(double value, int decimals)
-        {
-            char buffer[64];
-            // Figures are far smaller; the bound keeps the buffer long enough whatever comes in.
-            const double bounded = std::isfinite(value) ? std::clamp(value, -1e30, 1e30) : 0.0;
-            const std::to_chars_result end =
-                std::to_chars(buffer, buffer + sizeof(buffer), bounded, std::chars_format::fixed, decimals);
-            const std::string text(buffer, end.ptr);
-            const bool negativeZero = text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos;
-            return negativeZero ? text.substr(1) : text;
-        }
-
         /** Bytes of the UTF-8 character at the beginning of \e text, 0 when there is no valid one. */
         std::size_t characterLength(std::string_view text)
         {
@@ -40,7 +29,8 @@ namespace parking
 
     std::string px(double value)
     {
-        std::string text = fixed(value, 2);
+        // Figures are far smaller.
+        std::string text = formatNumber(std::isfinite(value) ? std::clamp(value, -1e30, 1e30) : 0.0, 2);
         text.erase(text.find_last_not_of('0') + 1);
         if (text.back() == '.')
             text.pop_back();
@@ -109,6 +99,6 @@ namespace parking
 
     std::string tickLabel(double value, double step)
     {
-        return fixed(value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9));
+        return formatNumber(value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9));
     }
 }  // namespace parking

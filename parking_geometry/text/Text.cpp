@@ -1,5 +1,6 @@
 #include "parking_geometry/text/Text.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #ifndef __cpp_lib_to_chars
@@ -71,6 +72,23 @@ namespace parking
 #else
         return shortest(value, everyday);
 #endif
+    }
+
+    std::string formatNumber(double value, int decimals)
+    {
+        if (std::isnan(value))
+            return "nan";
+        std::array<char, 400> buffer;  // enough for the greatest number
+#ifdef __cpp_lib_to_chars
+        const std::to_chars_result end =
+            std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+        const std::string text(buffer.data(), end.ptr);
+#else
+        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
+        const std::string text(buffer.data());
+#endif
+        const bool isNegativeZero = text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos;
+        return isNegativeZero ? text.substr(1) : text;
     }
 
     std::string_view trimmed(std::string_view text)

@@ -15,6 +15,10 @@ namespace parking
     /** \brief The shortest decimal form that reads back as \e value; "nan" and "inf" as such. No locale. */
     std::string formatNumber(double value);
 
+    /** \brief \e value with so many digits behind the point and no sign before a zero; "nan" and "inf" as such. No
+        locale. */
+    std::string formatNumber(double value, int decimals);
+
     /** \brief Without the blanks, tabs and line ends at both ends. */
     std::string_view trimmed(std::string_view text);
 

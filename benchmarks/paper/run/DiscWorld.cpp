@@ -1,12 +1,12 @@
 #include "benchmarks/paper/run/DiscWorld.h"
 
+#include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <limits>
 
 namespace parking
@@ -63,11 +63,6 @@ namespace parking
             return least;
         }
     }  // namespace
-
-    double processorTime()
-    {
-        return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-    }
 
     DiscWorld::DiscWorld(const ObstacleSet &obstacles, const Box &bounds, double radius, double ahead,
                          DiscLookup lookup)

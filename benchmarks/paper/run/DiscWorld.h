@@ -13,9 +13,6 @@
 
 namespace parking
 {
-    /** \brief Seconds of processor time that the process has taken so far. */
-    double processorTime();
-
     /** \brief How it is found out whether a disc is free. */
     enum class DiscLookup
     {

@@ -1,6 +1,7 @@
 #include "benchmarks/paper/run/PaperTask.h"
 
 #include "automatic_parking/scenario/ScenarioPlanner.h"
+#include "benchmarks/system/ProcessorTime.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"

@@ -2,6 +2,7 @@
 
 #include "benchmarks/problems/PlanRun.h"
 #include "benchmarks/problems/Problem.h"
+#include "benchmarks/system/ProcessorTime.h"
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
@@ -10,8 +11,6 @@
 #include <array>
 #include <cmath>
 #include <sstream>
-
-#include <time.h>
 
 namespace parking
 {
@@ -23,14 +22,6 @@ namespace parking
         constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 250, MOST_OF_SOME = 1000;
         /** Share of the paths that the oracle of the tests looks at, too. */
         constexpr double ASKED_OF_ORACLE = 0.05;
-
-        /** Seconds of processor time of this thread: the machine may have other things to do. */
-        double threadTime()
-        {
-            timespec time{};
-            clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-            return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-        }
 
         search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker,
                                    std::uint64_t mostExpansions)
@@ -132,9 +123,9 @@ namespace parking
         const std::uint64_t mostExpansions = !settings_.small      ? MOST_EXPANSIONS
                                              : random_.chance(0.1) ? MOST_OF_SOME
                                                                    : MOST_WHEN_SMALL;
-        const double begin = threadTime();
+        const double begin = threadProcessorTime();
         const search::PlanResult result = planned(scenario, *checker_, mostExpansions);
-        const double time = threadTime() - begin;
+        const double time = threadProcessorTime() - begin;
         {
             const std::lock_guard<std::mutex> lock(mutex_);
             ++figures_.queries;

@@ -60,10 +60,10 @@ namespace
             for (const std::size_t count : {row.drives, row.parked, row.stoppedFree, row.appeared, row.avoidable,
                                             row.avoidableHit, row.appeared - row.avoidable, row.inevitableHit})
                 cells.push_back(std::to_string(count));
-            cells.push_back(fixed(row.impact, 1));
+            cells.push_back(formatNumber(row.impact, 1));
             for (const std::size_t count : {row.otherHit, row.otherInevitable, row.rolling, row.broken})
                 cells.push_back(std::to_string(count));
-            cells.push_back(row.parked > 0 ? fixed(row.time / static_cast<double>(row.parked), 1) : "");
+            cells.push_back(row.parked > 0 ? formatNumber(row.time / static_cast<double>(row.parked), 1) : "");
             table.add(cells);
         }
         return table.text();

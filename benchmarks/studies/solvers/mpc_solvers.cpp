@@ -2,6 +2,7 @@
 // SLSQP and IPOPT. All get the same problems, recorded on simulated drives, the same cost with the same derivatives,
 // and the same start, which is their own last answer, one step on. Processor time of the thread.
 
+#include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/control/MpcCost.h"
 #include "path_tracking/control/MpcWorkingSet.h"
@@ -17,8 +18,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <time.h>
 
 #ifdef HAS_NLOPT
 #include <nlopt.h>
@@ -36,9 +35,7 @@ namespace
 
     double cpuMilliseconds()
     {
-        timespec now{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-        return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+        return 1e3 * threadProcessorTime();
     }
 
     /** Arcs at full lock, lines and cusps, some 25 m. */

@@ -3,6 +3,7 @@
 // of the thread. usage: trajectory_solvers SCENARIO...
 
 #include "automatic_parking/scenario/ScenarioPlanner.h"
+#include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "path_tracking/trajectory/TrajectoryOptimizer.h"
@@ -19,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
@@ -34,9 +34,7 @@ namespace
 
     double cpuMilliseconds()
     {
-        timespec now{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-        return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+        return 1e3 * threadProcessorTime();
     }
 
     /** The program that the optimiser solves first near a path. */

@@ -1,6 +1,7 @@
 #include "benchmarks/worlds/Random.h"
 #include "parking_geometry/text/NearestName.h"
 
+#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
@@ -74,6 +75,26 @@ TEST(Text, NumbersAreReadStrictly)
     EXPECT_EQ(count, 12u);
     for (const char *text : {"", "-1", "+1", "1.0", "1e3", "99999999999999999999"})
         EXPECT_FALSE(parseCount(text, count)) << text;
+}
+
+TEST(Text, AnErrorIsOneLineWhateverTheNamesInIt)
+{
+    EXPECT_STREQ(Error(std::string("a\nb\r\x7F\0c.yaml: cannot be opened", 30)).what(),
+                 "a?b???c.yaml: cannot be opened");
+    EXPECT_STREQ(Error("Tür.yaml: cannot be opened").what(), "Tür.yaml: cannot be opened");
+}
+
+TEST(Text, NumbersAreWrittenWithSoManyDecimals)
+{
+    EXPECT_EQ(formatNumber(0.0, 0), "0");
+    EXPECT_EQ(formatNumber(1.996, 2), "2.00");
+    EXPECT_EQ(formatNumber(-0.25, 1), "-0.2");  // to even, as it is exact
+    EXPECT_EQ(formatNumber(-0.004, 2), "0.00");
+    EXPECT_EQ(formatNumber(-0.006, 2), "-0.01");
+    EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN(), 3), "nan");
+    EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity(), 3), "-inf");
+    const std::string greatest = formatNumber(-std::numeric_limits<double>::max(), 9);
+    EXPECT_EQ(greatest.size(), 1u + 309u + 1u + 9u);
 }
 
 TEST(Text, NumbersAreWrittenSoThatTheyReadBack)
