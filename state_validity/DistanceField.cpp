@@ -184,6 +184,8 @@ namespace parking
     void DistanceField::transform(const std::vector<std::uint8_t> &blocked)
     {
         inverse_ = 1.0 / resolution_;
+        width_ = static_cast<double>(columns_);
+        height_ = static_cast<double>(rows_);
         // A hair more than a diagonal, for cells that an outline misses by rounding but that are marked all the same.
         error_ = std::sqrt(2.0) * resolution_ * (1.0 + 1e-5);
         constexpr float FAR = std::numeric_limits<float>::infinity();

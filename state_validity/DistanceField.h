@@ -83,6 +83,19 @@ namespace parking
             return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
         }
 
+        /** \brief Between what the distance from a point to the nearest obstacle lies, in metres. */
+        struct Bounds
+        {
+            double lower, upper;
+        };
+
+        /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
+        Bounds bounds(double x, double y) const
+        {
+            const double value = valueAt(x, y), lower = value * (1.0 - ROUNDING) - error_;
+            return {lower > 0.0 ? lower : 0.0, value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_};
+        }
+
         /** \brief Is the local point surely inside of an obstacle, or outside of the bounds? */
         bool isInside(double x, double y) const
         {
@@ -109,15 +122,18 @@ namespace parking
         {
             const double u = (x - origin_.x()) * inverse_, v = (y - origin_.y()) * inverse_;
             // Written so that NaN takes the branch.
-            if (!(u >= 0.0 && v >= 0.0 && u < static_cast<double>(columns_) && v < static_cast<double>(rows_)))
+            if (!(u >= 0.0 && v >= 0.0 && u < width_ && v < height_))
                 return -1.0;
-            return values_[static_cast<std::size_t>(v) * columns_ + static_cast<std::size_t>(u)];
+            // Signed: doubles become such in one instruction.
+            return values_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(v)) * columns_ +
+                           static_cast<std::size_t>(static_cast<std::ptrdiff_t>(u))];
         }
 
         void transform(const std::vector<std::uint8_t> &blocked);
 
         std::size_t columns_{0};
         std::size_t rows_{0};
+        double width_{0.0}, height_{0.0};  // columns and rows once more, to compare with
         double resolution_{1.0};
         double inverse_{1.0};
         double error_{0.0};

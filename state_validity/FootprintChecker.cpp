@@ -106,12 +106,13 @@ namespace parking
         if (!isFinite(pose))
             return false;
         const OrientedBox box = boxAt(obstacles_.toLocal(pose));
-        if (field_.lowerBound(box.x, box.y) > circumradius_)
+        const DistanceField::Bounds room = field_.bounds(box.x, box.y);
+        if (room.lower > circumradius_)
         {
             ++counts.byField;
             return true;
         }
-        if (field_.upperBound(box.x, box.y) < inradius_)
+        if (room.upper < inradius_)
         {
             ++counts.byField;
             return false;
@@ -120,12 +121,13 @@ namespace parking
         for (std::size_t i = 0; i < covering_.size(); ++i)
         {
             const double x = box.x + box.cosine * covering_[i].offset, y = box.y + box.sine * covering_[i].offset;
-            if (field_.upperBound(x, y) < inscribed_[i].radius)
+            const DistanceField::Bounds there = field_.bounds(x, y);
+            if (there.upper < inscribed_[i].radius)
             {
                 ++counts.byCircles;
                 return false;
             }
-            covered = covered && field_.lowerBound(x, y) > covering_[i].radius;
+            covered = covered && there.lower > covering_[i].radius;
         }
         if (covered)
         {
@@ -204,12 +206,13 @@ namespace parking
         for (std::size_t i = 0; i < covering_.size(); ++i)
         {
             const double x = box.x + box.cosine * covering_[i].offset, y = box.y + box.sine * covering_[i].offset;
-            if (field_.upperBound(x, y) < inscribed_[i].radius + clearance)
+            const DistanceField::Bounds there = field_.bounds(x, y);
+            if (there.upper < inscribed_[i].radius + clearance)
             {
                 ++counts.byCircles;
                 return false;
             }
-            covered = covered && field_.lowerBound(x, y) - covering_[i].radius >= clearance;
+            covered = covered && there.lower - covering_[i].radius >= clearance;
         }
         if (covered)
         {
