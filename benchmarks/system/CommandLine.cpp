@@ -57,6 +57,10 @@ namespace parking
         }
         catch (const po::error &error)
         {
+            // Boost replaces its placeholders in what() for ever when an option is called like one.
+            for (const std::string &argument : arguments)
+                if (argument.rfind('-', 0) == 0 && argument.find('%') != std::string::npos)
+                    throw Error("no option is called " + inQuotes(argument) + " (see --help)");
             throw Error(oneLine(error.what()) + " (see --help)");
         }
     }
