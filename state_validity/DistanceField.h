@@ -86,7 +86,8 @@ namespace parking
         /** \brief Between what the distance from a point to the nearest obstacle lies, in metres. */
         struct Bounds
         {
-            double lower, upper;
+            double lower;  ///< never more than the distance
+            double upper;  ///< never less
         };
 
         /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
