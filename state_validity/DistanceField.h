@@ -71,16 +71,14 @@ namespace parking
             Points that are not finite give 0. */
         double lowerBound(double x, double y) const
         {
-            const double value = valueAt(x, y) * (1.0 - ROUNDING) - error_;
-            return value > 0.0 ? value : 0.0;
+            return lowerBoundOf(valueAt(x, y));
         }
 
         /** \brief Never less than the distance from the local point to the nearest obstacle; 0 when it is surely inside
             of one. Infinite where there is no obstacle at all. */
         double upperBound(double x, double y) const
         {
-            const double value = valueAt(x, y);
-            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
+            return upperBoundOf(valueAt(x, y));
         }
 
         /** \brief Between what the distance from a point to the nearest obstacle lies, in metres. */
@@ -93,8 +91,8 @@ namespace parking
         /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
         Bounds bounds(double x, double y) const
         {
-            const double value = valueAt(x, y), lower = value * (1.0 - ROUNDING) - error_;
-            return {lower > 0.0 ? lower : 0.0, value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_};
+            const double value = valueAt(x, y);
+            return {lowerBoundOf(value), upperBoundOf(value)};
         }
 
         /** \brief Is the local point surely inside of an obstacle, or outside of the bounds? */
@@ -118,6 +116,17 @@ namespace parking
     private:
         /** Relative error of a float, twice over. */
         static constexpr double ROUNDING = 1.2e-7;
+
+        double lowerBoundOf(double value) const
+        {
+            const double lower = value * (1.0 - ROUNDING) - error_;
+            return lower > 0.0 ? lower : 0.0;
+        }
+
+        double upperBoundOf(double value) const
+        {
+            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
+        }
 
         double valueAt(double x, double y) const
         {

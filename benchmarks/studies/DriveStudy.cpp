@@ -4,7 +4,6 @@
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
 
-#include <cstdio>
 #include <iostream>
 #include <utility>
 

@@ -11,7 +11,7 @@ namespace parking
         /** By which the body is enlarged on all sides, metres: what freeLength() takes when nothing is said... */
         constexpr double USUAL_ENLARGEMENT = 1e-3;
 
-        /** ...and what is enough for all rounding in worlds of kilometres. */
+        /** ...and what is left for rounding where a path has to touch nothing and no more. */
         constexpr double LEAST_ENLARGEMENT = 1e-5;
 
         /** From the arcs that are swept in the place of a clothoid; a share of the enlargement. */
