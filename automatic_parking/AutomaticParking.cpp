@@ -260,6 +260,8 @@ namespace parking
                 note(result_.message);
                 return false;
             }
+            // The car is the same on the next drive.
+            parameters_.drive.tracking.response = leg.drive.response;
             if (cause_.empty())
                 cause_ = whyStopped(leg.drive);
             for (TrajectoryPoint point : leg.drive.trajectory)
@@ -282,8 +284,8 @@ namespace parking
         static std::string whyStopped(const DriveResult &drive)
         {
             for (const DriveRecord &record : drive.log)
-                if (record.control.wheelsStick)
-                    return "the wheels do not follow their command";
+                if (record.control.wheelsAreBack)
+                    return "the wheels did not follow their command";
                 else if (record.control.poseIsBack)
                     return "the pose was lost";
                 else if (record.control.blocked)

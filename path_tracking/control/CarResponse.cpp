@@ -28,20 +28,24 @@ namespace parking
     {
         const Require require("tracking");
         estimator.validate();
-        for (const auto &[name, value] : {std::pair<const char *, double>{"steeringLag", steeringLag},
-                                          {"driveLag", driveLag},
-                                          {"commandDelay", commandDelay}})
+        for (const auto &[name, value] :
+             {std::pair<const char *, double>{"steeringLag", steeringLag}, {"driveLag", driveLag}})
             require.that(value >= 0.0 && value <= 0.5, name, value, "from 0 to 0.5 seconds");
+        require.that(commandDelay >= 0.0 && commandDelay <= 1.0, "commandDelay", commandDelay, "from 0 to 1 seconds");
+        require.that(brakeScale > 0.0 && brakeScale <= 1.0, "brakeScale", brakeScale, "above 0 and up to 1");
     }
 
     CarResponse::CarResponse(const Vehicle &vehicle, const ResponseParameters &parameters, double period,
                              double steering)
       : vehicle_(vehicle),
+        known_(parameters),
         period_(period),
         estimator_(vehicle.wheelbase, parameters.estimator),
         steeringLag_(parameters.steeringLag),
         driveLag_(parameters.driveLag),
-        delay_(period, steering, static_cast<std::size_t>(std::lround(parameters.commandDelay / period)))
+        delay_(period, steering, static_cast<std::size_t>(std::lround(parameters.commandDelay / period)),
+               parameters.delayIsSure),
+        brakeScale_(parameters.brakeScale)
     {
     }
 
@@ -100,15 +104,45 @@ namespace parking
 
     void CarResponse::watchWheels(const Measurement &measurement)
     {
+        double least = expectedTurn(delay_.periods(), steeringLag_.lag()), most = least;
         if (!delay_.isSure())
+        {
+            // The lag is not known either; wheels that are as slow as can be thought of move more than hardly.
+            least = most = expectedTurn(0, 0.0);
+            for (std::size_t delay = 1; delay <= CommandDelay::MOST; ++delay)
+            {
+                least = std::min(least, expectedTurn(delay, 0.0));
+                most = std::max(most, expectedTurn(delay, 0.0));
+            }
+        }
+        if (least < LEAST_TURN && most > -LEAST_TURN)
             return;
-        const LagStep lag(steeringLag_.lag(), period_);
+        const double expected = std::min(std::abs(least), std::abs(most));
+        const double turned = std::abs(measurement.steering - estimator_.measuredSteering());
+        stuck_ = turned < HARDLY * expected ? stuck_ + 1 : 0;
+    }
+
+    double CarResponse::expectedTurn(std::size_t delay, double lag) const
+    {
+        const LagStep step(lag, period_);
         const double before = estimator_.measuredSteering();
-        const double expected = lag.ofCommand * delay_.arrived().steering + lag.ofBefore * delay_.arrived(1).steering +
-                                lag.ofValue * before - before;
-        if (std::abs(expected) < LEAST_TURN)
-            return;
-        stuck_ = std::abs(measurement.steering - before) < HARDLY * std::abs(expected) ? stuck_ + 1 : 0;
+        return step.ofCommand * delay_.given(delay).steering + step.ofBefore * delay_.given(delay + 1).steering +
+               step.ofValue * before - before;
+    }
+
+    ResponseParameters CarResponse::learnt() const
+    {
+        ResponseParameters result = known_;
+        result.brakeScale = brakeScale_;
+        if (!delay_.isSure())
+            return result;
+        result.commandDelay = delay_.time();
+        result.delayIsSure = true;
+        result.driveLag = driveLag_.lag();
+        // Wheels that stick have begun to look slow.
+        if (!wheelsStick())
+            result.steeringLag = steeringLag_.lag();
+        return result;
     }
 
     CarState CarResponse::now() const

@@ -18,6 +18,8 @@ namespace parking
         double steeringLag{0.0};        ///< seconds that the wheels lag behind their command
         double driveLag{0.0};           ///< seconds that the acceleration lags behind its command
         double commandDelay{0.0};       ///< seconds that a command takes to arrive
+        bool delayIsSure{false};        ///< has that been seen, so that it need not be learnt?
+        double brakeScale{1.0};         ///< share of a commanded deceleration that the car reaches, in (0, 1]
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
@@ -86,7 +88,12 @@ namespace parking
             return brakeScale_;
         }
 
-        /** \brief Do the wheels stay where they are whatever they are told? */
+        /** \brief What is known now: what another CarResponse of this car may begin with. */
+        ResponseParameters learnt() const;
+
+        /** \brief Do the wheels stay where they are whatever they are told?
+
+            Until the delay of commands is sure it is only said once wheels should have moved with any delay. */
         bool wheelsStick() const
         {
             return stuck_ >= STUCK_FOR;
@@ -113,8 +120,11 @@ namespace parking
 
         void learnBrake(const Measurement &measurement);
         void watchWheels(const Measurement &measurement);
+        /** Radians by which wheels turn in the last period, by such a delay (periods) and lag (seconds). */
+        double expectedTurn(std::size_t delay, double lag) const;
 
         Vehicle vehicle_;
+        ResponseParameters known_;  // beforehand
         double period_;
         PoseEstimator estimator_;
         SteeringLagEstimator steeringLag_;

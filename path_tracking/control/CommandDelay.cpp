@@ -21,9 +21,10 @@ namespace parking
         }
     }  // namespace
 
-    CommandDelay::CommandDelay(double period, double steering, std::size_t periods)
+    CommandDelay::CommandDelay(double period, double steering, std::size_t periods, bool sure)
       : period_(period),
         periods_(std::min(periods, MOST)),
+        sure_(sure ? ENOUGH : 0),
         given_(MOST + 3, Command{0.0, steering, true})
     {
     }

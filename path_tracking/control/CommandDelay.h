@@ -22,8 +22,9 @@ namespace parking
 
         /** \param period seconds of control
             \param steering radians, commanded before the first command
-            \param periods of delay, known beforehand */
-        CommandDelay(double period, double steering, std::size_t periods = 0);
+            \param periods of delay, known beforehand
+            \param sure is that number certain? Then nothing is learnt */
+        CommandDelay(double period, double steering, std::size_t periods = 0, bool sure = false);
 
         /** \brief A command is sent off. */
         void give(const Command &command);
@@ -49,10 +50,16 @@ namespace parking
             return sure_ >= ENOUGH;
         }
 
+        /** \brief What was sent off \e ago periods before the newest command, at most MOST + 2. */
+        const Command &given(std::size_t ago) const
+        {
+            return given_[given_.size() - 1 - ago];
+        }
+
         /** \brief What the car did in the last period, \e ago periods before it. */
         const Command &arrived(std::size_t ago = 0) const
         {
-            return given_[given_.size() - 1 - periods_ - ago];
+            return given(periods_ + ago);
         }
 
         /** \brief What it will be told in \e index periods: 0 is what arrives next; below periods(). */
@@ -71,11 +78,6 @@ namespace parking
             DriveLagEstimator drive;
             double error{0.0};
         };
-
-        const Command &given(std::size_t ago) const
-        {
-            return given_[given_.size() - 1 - ago];
-        }
 
         double period_;
         std::size_t periods_;

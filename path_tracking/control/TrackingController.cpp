@@ -44,7 +44,7 @@ namespace parking
         reference_(std::move(reference)),
         mpc_(vehicle, parameters.mpc),
         solve_(std::move(solve)),
-        response_(vehicle, parameters.response(), parameters.mpc.step, initialSteering),
+        response_(vehicle, parameters.response, parameters.mpc.step, initialSteering),
         poseWatch_(parameters.maxFailures, parameters.posePatience, parameters.mpc.step)
     {
         last_.steering = initialSteering;
@@ -97,8 +97,8 @@ namespace parking
         if (mode_ == TrackingMode::Braking)
             brake(step);
         else if (mode_ == TrackingMode::Waiting)
-            waitForPose(step);
-        if (finished() || mode_ == TrackingMode::Waiting)
+            wait(step);
+        else if (finished())
             step.command =
                 standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
 
@@ -158,7 +158,7 @@ namespace parking
             beginStop("the car moves against the direction of the path", step);
         else if (response_.wheelsStick() && mode_ == TrackingMode::Driving)
         {
-            step.wheelsStick = true;
+            stuckAt_ = estimator().measuredSteering();
             beginStop("the wheels do not follow their command", step);
         }
     }
@@ -270,7 +270,8 @@ namespace parking
         wheelsOff_ = off;
         if (waited_ > STEERING_PATIENCE)
         {
-            step.wheelsStick = standing;
+            if (standing)
+                stuckAt_ = estimator().measuredSteering();
             beginStop(standing ? "the wheels do not follow their command" : "the car does not stand still", step);
             return;
         }

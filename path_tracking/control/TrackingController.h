@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ namespace parking
         Steering,  ///< standing, turning the wheels to where the leg begins, or to where they shall end
         Driving,   ///< on a leg
         Braking,   ///< a safe stop: braking on the path
-        Waiting,   ///< standing after a safe stop until the pose is known again
+        Waiting,   ///< standing after a safe stop until the pose is known, or the wheels turn, again
         Arrived,   ///< standing at the end of the path
         Stopped    ///< standing after a safe stop
     };
@@ -42,7 +43,7 @@ namespace parking
         bool solverFailed{false};                   ///< and was its answer useless?
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
-        bool wheelsStick{false};                    ///< do the wheels not follow?
+        bool wheelsAreBack{false};                  ///< has the car stopped, and waited, until its wheels turned again?
         bool poseIsBack{false};                     ///< has the car stopped, and waited, until its pose was back?
         bool blocked{false};                        ///< has the guard kept the car standing until it was a safe stop?
         /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
@@ -65,7 +66,8 @@ namespace parking
         along the path instead, until the guard lets it go on. When the optimiser fails, the rest of its last answer is
        used for a few periods; when failures go on, the pose is lost or the car strays from the path, the car brakes
        with its full deceleration, steered along the path by a plain feedback law that needs no optimiser, and stands.
-       There it waits for a pose that was lost: when it is back the drive is over, and another one can begin.
+       There it waits for a pose that was lost, or for wheels that stick: when they are back the drive is over, and
+       another one can begin.
        Whatever happens, the command obeys the car's limits. */
     class TrackingController
     {
@@ -124,6 +126,13 @@ namespace parking
         /** \brief Asks for a safe stop; the next step begins it. \param reason appears as its event. */
         void requestStop(const std::string &reason);
 
+        /** \brief How the car follows its commands, as far as it has been learnt: what its next controller may begin
+            with. */
+        ResponseParameters learntResponse() const
+        {
+            return response_.learnt();
+        }
+
     private:
         static constexpr double STANDING = 0.01;  // m/s that count as standing
         static constexpr double SEARCH = 1.5;     // metres of path searched for the car on either side
@@ -150,7 +159,9 @@ namespace parking
         void steer(TrackingStep &step);
         void drive(TrackingStep &step);
         void brake(TrackingStep &step);
+        void wait(TrackingStep &step);
         void waitForPose(TrackingStep &step);
+        void waitForWheels(TrackingStep &step);
         Command braking(const CarState &car, const PathProjection &place, double last) const;
         Path stoppingWay(const Command &command) const;
         void askGuard(TrackingStep &step);
@@ -189,6 +200,8 @@ namespace parking
         std::size_t planAge_{0};
         int failures_{0};
         PoseWatch poseWatch_;
+        std::optional<double> stuckAt_;  // radians, of wheels that the car stops for
+        double wheelsAwaited_{0.0};      // seconds, standing
         std::string stopRequest_;
     };
 }  // namespace parking

@@ -25,10 +25,41 @@ namespace parking
         const CarState car = response_.ahead();
         if (std::abs(estimator().speed()) <= STANDING && std::abs(car.speed) <= STANDING)
         {
-            mode_ = poseWatch_.wasLost() ? TrackingMode::Waiting : TrackingMode::Stopped;
+            mode_ = poseWatch_.wasLost() || stuckAt_ ? TrackingMode::Waiting : TrackingMode::Stopped;
+            step.command =
+                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
             return;
         }
         step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
+    }
+
+    void TrackingController::wait(TrackingStep &step)
+    {
+        step.command =
+            standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
+        if (poseWatch_.wasLost())
+            waitForPose(step);
+        else
+            waitForWheels(step);
+    }
+
+    void TrackingController::waitForWheels(TrackingStep &step)
+    {
+        // They are told to turn a little towards the middle, and are back when they do.
+        constexpr double TRIED = 0.1, TURNED = 0.02;
+        wheelsAwaited_ += parameters_.mpc.step;
+        step.wheelsAreBack = std::abs(estimator().measuredSteering() - *stuckAt_) >= TURNED;
+        if (!step.wheelsAreBack && wheelsAwaited_ <= parameters_.wheelPatience)
+        {
+            const double target = std::clamp(*stuckAt_ - std::copysign(TRIED, *stuckAt_), -vehicle_.maxSteeringAngle,
+                                             vehicle_.maxSteeringAngle);
+            step.command = standStill(estimator().measuredSpeed(), last_.steering, target, vehicle_.maxSteeringRate);
+            return;
+        }
+        mode_ = TrackingMode::Stopped;
+        step.event = step.wheelsAreBack ? "the wheels turn again"
+                                        : "safe stop: the wheels do not follow their command, and have not for " +
+                                              formatNumber(parameters_.wheelPatience) + " s";
     }
 
     void TrackingController::waitForPose(TrackingStep &step)

@@ -20,10 +20,11 @@ namespace parking
         checkShare(require, "speedShare", speedShare);
         checkShare(require, "accelerationShare", accelerationShare);
         checkShare(require, "steeringRateShare", steeringRateShare);
-        response().validate();
+        response.validate();
         require.that(brakeReserve >= 0.0 && brakeReserve < 1.0, "brakeReserve", brakeReserve, "at least 0 and below 1");
         require.notNegative("guardPatience", guardPatience);
         require.notNegative("posePatience", posePatience);
+        require.notNegative("wheelPatience", wheelPatience);
         require.positive("lateralAcceleration", lateralAcceleration);
         require.positive("stopTolerance", stopTolerance);
         require.positive("arrivalTolerance", arrivalTolerance);

@@ -19,10 +19,7 @@ namespace parking
         double steeringRateShare{0.8};    ///< likewise
         double lateralAcceleration{1.0};  ///< m/s^2
 
-        EstimatorParameters estimator;  ///< of the filter that tells where the car is
-        double steeringLag{0.0};        ///< seconds that the wheels lag behind their command; learnt from there on
-        double driveLag{0.0};           ///< seconds that the acceleration lags behind its command; learnt from there on
-        double commandDelay{0.0};       ///< seconds that a command takes to arrive; learnt from there on
+        ResponseParameters response;  ///< what is known beforehand of how the car follows its commands
         /** Share by which the car may slow down less than its data say: what a guard is told of the way that a stop
             takes. */
         double brakeReserve{0.2};
@@ -37,16 +34,11 @@ namespace parking
         double maxHeadingError{0.7};  ///< radians, likewise
         /** Seconds that a car which has stopped because its pose was lost waits for it. */
         double posePatience{10.0};
-        int maxFailures{3};  ///< consecutive solver failures or unusable measurements; more and the car stops
+        double wheelPatience{10.0};  ///< seconds, likewise, because its wheels did not follow their command
+        int maxFailures{3};          ///< consecutive solver failures or unusable measurements; more and the car stops
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
-
-        /** \brief What is known beforehand of how the car follows its commands. */
-        ResponseParameters response() const
-        {
-            return {estimator, steeringLag, driveLag, commandDelay};
-        }
 
         /** \brief What the timed path may ask of \e vehicle. */
         SpeedLimits limits(const Vehicle &vehicle) const;

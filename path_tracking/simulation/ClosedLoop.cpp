@@ -269,6 +269,7 @@ namespace parking
         if (result.arrived)
             result.message = "arrived";
         result.evaluation = recorder.finish(goal, t);
+        result.response = controller.learntResponse();
         return result;
     }
 }  // namespace parking

@@ -51,6 +51,7 @@ namespace parking
         std::vector<DriveRecord> log;     ///< a record per period
         std::vector<std::string> events;  ///< with their times: failures, stops
         Evaluation evaluation;            ///< figures of the drive
+        ResponseParameters response;      ///< how the car follows its commands, as the controller has learnt it
     };
 
     /** \brief Drives a simulated car along a path, or through a motion in time.

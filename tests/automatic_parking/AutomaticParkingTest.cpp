@@ -267,24 +267,6 @@ namespace
         EXPECT_EQ(result.trajectory.back().v, 0.0);
     }
 
-    TEST(AutomaticParkingTest, wheelsThatStickForAWhileAreTriedAgain)
-    {
-        // Longer than the controller waits for the wheels of a car that stands.
-        ParkingParameters parameters;
-        parameters.optimizeTrajectory = false;
-        parameters.drive.disturbances.stuck = {{0.0, 5.0}};
-        const ParkingResult result = AutomaticParking(parameters).park(rowOfSlots());
-        EXPECT_TRUE(result.parked()) << result.message;
-        ASSERT_GT(result.legs.size(), 1u);
-        EXPECT_EQ(result.legs[1].reason, "the wheels do not follow their command");
-        parameters.drive.disturbances.stuck = {{0.0, 1e9}};
-        const ParkingResult never = AutomaticParking(parameters).park(rowOfSlots());
-        EXPECT_EQ(never.status, ParkingStatus::Stopped);
-        EXPECT_NE(never.message.find("the wheels do not follow their command"), std::string::npos) << never.message;
-        EXPECT_EQ(never.evaluation.collisions, 0u);
-        EXPECT_EQ(never.trajectory.back().v, 0.0);
-    }
-
     TEST(AutomaticParkingTest, saysWhyItDoesNotEvenBegin)
     {
         Scenario scenario = openGround();

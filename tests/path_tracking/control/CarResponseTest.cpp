@@ -17,9 +17,9 @@ namespace parking::test
         class Swerving
         {
         public:
-            explicit Swerving(const Disturbances &disturbances)
+            explicit Swerving(const Disturbances &disturbances, const ResponseParameters &known = {})
               : plant_(Vehicle(), disturbances, {}, 0.0, 0.005),
-                response(Vehicle(), {}, PERIOD, 0.0)
+                response(Vehicle(), known, PERIOD, 0.0)
             {
                 response.start(plant_.measure());
             }
@@ -131,6 +131,48 @@ namespace parking::test
                         }
                         EXPECT_FALSE(drive.response.wheelsStick()) << "they move again";
                     }
+        }
+
+        TEST(CarResponse, SeesWheelsThatStickFromTheBegin)
+        {
+            // Nothing has been learnt of the delay then, and nothing will be: any that is thought of must be over.
+            for (const double delay : {0.0, 0.3, 0.6})
+            {
+                SCOPED_TRACE("delay " + std::to_string(delay));
+                Disturbances odds;
+                odds.delay = delay;
+                odds.stuck = {{0.0, 2.0}};
+                Swerving drive(odds);
+                while (drive.time() < 1.2 && !drive.response.wheelsStick())
+                    drive.go();
+                EXPECT_GT(drive.time(), 0.1 * CommandDelay::MOST);
+                EXPECT_LT(drive.time(), 1.2);
+            }
+        }
+
+        TEST(CarResponse, KnowsACarAgain)
+        {
+            Disturbances odds;
+            odds.delay = 0.6;
+            odds.steeringLag = 0.1;
+            odds.brakeLoss = 0.2;
+            Swerving first(odds);
+            while (first.time() < 12.0)
+                first.go();
+            const ResponseParameters learnt = first.response.learnt();
+            EXPECT_NO_THROW(learnt.validate());
+            EXPECT_TRUE(learnt.delayIsSure);
+            EXPECT_NEAR(learnt.brakeScale, 0.8, 0.02);
+            EXPECT_NEAR(learnt.steeringLag, 0.1, 0.03);
+
+            Swerving second(odds, learnt);
+            EXPECT_NEAR(second.response.delay(), 0.6, 1e-9);
+            EXPECT_EQ(second.response.brakeScale(), learnt.brakeScale);
+            while (second.time() < 12.0)
+            {
+                second.go();
+                EXPECT_NEAR(second.response.delay(), 0.6, 1e-9);
+            }
         }
     }  // namespace
 }  // namespace parking::test

@@ -321,7 +321,7 @@ namespace parking::test
             TrackingController controller(path, Vehicle());
             const Drive drive = driveWith(controller, path, [](double, Measurement &m) { m.steering = 0.1; });
             EXPECT_EQ(drive.mode, TrackingMode::Stopped);
-            EXPECT_EQ(drive.event, "safe stop: the wheels do not follow their command");
+            EXPECT_EQ(drive.event, "safe stop: the wheels do not follow their command, and have not for 10 s");
             EXPECT_EQ(drive.fastest, 0.0);
         }
 
@@ -357,11 +357,11 @@ namespace parking::test
             refused([](TrackingParameters &p) { p.lateralAcceleration = -1.0; });
             refused([](TrackingParameters &p) { p.settleTime = 0.0; });
             refused([](TrackingParameters &p) { p.maxFailures = -1; });
-            refused([](TrackingParameters &p) { p.driveLag = 0.6; });
-            refused([](TrackingParameters &p) { p.steeringLag = -0.1; });
+            refused([](TrackingParameters &p) { p.response.driveLag = 0.6; });
+            refused([](TrackingParameters &p) { p.response.steeringLag = -0.1; });
             refused([](TrackingParameters &p) { p.mpc.horizon = 0; });
             refused([](TrackingParameters &p) { p.reference.cornerSpeed = 0.0; });
-            refused([](TrackingParameters &p) { p.estimator.drift = 0.0; });
+            refused([](TrackingParameters &p) { p.response.estimator.drift = 0.0; });
             EXPECT_THROW(TrackingController(std::shared_ptr<const TimedReference>(), Vehicle()), Error);
             EXPECT_THROW(TrackingController(Path{}, Vehicle()), Error);
             Vehicle slow;

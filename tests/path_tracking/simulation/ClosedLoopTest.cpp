@@ -330,7 +330,7 @@ namespace parking::test
                 {
                     ClosedLoopParameters parameters;
                     if (disturbed)
-                        parameters.disturbances.accelerationLag = parameters.tracking.driveLag = 0.2;
+                        parameters.disturbances.accelerationLag = parameters.tracking.response.driveLag = 0.2;
                     ClosedLoop loop(Vehicle(), parameters);
                     loop.setSolve(
                         [direction](const MpcProblem &problem)
