@@ -63,6 +63,7 @@ namespace parking
         trajectory.trajectory.accelerationShare = 0.95;
         trajectory.trajectory.steeringShare = 0.97;
         trajectory.trajectory.steeringRateShare = 0.8;
+        trajectory.trajectory.sharpest = false;
     }
 
     /** One call of park(): the world as it is now, and what has been driven so far. */

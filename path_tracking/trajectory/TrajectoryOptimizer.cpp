@@ -23,11 +23,10 @@ namespace parking
     namespace
     {
         constexpr double RANGE = 1.5;            // metres within which obstacles matter, in the first round
-        constexpr double FIRST_BARRIER = 5e-3;   // seconds, of rounds that begin with a guess
         constexpr double ENOUGH_GAIN = 3e-3;     // share of the cost for which another round is worth its time
         constexpr double PROMISING = 1.05;       // share of the best cost that improving a solution may make up for
         constexpr double LIKELY = 1.02;          // share of it up to which driving along a path may cost at least
-        constexpr double ALIKE = 0.5;            // metres between paths for which one program is enough
+        constexpr double ALIKE = 2.0;            // metres between paths for which one program is enough
         constexpr double SAME_COST = 1e-3;       // share of the cost up to which two solutions count as one
         constexpr std::size_t MOST_RETRIES = 2;  // of a motion that is quicker than what holds, but does not
         constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
@@ -36,7 +35,8 @@ namespace parking
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
         constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
         constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
-
+        /** Of rounds that begin with a guess. */
+        constexpr MotionBarriers FROM_GUESS{5e-3, 2e-5};
     }  // namespace
 
     TrajectoryOptimizer::TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options)
@@ -90,12 +90,13 @@ namespace parking
             std::vector<MotionSolution> solutions;
             for (std::size_t round = 0; round < owner_.options_.mostRounds && solutions.empty(); ++round)
                 solveEach(attempts, limit, solutions);
-            retryWrong(solutions);
             std::stable_sort(solutions.begin(), solutions.end(),
                              [](const MotionSolution &a, const MotionSolution &b) { return a.cost < b.cost; });
             std::optional<MotionSolution> found = improveBest(solutions);
             if (found)
                 dropStretches(*found);
+            if (found && owner_.options_.sharpest)
+                refine(*found);
             return found;
         }
 
@@ -125,7 +126,8 @@ namespace parking
 
             MotionOutline outlineOf(const TrajectoryOptimizer &owner) const
             {
-                return {local, owner.body_, step, owner.options_.initialSteering, owner.options_.finalSteering};
+                const TrajectoryOptions &options = owner.options_;
+                return {local, owner.body_, step, options.initialSteering, options.finalSteering, options.sharpest};
             }
 
             Path local;  // in the coordinates of the pieces
@@ -157,7 +159,6 @@ namespace parking
         /** Solves a program near each path that may be the best, and is not like one that was solved. */
         void solveEach(std::vector<Attempt> &attempts, double limit, std::vector<MotionSolution> &solutions)
         {
-            wrong_.clear();
             std::vector<const Path *> solved;
             for (Attempt &attempt : attempts)
             {
@@ -167,7 +168,7 @@ namespace parking
                 if (std::any_of(solved.begin(), solved.end(),
                                 [&attempt](const Path *path) { return areAlike(*path, attempt.local, ALIKE); }))
                     continue;
-                if (auto solution = solve(attempt))
+                if (auto solution = solve(attempt, solutions.empty() ? limit : leastCost(solutions)))
                 {
                     solver_.spareWork();
                     solved.push_back(&attempt.local);
@@ -190,13 +191,14 @@ namespace parking
                 problem.weights.nearness = 0.0;
             outline.write(problem);
             return solver_.solve(
-                std::move(problem), FIRST_BARRIER,
+                std::move(problem), FROM_GUESS,
                 [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); }, view,
                 mostIterations);
         }
 
-        /** A solution near a path; none leaves the attempt more careful than it was. */
-        std::optional<MotionSolution> solve(Attempt &attempt)
+        /** A solution near a path; none leaves the attempt more careful than it was. What is cheaper than \e limit and
+            ran into something that was not known to be in the way is solved again from where it ended. */
+        std::optional<MotionSolution> solve(Attempt &attempt, double limit)
         {
             auto found = solveAlong(*attempt.outline, attempt.view);
             if (found)
@@ -207,11 +209,7 @@ namespace parking
             // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
             // known already, more of everything. What had none needs more room.
             if (solver_.wasWrong() && solver_.hasLearnt())
-            {
-                wrong_.push_back(*solver_.takeWrong());
-                wrong_.back().path = attempt.path;
-                return std::nullopt;
-            }
+                return retryWrong(attempt.path, limit, [&] { return solveAlong(*attempt.outline, attempt.view); });
             attempt.view.spacing *= 0.5;
             if (solver_.wasWrong())
                 attempt.view.separation.range *= 1.5;
@@ -224,26 +222,23 @@ namespace parking
             return std::nullopt;
         }
 
-        /** What is quicker than all that holds, and ran into something that was not known to be in the way, is solved
-            again from where it ended. */
-        void retryWrong(std::vector<MotionSolution> &solutions)
+        /** Solves again what ran into something, as often as it does so and something is learnt from it: from where it
+            ended, or, where that is of no use, \e anew. */
+        std::optional<MotionSolution> retryWrong(std::size_t path, double limit,
+                                                 const std::function<std::optional<MotionSolution>()> &anew)
         {
-            for (MotionSolution &wrong : wrong_)
-                for (std::size_t i = 0; i < MOST_RETRIES && !solutions.empty() && solver_.mayGoOn(); ++i)
-                {
-                    if (wrong.cost >= leastCost(solutions))
-                        break;
-                    if (auto found = solver_.solveAgain(wrong))
-                    {
-                        solutions.push_back(std::move(*found));
-                        break;
-                    }
-                    auto again = solver_.takeWrong();
-                    if (!again || !solver_.hasLearnt())
-                        break;
-                    again->path = wrong.path;
-                    wrong = std::move(*again);
-                }
+            for (std::size_t i = 0; i < MOST_RETRIES && solver_.hasLearnt() && solver_.mayGoOn(); ++i)
+            {
+                auto wrong = solver_.takeWrong();
+                if (!wrong || wrong->cost >= limit)
+                    break;
+                auto found = solver_.hasStrayed() ? anew() : solver_.solveAgain(*wrong);
+                if (!found)
+                    continue;
+                found->path = path;
+                return found;
+            }
+            return std::nullopt;
         }
 
         /** Improves what was found, cheapest first, and gives the best. Of solutions that are the same only one. */
@@ -305,9 +300,10 @@ namespace parking
                     if (rest.empty())
                         return;
                     ++tries;
-                    auto found = solveAlong({guessesAlong(rest, owner_.body_), owner_.body_, owner_.options_.step,
-                                             owner_.options_.initialSteering, owner_.options_.finalSteering},
-                                            best.view, MOST_DROP_ITERATIONS);
+                    auto found = solveAlong(
+                        {guessesAlong(rest, owner_.body_), owner_.body_, owner_.options_.step,
+                         owner_.options_.initialSteering, owner_.options_.finalSteering, owner_.options_.sharpest},
+                        best.view, MOST_DROP_ITERATIONS);
                     if (!found || found->cost >= best.cost)
                         continue;
                     found->path = best.path;
@@ -319,10 +315,21 @@ namespace parking
             }
         }
 
+        /** Moves nodes to where accelerations and steering rates change. */
+        void refine(MotionSolution &best)
+        {
+            if (!solver_.mayGoOn())
+                return;
+            auto found = solver_.refine(best);
+            if (!found)
+                found = retryWrong(best.path, best.cost, [] { return std::optional<MotionSolution>(); });
+            if (found && found->cost < best.cost)
+                best = std::move(*found);
+        }
+
         const TrajectoryOptimizer &owner_;
         const MotionWorld world_;
         MotionSolver solver_;
-        std::vector<MotionSolution> wrong_;  // of the last round: they ran into what was not known to be in the way
     };
 
     OptimizedTrajectory TrajectoryOptimizer::optimize(const Path &path, const std::function<bool()> &interrupted) const

@@ -84,6 +84,17 @@ namespace parking
             points_[i + 1].t = points_[i].t + 2.0 * ways[i] / (points_[i].speed + points_[i + 1].speed);
     }
 
+    std::pair<double, double> StretchGuess::fastest() const
+    {
+        const auto slower = [](const GuessPoint &a, const GuessPoint &b)
+        {
+            return a.speed < b.speed;
+        };
+        const auto first = std::max_element(points_.begin(), points_.end(), slower);
+        const auto last = std::max_element(points_.rbegin(), points_.rend(), slower);
+        return {first->t, last->t};
+    }
+
     GuessPoint StretchGuess::at(double t) const
     {
         const auto next = std::upper_bound(points_.begin() + 1, points_.end() - 1, t,

@@ -3,6 +3,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 
+#include <utility>
 #include <vector>
 
 namespace parking
@@ -41,6 +42,10 @@ namespace parking
         {
             return points_.back().t;
         }
+
+        /** \brief When it ceases to speed up, and when it begins to brake: seconds, of a short stretch the same twice.
+         */
+        std::pair<double, double> fastest() const;
 
         /** \brief At \e t seconds, cut to the stretch. */
         GuessPoint at(double t) const;

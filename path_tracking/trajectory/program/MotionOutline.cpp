@@ -10,6 +10,8 @@ namespace parking
     {
         constexpr double STEERING_WINDOW = 0.5;    // metres over which a guess turns the wheels, to either side
         constexpr double FEWEST_INTERVALS = 8.0;   // of a stretch
+        constexpr double FEWEST_OF_PART = 3.0;     // that speed up, and that brake, of one that does
+        constexpr double LONG_AT_SPEED = 2.0;      // steps at full speed that make a phase
         constexpr double SPARE_STANDSTILL = 0.02;  // seconds
 
         constexpr int bit(int entry)
@@ -35,14 +37,17 @@ namespace parking
     }  // namespace
 
     MotionOutline::MotionOutline(const Path &path, const Vehicle &vehicle, double step,
-                                 std::optional<double> initialSteering, std::optional<double> finalSteering)
-      : MotionOutline(guessesAlong(path, vehicle), vehicle, step, initialSteering, finalSteering)
+                                 std::optional<double> initialSteering, std::optional<double> finalSteering,
+                                 bool inPhases)
+      : MotionOutline(guessesAlong(path, vehicle), vehicle, step, initialSteering, finalSteering, inPhases)
     {
     }
 
     MotionOutline::MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
-                                 std::optional<double> initialSteering, std::optional<double> finalSteering)
+                                 std::optional<double> initialSteering, std::optional<double> finalSteering,
+                                 bool inPhases)
       : steeringRate_(vehicle.maxSteeringRate),
+        inPhases_(inPhases),
         guesses_(std::move(guesses))
     {
         const auto standstill = [&](GuessPoint at, double from, double to, int fixed)
@@ -50,22 +55,16 @@ namespace parking
             at.steering = from;
             addNode(at, std::abs(to - from) / steeringRate_ + SPARE_STANDSTILL, fixed);
         };
-        const auto addInterval = [&](std::size_t guess, double begin)
-        {
-            directions_.push_back(0);
-            guessOf_.push_back(guess);
-            begins_.push_back(begin);
-        };
         if (initialSteering)
         {
             const GuessPoint begin = guesses_.front().at(0.0);
             standstill(begin, *initialSteering, begin.steering, POSE | bit(NODE_SPEED) | bit(NODE_STEERING));
-            addInterval(0, 0.0);
+            addInterval(0, 0, 0.0, false);
         }
         for (std::size_t i = 0; i < guesses_.size(); ++i)
         {
             const bool last = i + 1 == guesses_.size();
-            addStretch(guesses_[i], step, i == 0);
+            addStretch(i, step);
             const GuessPoint end = guesses_[i].at(guesses_[i].duration());
             if (!last)
                 standstill(end, end.steering, guesses_[i + 1].at(0.0).steering, bit(NODE_SPEED));
@@ -74,7 +73,7 @@ namespace parking
             else
                 addNode(end, 0.0, POSE | bit(NODE_SPEED) | bit(NODE_DURATION));
             if (!last || finalSteering)
-                addInterval(i, guesses_[i].duration());
+                addInterval(0, i, guesses_[i].duration(), false);
             if (last && finalSteering)
             {
                 GuessPoint wheels = end;
@@ -92,16 +91,43 @@ namespace parking
         fixed_.push_back(static_cast<std::uint8_t>(fixed));
     }
 
-    void MotionOutline::addStretch(const StretchGuess &guess, double step, bool first)
+    void MotionOutline::addInterval(int direction, std::size_t guess, double begin, bool endsPhase)
     {
-        const double count = std::max(FEWEST_INTERVALS, std::ceil(guess.duration() / step));
-        const double h = guess.duration() / count;
-        for (double k = 0.0; k < count; k += 1.0)
+        directions_.push_back(direction);
+        guessOf_.push_back(guess);
+        begins_.push_back(begin);
+        phaseEnds_.push_back(endsPhase ? 1 : 0);
+    }
+
+    /** Phases end where the guess ceases to speed up and begins to brake: the program can then put a node exactly where
+        that is best. Between nodes the speed is linear, and without one at its peak the peak is lost. */
+    void MotionOutline::addStretch(std::size_t index, double step)
+    {
+        const StretchGuess &guess = guesses_[index];
+        const auto [fast, brakes] = guess.fastest();
+        std::vector<double> times{0.0, guess.duration()};
+        double fewest = FEWEST_INTERVALS;
+        if (inPhases_ && brakes > fast + LONG_AT_SPEED * step)
         {
-            addNode(guess.at(k * h), h, k > 0.0 ? 0 : bit(NODE_SPEED) | (first ? POSE : 0));
-            directions_.push_back(guess.direction());
-            guessOf_.push_back(static_cast<std::size_t>(&guess - guesses_.data()));
-            begins_.push_back(k * h);
+            times = {0.0, fast, brakes, guess.duration()};
+            fewest = FEWEST_OF_PART;
+        }
+        else if (inPhases_)
+        {
+            times = {0.0, 0.5 * (fast + brakes), guess.duration()};
+            fewest = 0.5 * FEWEST_INTERVALS;
+        }
+        for (std::size_t phase = 0; phase + 1 < times.size(); ++phase)
+        {
+            const double begin = times[phase], length = times[phase + 1] - begin;
+            const double count = std::max(fewest, std::ceil(length / step - 1e-9));
+            const double h = length / count;
+            for (double k = 0.0; k < count; k += 1.0)
+            {
+                const bool starts = phase == 0 && k == 0.0;
+                addNode(guess.at(begin + k * h), h, starts ? bit(NODE_SPEED) | (index == 0 ? POSE : 0) : 0);
+                addInterval(guess.direction(), index, begin + k * h, k + 1.0 == count);
+            }
         }
     }
 
@@ -116,6 +142,7 @@ namespace parking
     void MotionOutline::write(MotionProblem &problem) const
     {
         problem.directions = directions_;
+        problem.phaseEnds = phaseEnds_;
         problem.nodes = nodes_;
         problem.fixed = fixed_;
     }

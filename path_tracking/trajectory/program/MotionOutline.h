@@ -22,32 +22,37 @@ namespace parking
     public:
         /** \param path without turns on the spot, and with a stretch at least
             \param step seconds that an interval lasts, about
-            \param initialSteering, finalSteering radians; without them the wheels are free there */
+            \param initialSteering, finalSteering radians; without them the wheels are free there
+            \param inPhases whether a stretch is cut where it is fastest, see MotionProblem::phaseEnds; else its
+            intervals last equally long */
         MotionOutline(const Path &path, const Vehicle &vehicle, double step, std::optional<double> initialSteering,
-                      std::optional<double> finalSteering);
+                      std::optional<double> finalSteering, bool inPhases = true);
 
         /** \brief Along the stretches of \e guesses, one at least. */
         MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
-                      std::optional<double> initialSteering, std::optional<double> finalSteering);
+                      std::optional<double> initialSteering, std::optional<double> finalSteering, bool inPhases = true);
 
         /** \brief Seconds that driving along the path takes when the wheels need no time to turn. */
         double duration() const;
 
-        /** \brief Writes directions, nodes and what is fixed of them. */
+        /** \brief Writes directions, phases, nodes and what is fixed of them. */
         void write(MotionProblem &problem) const;
 
         /** \brief The guessed pose at a fraction of an interval; yaw continuous along the motion. */
         Pose poseAt(std::size_t interval, double fraction) const;
 
     private:
-        void addStretch(const StretchGuess &guess, double step, bool first);
+        void addInterval(int direction, std::size_t guess, double begin, bool endsPhase);
+        void addStretch(std::size_t index, double step);
         void addNode(const GuessPoint &at, double duration, int fixed);
 
         double steeringRate_;
+        bool inPhases_;
         std::vector<StretchGuess> guesses_;
         std::vector<std::size_t> guessOf_;  // per interval
         std::vector<double> begins_;        // per interval: seconds since the begin of the stretch
         std::vector<int> directions_;
+        std::vector<std::uint8_t> phaseEnds_;
         std::vector<NodeVector> nodes_;
         std::vector<std::uint8_t> fixed_;
     };

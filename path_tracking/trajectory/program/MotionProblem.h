@@ -71,7 +71,8 @@ namespace parking
         that the limits of acceleration and steering rate are linear in the nodes. The poses of neighbouring nodes are
         joined by Hermite-Simpson collocation (C. R. Hargraves and S. W. Paris, "Direct trajectory optimization using
         nonlinear programming and collocation", 1987), and the pose within an interval is the cubic Hermite polynomial
-        of its ends. Intervals of one stretch last equally long. At a standstill the pose stays. */
+        of its ends. A stretch consists of phases, and intervals of one phase last equally long: where a phase ends, a
+        node can be where the car begins to brake or the wheels begin to turn back. At a standstill the pose stays. */
     struct MotionProblem
     {
         Vehicle vehicle;        ///< the limits, and the wheelbase
@@ -83,6 +84,8 @@ namespace parking
         std::vector<int> directions;      ///< per interval: 1 forwards, -1 in reverse, 0 at a standstill
         std::vector<NodeVector> nodes;    ///< one more than intervals: where to begin
         std::vector<std::uint8_t> fixed;  ///< per node, bit by bit: entries that keep their value
+        /** Per interval: whether a phase ends with it, within a stretch; empty where each stretch is one phase. */
+        std::vector<std::uint8_t> phaseEnds;
         /** Per interval: x, y and yaw by which it leads farther than its collocation says; empty for no difference. */
         std::vector<Eigen::Vector3d> corrections;
         std::vector<MotionCheckpoint> checkpoints;  ///< by interval
@@ -97,7 +100,8 @@ namespace parking
         /** \brief Does an interval last as long as the one behind it? Two stretches have a standstill between them. */
         bool sharesDuration(std::size_t interval) const
         {
-            return interval + 1 < directions.size() && directions[interval] != 0 && directions[interval + 1] != 0;
+            return interval + 1 < directions.size() && directions[interval] != 0 && directions[interval + 1] != 0 &&
+                   (phaseEnds.empty() || phaseEnds[interval] == 0);
         }
 
         /** \brief The pose at a fraction of an interval between the nodes. */

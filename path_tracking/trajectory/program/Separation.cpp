@@ -42,11 +42,14 @@ namespace parking
       : pieces_(pieces),
         vehicle_(vehicle),
         options_(std::move(options)),
+        isKnown_(pieces.size(), 0),
         front_(vehicle.wheelbase + vehicle.frontOverhang),
         rear_(vehicle.rearOverhang),
         half_(0.5 * vehicle.width),
         reach_(std::hypot(0.5 * vehicle.length(), half_))
     {
+        for (const std::size_t i : options_.known)
+            isKnown_[i] = 1;
         Box region{{INF, INF}, {-INF, -INF}};
         for (const GuessedCheckpoint &point : checkpoints)
         {
@@ -59,8 +62,7 @@ namespace parking
             const Box &box = pieces_[i].box;
             const bool near = (box.min.array() <= region.max.array() + reach).all() &&
                               (box.max.array() >= region.min.array() - reach).all();
-            if (pieces_[i].normals.size() > 2 &&
-                (near || std::count(options_.known.begin(), options_.known.end(), i) != 0))
+            if (pieces_[i].normals.size() > 2 && (near || isKnown_[i] != 0))
                 candidates_.push_back(i);
         }
         for (const GuessedCheckpoint &point : checkpoints)
@@ -137,7 +139,7 @@ namespace parking
             const Box &box = pieces_[i].box;
             const bool near =
                 (box.min.array() <= part_.max.array()).all() && (box.max.array() >= part_.min.array()).all();
-            if (near || std::count(options_.known.begin(), options_.known.end(), i) != 0)
+            if (near || isKnown_[i] != 0)
                 partCandidates_.push_back(i);
         }
         return partCandidates_;
@@ -155,8 +157,7 @@ namespace parking
         {
             const Box &box = pieces_[i].box;
             const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);
-            const bool known = std::count(options_.known.begin(), options_.known.end(), i) != 0;
-            const double range = known ? options_.knownRange : options_.range;
+            const double range = isKnown_[i] != 0 ? options_.knownRange : options_.range;
             if (off.squaredNorm() > (range + reach_) * (range + reach_))
                 continue;
             Choice choice = best(place, i);

@@ -6,6 +6,7 @@
 #include "path_tracking/trajectory/program/MotionProblem.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -107,8 +108,9 @@ namespace parking
         const std::vector<ConvexPiece> &pieces_;
         Vehicle vehicle_;
         SeparationOptions options_;
-        double front_, rear_, half_;  // metres of the body's sides from the rear axle
-        double reach_;                // of the body round its middle
+        std::vector<std::uint8_t> isKnown_;  // per piece
+        double front_, rear_, half_;         // metres of the body's sides from the rear axle
+        double reach_;                       // of the body round its middle
         std::vector<std::size_t> candidates_;
         // Those of a part of the world that holds several checkpoints.
         mutable Box part_{{1.0, 1.0}, {-1.0, -1.0}};

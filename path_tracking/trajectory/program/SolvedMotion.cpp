@@ -4,6 +4,26 @@
 
 namespace parking
 {
+    namespace
+    {
+        constexpr double AT_LIMIT = 0.97;  // share of a limit from which on it counts as used up
+
+        /** What an interval uses of the limit of acceleration or steering rate, in [-1, 1]. */
+        double shareOfLimit(const MotionProblem &problem, std::size_t interval, int entry)
+        {
+            const NodeVector &from = problem.nodes[interval], &to = problem.nodes[interval + 1];
+            const double limit =
+                entry == NODE_SPEED ? problem.vehicle.maxAcceleration : problem.vehicle.maxSteeringRate;
+            return (to[entry] - from[entry]) / (from[NODE_DURATION] * limit);
+        }
+
+        /** 1 and -1 where a limit is used up, 0 between. */
+        int limitOf(double share)
+        {
+            return share > AT_LIMIT ? 1 : share < -AT_LIMIT ? -1 : 0;
+        }
+    }  // namespace
+
     TimedMotion motionOf(const MotionProblem &problem, const Pose &start)
     {
         TimedMotion motion{start, {}};
@@ -17,6 +37,26 @@ namespace parking
                           problem.nodes[k][NODE_STEERING]);
         }
         return motion;
+    }
+
+    void endPhasesAtChanges(MotionProblem &problem)
+    {
+        problem.phaseEnds.resize(problem.directions.size(), 0);
+        for (std::size_t k = 1; k + 1 < problem.directions.size(); ++k)
+        {
+            if (problem.directions[k - 1] == 0 || problem.directions[k] == 0 || problem.directions[k + 1] == 0)
+                continue;
+            for (const int entry : {NODE_SPEED, NODE_STEERING})
+            {
+                const double before = shareOfLimit(problem, k - 1, entry), here = shareOfLimit(problem, k, entry),
+                             behind = shareOfLimit(problem, k + 1, entry);
+                if (limitOf(here) != 0 || limitOf(before) == limitOf(behind))
+                    continue;
+                // The share of the interval that goes on as before; the node that is nearer to the change may move.
+                const double part = (here - behind) / (before - behind);
+                problem.phaseEnds[part < 0.5 ? k - 1 : k] = 1;
+            }
+        }
     }
 
     void correctIntervals(MotionProblem &problem)

@@ -16,8 +16,9 @@ namespace parking::test
         constexpr double PERIOD = 0.1;  // seconds, of the controller
 
         /** The quickest motion near a path where nothing is in the way. */
-        TimedMotion quickest(const Path &path, const TrajectoryOptions &options = {})
+        TimedMotion quickest(const Path &path, TrajectoryOptions options = {})
         {
+            options.sharpest = false;
             const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-200.0, -200.0}, {200.0, 200.0}}),
                                            Vehicle());
             const OptimizedTrajectory found = TrajectoryOptimizer(checker, options).optimize(path);

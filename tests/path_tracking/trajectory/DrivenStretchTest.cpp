@@ -95,7 +95,7 @@ namespace parking
                 }
                 return most;
             };
-            const double coarse = largest(0.8), fine = largest(0.4);
+            const double coarse = largest(0.8), fine = largest(0.2);
             EXPECT_GT(coarse, 1e-8);
             EXPECT_LT(fine, 1e-2);
             EXPECT_LT(fine, 0.2 * coarse);
