@@ -26,7 +26,7 @@ namespace parking
         constexpr double ENOUGH_GAIN = 3e-3;     // share of the cost for which another round is worth its time
         constexpr double PROMISING = 1.05;       // share of the best cost that improving a solution may make up for
         constexpr double LIKELY = 1.02;          // share of it up to which driving along a path may cost at least
-        constexpr double ALIKE = 2.0;            // metres between paths for which one program is enough
+        constexpr double ALIKE = 1.2;            // metres between paths for which one program is enough
         constexpr double SAME_COST = 1e-3;       // share of the cost up to which two solutions count as one
         constexpr std::size_t MOST_RETRIES = 2;  // of a motion that is quicker than what holds, but does not
         constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
