@@ -17,8 +17,8 @@ namespace parking
            0.02 % of the time that is driven, which only the last program is worth. */
         constexpr MotionBarriers AGAIN{3e-4, 2e-5}, REFINING{5e-5, 3e-6};
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
-        constexpr double LEAST_ITERATIONS = 150.0;  // that may be done for any path, of programs of the first's size
-        constexpr double WORK_TO_FIND = 4.0;        // times as much work as long as nothing is found
+        constexpr double LEAST_ITERATIONS = 120.0;  // that may be done for any path, of programs of the first's size
+        constexpr double WORK_TO_FIND = 5.0;        // times as much work as long as nothing is found
         constexpr double NEAR_HIT = 0.05;           // metres within which obstacles are to blame for a hit
         constexpr std::size_t MOST_HITS = 50;       // that are looked into; with more of them a motion has strayed
         constexpr std::size_t ANY_HITS = std::numeric_limits<std::size_t>::max();
