@@ -28,6 +28,9 @@ namespace parking::search
     /** \brief In the place of a node that there is not. */
     constexpr NodeIndex NO_NODE = CellTable::NONE;
 
+    /** \brief In the place of a number of cusps: any number. */
+    constexpr std::uint8_t ANY_CUSPS = 255;
+
     /** \brief What leads from a node to its child, as seen from the root outwards: a turn on the spot, then a drive.
 
         On the goal's side the car will do it the other way round. A car model has no turns. */
@@ -54,6 +57,7 @@ namespace parking::search
         float h{0.0f};              ///< estimated cost of the way on
         float mobility{0.0f};       ///< metres of the longest free motion from here, known after the first expansion
         NodeIndex parent{NO_NODE};  ///< NO_NODE for a root
+        std::uint8_t cusps{0};      ///< between root and node, at most ANY_CUSPS
         std::uint8_t level{0};      ///< the coarsest level on which its cell was free
         std::uint8_t next{0};       ///< the level on which it is expanded next
         bool queued{false};         ///< of roots: has been put into the open list
@@ -66,4 +70,11 @@ namespace parking::search
             return next > level;
         }
     };
+
+    /** \brief Changes of direction between a root and where \e motion leads to from \e parent. */
+    inline std::uint8_t cuspsThrough(const Node &parent, const Motion &motion)
+    {
+        const bool isCusp = parent.motion.length * motion.length < 0.0;
+        return static_cast<std::uint8_t>(parent.cusps + (isCusp && parent.cusps < ANY_CUSPS ? 1 : 0));
+    }
 }  // namespace parking::search

@@ -268,6 +268,9 @@ namespace parking::search
     void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
     {
         ++statistics_.generated;
+        const std::uint8_t cusps = cuspsThrough(own.node(parentIndex), successor.motion);
+        if (cusps > parameters_.mostCusps)
+            return;
         const double g = costThrough(own, own.node(parentIndex), successor);
         if (g >= costBound_)
             return;
@@ -277,6 +280,7 @@ namespace parking::search
         node.motion = successor.motion;
         node.parent = parentIndex;
         node.farthest = successor.farthest;
+        node.cusps = cusps;
 
         for (std::size_t level = 0; level < traits_.levels; ++level)
         {

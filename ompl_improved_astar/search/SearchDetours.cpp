@@ -241,6 +241,9 @@ namespace parking::search
             node.motion = successor.motion;
             node.parent = index;
             node.farthest = node.fixed = true;
+            node.cusps = cuspsThrough(own.node(index), successor.motion);
+            if (node.cusps > parameters_.mostCusps)
+                break;
             node.h = estimateOf(side, node.pose);
             index = keepExplored(own, node);
         }

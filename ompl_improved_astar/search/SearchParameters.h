@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/SearchTuning.h"
 #include "parking_geometry/Box.h"
 
@@ -37,6 +38,7 @@ namespace parking::search
         std::string openList{"binary_heap"};  ///< see openLists()
         double turningRadius{1.0};            ///< metres, of the rear axle
         bool forwardOnly{false};              ///< never drive in reverse (Dubins)
+        std::uint8_t mostCusps{ANY_CUSPS};    ///< changes of direction of what is found
         unsigned int steeringAngles{3};       ///< odd: straight and as many to the left as to the right
         double xyResolution{0.0};             ///< metres, side of a cell; 0: the motion model chooses
         unsigned int headingBins{72};         ///< cells of heading for steps of one metre

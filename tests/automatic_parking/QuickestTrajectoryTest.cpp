@@ -65,6 +65,26 @@ namespace
         EXPECT_TRUE(std::all_of(paths.begin(), paths.end(), drivesOnly(1)));
     }
 
+    TEST(QuickestTrajectory, AlternativesHaveFewerCuspsWhereThatIsPossible)
+    {
+        // A path that goes to and fro for nothing; the other searches are given too little to find anything.
+        const Planned problem;
+        Path path{problem.path.start, {}};
+        for (const double length : {0.5, -0.5})
+            path.append({0.0, length});
+        for (const PathPiece &piece : problem.path.pieces)
+            path.append(piece);
+        ASSERT_TRUE(isPathFree(problem.checker, path));
+        ASSERT_GT(path.cusps(), problem.path.cusps());
+        QuickestTrajectoryOptions options;
+        options.mostExpansions = 1;
+        const std::vector<Path> paths = alternativePaths(problem.checker, problem.scenario.bounds, path, options);
+        EXPECT_TRUE(
+            std::any_of(paths.begin(), paths.end(), [&path](const Path &each) { return each.cusps() < path.cusps(); }));
+        options.mostExpansions = 0;
+        EXPECT_TRUE(alternativePaths(problem.checker, problem.scenario.bounds, path, options).empty());
+    }
+
     TEST(QuickestTrajectory, IsNoSlowerForLookingAtAlternatives)
     {
         const Planned problem;

@@ -8,6 +8,27 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        /** Changes of direction of the whole path by way of a curve. */
+        unsigned int cuspsThrough(const Node &fromStart, const ReedsSheppCurve &curve, const Node &fromGoal)
+        {
+            unsigned int cusps = fromStart.cusps + fromGoal.cusps;
+            double last = fromStart.motion.length;
+            const auto drive = [&](double length)
+            {
+                if (length == 0.0)
+                    return;
+                cusps += last * length < 0.0 ? 1 : 0;
+                last = length;
+            };
+            for (std::size_t i = 0; i < curve.count; ++i)
+                drive(curve.pieces[i].length);
+            drive(-fromGoal.motion.length);  // the car will drive it the other way
+            return cusps;
+        }
+    }  // namespace
+
     void CarModel::begin(MotionEnvironment &environment, const SearchParameters &parameters)
     {
         environment_ = &environment;
@@ -202,7 +223,7 @@ namespace parking::search
                 sum += cost.join(fromStart.motion.drive(), curve.pieces[0]);
             if (curve.count > 0 && fromGoal.parent != NO_NODE)
                 sum += cost.join(curve.pieces[curve.count - 1], fromGoal.motion.drive().reversed());
-            if (sum < bound)
+            if (sum < bound && cuspsThrough(fromStart, curve, fromGoal) <= parameters_->mostCusps)
                 order_.emplace_back(sum, &curve);
         }
         const SearchTuning &tuning = parameters_->tuning;

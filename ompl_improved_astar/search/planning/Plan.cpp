@@ -42,6 +42,7 @@ namespace parking::search
         search.openList = parameters.openList;
         search.turningRadius = car.turningRadius;
         search.forwardOnly = car.forwardOnly;
+        search.mostCusps = car.mostCusps;
         search.inscribedRadius = car.inscribedRadius;
         search.bounds = car.bounds;
         search.steeringAngles = parameters.steeringAngles;

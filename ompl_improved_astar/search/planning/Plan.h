@@ -23,6 +23,8 @@ namespace parking::search
         bool forwardOnly{false};      ///< never drive in reverse (Dubins)
         double inscribedRadius{0.0};  ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
         Box bounds;                   ///< of the rear axle's positions
+        /** Changes of direction that a path may have. Shortening adds some where they are worth their cost. */
+        std::uint8_t mostCusps{ANY_CUSPS};
     };
 
     /** \brief What PathPlanner goes by, from the user's parameters and the car. */

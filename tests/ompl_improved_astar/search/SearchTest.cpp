@@ -124,6 +124,33 @@ TEST(Search, forwardOnlyNeverReverses)
     EXPECT_GT(solve(behind, parameters).path.length(), 2.0 * PI * TURNING_RADIUS);
 }
 
+TEST(Search, keepsToTheMostCuspsItIsGiven)
+{
+    std::size_t fewer = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        SearchParameters parameters = carParameters();
+        parameters.cost.gearChangePenalty = 0.0;
+        const std::size_t cusps = solve(randomProblem(seed), parameters).path.cusps();
+        if (cusps == 0)
+            continue;
+        parameters.mostCusps = static_cast<std::uint8_t>(cusps - 1);
+        CarProblem problem = randomProblem(seed);
+        Search limited;
+        problem.begin(limited, parameters);
+        const SearchOutcome outcome = limited.run([&] { return limited.expanded() >= MOST_EXPANSIONS; });
+        for (const Side side : {Side::Start, Side::Goal})
+            for (const Node &node : std::as_const(limited).frontier(side).nodes())
+                ASSERT_LE(node.cusps, parameters.mostCusps);
+        if (outcome != SearchOutcome::Improved)
+            continue;
+        ++fewer;
+        EXPECT_LT(limited.bestPath().cusps(), cusps);
+    }
+    EXPECT_GT(fewer, 10U);
+}
+
 TEST(Search, heapAndLinearListAreTheSameSearch)
 {
     for (std::uint64_t seed = 0; seed < 25; ++seed)
