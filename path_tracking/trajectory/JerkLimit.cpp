@@ -16,9 +16,11 @@ namespace parking
     namespace
     {
         constexpr double LIMITS_LEFT = 1e-4;         // share of the limits that is left for rounding
-        constexpr int BISECTIONS = 24;               // to find how much jerk a step may have
+        constexpr int JERK_BISECTIONS = 12;          // to find how much jerk a step may have
+        constexpr int BISECTIONS = 24;               // to find when a step passes a bend
         constexpr double LEFT_OVER = 1e-5;           // share of a way that is too short to be driven
         constexpr double LEAST_SHARE = 1e-3;         // of a step or a jerk, that is tried
+        constexpr double LOOK = 0.02;                // seconds between two looks at how it would stop
         constexpr double SHORTEST = 1e-6;            // seconds of a phase of braking
         constexpr double LEAST_STEP = 2e-3;          // seconds between two knots
         constexpr double CREEPING = 5e-4;            // m/s of a knot that count as a standstill
@@ -79,6 +81,18 @@ namespace parking
                 return {a.t + time, speed, a.steering + (b.steering - a.steering) * time / duration};
             }
 
+            /** Square of the speed at \e s, (m/s)^2. \param knot the last one before \e s is looked for from here on */
+            double squaredSpeed(double s, std::size_t &knot) const
+            {
+                while (knot + 2 < way_.size() && way_[knot + 1] <= s)
+                    ++knot;
+                while (knot > 0 && way_[knot] > s)
+                    --knot;
+                const MotionKnot &a = knots_[knot], &b = knots_[knot + 1];
+                const double off = std::clamp(s - way_[knot], 0.0, way_[knot + 1] - way_[knot]);
+                return a.v * a.v + 2.0 * (b.v - a.v) / (b.t - a.t) * off;
+            }
+
             /** The steering angle at its end. */
             double lastAngle() const
             {
@@ -106,7 +120,8 @@ namespace parking
                 acceleration_((1.0 - LIMITS_LEFT) * acceleration),
                 // More would be over within a step.
                 jerk_(std::min((1.0 - LIMITS_LEFT) * jerk, 0.5 * acceleration_ / step)),
-                step_(step)
+                step_(step),
+                look_(std::max(step, LOOK))
             {
             }
 
@@ -152,27 +167,31 @@ namespace parking
                 return at;
             }
 
-            bool isAllowed(const Progress &at) const
+            bool isAllowed(const Progress &at, std::size_t &knot) const
             {
-                return at.s <= way_.length() && at.v <= way_.at(at.s).v + AT_REST;
+                if (at.s > way_.length())
+                    return false;
+                const double speed = std::max(0.0, at.v - AT_REST);
+                return speed * speed <= way_.squaredSpeed(at.s, knot);
             }
 
             /** Can the car stop from here before the end, and without being too fast on its way? */
-            bool isSafe(const Progress &from) const
+            bool isSafe(const Progress &from, std::size_t knot) const
             {
                 if (std::abs(from.a) > acceleration_ || from.v < 0.0 ||
-                    (from.a < 0.0 && 2.0 * jerk_ * from.v < from.a * from.a) || !isAllowed(from))
+                    (from.a < 0.0 && 2.0 * jerk_ * from.v < from.a * from.a) || !isAllowed(from, knot))
                     return false;
                 if (stopOf(from).s > way_.length())
                     return false;
                 Progress begin = from;
                 for (const Phase &phase : braking(from))
                 {
-                    for (double time = step_; time < phase.time; time += step_)
-                        if (!isAllowed(begin.after(time, phase.jerk)))
+                    // The steps that are driven are looked at one by one, when they are.
+                    for (double time = look_; time < phase.time; time += look_)
+                        if (!isAllowed(begin.after(time, phase.jerk), knot))
                             return false;
                     begin = begin.after(phase.time, phase.jerk);
-                    if (begin.v > AT_REST && !isAllowed(begin))
+                    if (begin.v > AT_REST && !isAllowed(begin, knot))
                         return false;
                 }
                 return true;
@@ -194,9 +213,11 @@ namespace parking
             /** The greatest jerk after a step of which the car can brake; none when there is none. */
             std::optional<double> greatestJerk(const Progress &now, double step) const
             {
+                std::size_t knot = 0;
+                way_.squaredSpeed(now.s, knot);
                 const auto isSafeWith = [&](double jerk)
                 {
-                    return isSafe(now.after(step, jerk));
+                    return isSafe(now.after(step, jerk), knot);
                 };
                 if (isSafeWith(jerk_))
                     return jerk_;
@@ -205,7 +226,7 @@ namespace parking
                 if (!isSafeWith(least))
                     return std::nullopt;
                 double safe = least, unsafe = jerk_;
-                for (int i = 0; i < BISECTIONS; ++i)
+                for (int i = 0; i < JERK_BISECTIONS; ++i)
                 {
                     const double middle = 0.5 * (safe + unsafe);
                     (isSafeWith(middle) ? safe : unsafe) = middle;
@@ -214,7 +235,7 @@ namespace parking
             }
 
             const DrivenWay &way_;
-            double acceleration_, jerk_, step_;
+            double acceleration_, jerk_, step_, look_;
         };
 
         /** Appends the drive along a way, with \e direction for the sign of its speeds; slower where it would turn the
