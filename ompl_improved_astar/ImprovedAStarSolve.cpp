@@ -174,7 +174,10 @@ namespace ompl::geometric
         double difference = 0.0;
         if (approximate)
             pdef_->getGoal()->isSatisfied(path->getState(path->getStateCount() - 1), &difference);
-        ob::PlannerSolution solution(path);
+        // OMPL would look for each piece's shortest curve to find out the length, which is known here.
+        ob::PlannerSolution solution(nullptr);
+        solution.path_ = path;
+        solution.length_ = approximate || query_->isPlain() ? path->length() : query_->path.length();
         solution.setPlannerName(getName());
         if (approximate)
             solution.setApproximate(difference);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace parking
 {
@@ -239,12 +240,14 @@ namespace parking
 
         struct Piece
         {
-            std::uint32_t key;
             Edge edge;
             Eigen::Vector2d normal;
         };
-        std::vector<Piece> pieces;
         const std::size_t index = row * cellColumns_ + column;
+        std::vector<Piece> pieces;
+        pieces.reserve(first_[index + 1] - first_[index]);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // place along the curve, piece
+        order.reserve(pieces.capacity());
         for (std::size_t k = first_[index]; k < first_[index + 1]; ++k)
         {
             const Edge &whole = edges_[ofCells_[k]];
@@ -253,12 +256,14 @@ namespace parking
                 continue;
             const Eigen::Vector2d along = (whole.to - whole.from).normalized();
             const Eigen::Vector2d middle = (0.5 * (edge.from + edge.to) - low) / cellSize_;
-            pieces.push_back({zOrder(middle.x(), middle.y()), edge, {-along.y(), along.x()}});
+            order.emplace_back(zOrder(middle.x(), middle.y()), static_cast<std::uint32_t>(pieces.size()));
+            pieces.push_back({edge, {-along.y(), along.x()}});
         }
-        std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) { return a.key < b.key; });
+        std::sort(order.begin(), order.end());
 
         auto cell = std::make_unique<Cell>();
         cell->blocks.resize((pieces.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
+        cell->boxes.reserve(cell->blocks.size());
         for (std::size_t k = 0; k < cell->blocks.size(); ++k)
         {
             Block &block = cell->blocks[k];
@@ -266,7 +271,7 @@ namespace parking
             Eigen::Vector2d least(INFINITE, INFINITE), most(-INFINITE, -INFINITE);
             for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
             {
-                const Piece &piece = pieces[k * BLOCK_SIZE + std::min(i, block.edges - 1)];
+                const Piece &piece = pieces[order[k * BLOCK_SIZE + std::min(i, block.edges - 1)].second];
                 const Eigen::Vector2d &a = piece.edge.from, &b = piece.edge.to;
                 const auto at = static_cast<Eigen::Index>(i);
                 block.ax[at] = a.x();

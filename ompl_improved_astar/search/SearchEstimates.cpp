@@ -159,8 +159,9 @@ namespace parking::search
 
     double Search::priority(const Frontier &own, const Node &node, double ahead) const
     {
-        // What is estimated to an aim that moves must not depend on where it is now.
-        if (hasTarget_ || traits_.aims || traits_.complete)
+        // What is estimated to an aim that moves must not depend on where it is now. Where both weights are equal no
+        // distance matters.
+        if (hasTarget_ || traits_.aims || traits_.complete || parameters_.weights.far == parameters_.weights.near)
             return node.g + parameters_.weights.at(ahead) * ahead;
         double nearest = INFINITE;
         for (const Pose &target : guides(own.side()).targets)

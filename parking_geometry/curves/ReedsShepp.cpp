@@ -82,23 +82,13 @@ namespace parking
             }
         };
 
-        /** Angles of the outer turns of L R L R, whose two middle turns are u and v (8.7, 8.8), without the
-            symmetries. */
+        /** Two turns of L R L R (8.7, 8.8), without the symmetries. The middle turns are u and -u, or u and u, which
+            leaves little of the article's sines and cosines. */
         struct OuterTurns
         {
             bool exist{false};
             double u{0.0};
             double turn{0.0};  // of the first piece, relative to the angle of the centres
-
-            void solve(double first, double second)
-            {
-                exist = true;
-                u = first;
-                const double delta = wrap(first - second);
-                const double a = std::sin(first) - std::sin(delta), b = std::cos(first) - std::cos(delta) - 1.0;
-                const double sign = 2.0 * (std::cos(delta) - std::cos(second) - std::cos(first)) + 3.0;
-                turn = (sign < 0.0 ? PI : 0.0) - std::atan2(b, a);
-            }
         };
 
         /** Two turns opposite ways: what the words with opposite outer turns need. */
@@ -115,17 +105,13 @@ namespace parking
                     tangentAngle = std::atan2(2.0, tangent);
                 if (tangent >= 4.0)
                     doubleAngle = std::atan2(tangent, -2.0);
-                if (const double rho = 0.25 * (2.0 + distance); rho <= 1.0)
+                if (const double cosine = 0.25 * (2.0 + distance); cosine <= 1.0)
                 {
-                    const double u = std::acos(rho);
-                    between.solve(u, -u);
+                    const double u = std::acos(cosine);
+                    between = {true, u, HALF_PI + u};
                 }
-                if (const double rho = (20.0 - square) / 16.0; rho >= 0.0 && rho <= 1.0)
-                {
-                    const double u = -std::acos(rho);
-                    if (u >= -HALF_PI)
-                        twice.solve(u, u);
-                }
+                if (const double cosine = (20.0 - square) / 16.0; cosine >= 0.0 && cosine <= 1.0)
+                    twice = {true, -std::acos(cosine), std::atan2(2.0 - cosine, -std::sqrt(1.0 - cosine * cosine))};
             }
         };
 

@@ -247,6 +247,22 @@ namespace
         EXPECT_NEAR(std::stod(progress(*other.planner, "best cost REAL")), 2.0 * other.path().length(), 1e-5);
     }
 
+    TEST_F(PlannerReporting, TheLengthReportedIsThatOfThePath)
+    {
+        for (const Space kind : {Space::SE2, Space::ReedsShepp, Space::Dubins})
+        {
+            PlanningProblem problem(kind, gapsSite());
+            problem.from(LEFT).to({RIGHT});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            ASSERT_EQ(problem.pdef->getSolutionCount(), 1u);
+            EXPECT_NEAR(problem.pdef->getSolutions().front().length_, problem.path().length(), 1e-9);
+        }
+        PlanningProblem closed(Space::ReedsShepp, closedSite());
+        closed.from(LEFT).to({RIGHT});
+        ASSERT_EQ(closed.solve(), Status::APPROXIMATE_SOLUTION);
+        EXPECT_NEAR(closed.pdef->getSolutions().front().length_, closed.path().length(), 1e-9);
+    }
+
     TEST_F(PlannerReporting, TheBoundOfSuboptimality)
     {
         PlanningProblem open(Space::ReedsShepp, openSite(15.0));

@@ -18,7 +18,8 @@ namespace parking::search
 
         /** Lengths in turning radii by cell. A slot is one number, written and read whole: the key of its cell (33
             bits) and the length, a float that is not negative (31 bits); 0 is the key of no cell. A cell that finds its
-            slot taken by another takes it over.
+            slot taken by another takes it over, and the other goes to the slot beside it: of two that want the same
+            slot neither chases the other out.
 
             Only as many slots are in use as there are lengths to remember, up to all of them: the first query of a
             process would otherwise spend more on memory that was never touched than on the lengths. */
@@ -31,19 +32,25 @@ namespace parking::search
             {
                 const std::uint64_t hash = (key ^ (key >> 17)) * 0x9e3779b97f4a7c15ull >> 32;
                 const std::uint64_t mask = mask_.load(std::memory_order_relaxed);
-                std::atomic<std::uint64_t> &slot = slots_[hash & mask];
-                std::uint64_t known = slot.load(std::memory_order_relaxed);
+                std::atomic<std::uint64_t> &first = slots_[hash & mask], &second = slots_[(hash & mask) ^ 1];
+                const std::uint64_t atFirst = first.load(std::memory_order_relaxed);
+                if (atFirst >> 31 == key)
+                    return lengthOf(atFirst);
+                std::uint64_t known = second.load(std::memory_order_relaxed);
                 if (known >> 31 == key)
                     return lengthOf(known);
                 // Where it was before the table grew.
                 known = slots_[hash & (mask >> 1)].load(std::memory_order_relaxed);
+                if (known >> 31 != key)
+                    known = slots_[(hash & (mask >> 1)) ^ 1].load(std::memory_order_relaxed);
                 if (known >> 31 != key)
                 {
                     known = key << 31 | bitsOf(static_cast<float>(length()));
                     if (mask + 1 < slots_.size() && ++computed_ > mask / 2)
                         grow(mask);
                 }
-                slot.store(known, std::memory_order_relaxed);
+                second.store(atFirst, std::memory_order_relaxed);
+                first.store(known, std::memory_order_relaxed);
                 return lengthOf(known);
             }
 
