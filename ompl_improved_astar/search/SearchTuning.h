@@ -78,6 +78,8 @@ namespace parking::search
         double mostExcess{1.0};              ///< in proportion up to that excess
         double weightsOfAfterthought{0.7};   ///< factor on the weights: what is cheap counts more than what is near
         double hardlyLonger{1.03};           ///< than the bare curve: nothing to look for
+        double hardlyDearer{1.1};            ///< nor with a path whose cost is hardly more than its length was expected
+        std::size_t fewCusps{1};             ///< to be, with no more cusps than so many
         /** @} */
 
         /** \name Shortening

@@ -118,7 +118,12 @@ namespace parking::search
                              search_.bestCost() < little + parameters_.search.turningRadius &&
                              closeness(search_.bestPath()) <= 0.0;
         const double expected = std::max(search_.shortestMotion(), search_.estimate());
-        if (!isShort)
+        // Nor with the shortest curve itself, dear as it may be, nor with what costs little more than it promised.
+        const bool isBare =
+            search_.expanded() == 0 && search_.bestPath().length() <= search_.shortestMotion() * (1.0 + 1e-9);
+        const bool isCheap =
+            search_.bestCost() < tuning.hardlyDearer * expected && search_.bestPath().cusps() <= tuning.fewCusps;
+        if (!isShort && !isBare && !isCheap)
             thinkAgain(search_.bestPath().length() / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
@@ -126,8 +131,10 @@ namespace parking::search
         if (parameters_.shorten && !(isShort && best.length() <= search_.shortestMotion() * (1.0 + 1e-9)))
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
-            shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
-            if (best.length() > (1.0 + tuning.stillLong) * expected || closeness(best) > 0.0)
+            const bool isShorter = shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE,
+                                           CurveChoice::Cheapest);
+            // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
+            if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && closeness(best) > 0.0))
                 shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                         tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
         }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -101,6 +102,63 @@ TEST(PathPlanner, shorteningNeverCostsAnything)
         cheaper += with.bestCost() < without.bestCost() - 1e-6;
     }
     EXPECT_GT(cheaper, 5);
+}
+
+TEST(PathPlanner, aPathThatCostsHardlyMoreThanPromisedIsNotThoughtOver)
+{
+    int spared = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 5);
+        PathPlannerParameters parameters = parametersFor(problem);
+        parameters.shorten = false;
+        PathPlanner usual, thorough;
+        begin(usual, problem, parameters);
+        if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)
+            continue;
+        parameters.search.tuning.hardlyDearer = 0.0;
+        begin(thorough, problem, parameters);
+        ASSERT_EQ(thorough.solve(afterAsking(3000), nullptr), Outcome::Solved);
+        if (usual.expanded() == thorough.expanded())
+            continue;
+        ++spared;
+        EXPECT_LT(usual.expanded(), thorough.expanded());
+        const double promised = std::max(usual.search().shortestMotion(), usual.search().estimate());
+        EXPECT_LT(usual.bestCost(), SearchTuning().hardlyDearer * promised);
+        EXPECT_LE(usual.bestPath().cusps(), SearchTuning().fewCusps);
+    }
+    EXPECT_GT(spared, 2);
+}
+
+TEST(PathPlanner, theShortestCurveIsNotThoughtOverHoweverDear)
+{
+    // Along a wall, nearer than preferred all the way.
+    CarProblem problem{DiscCarWorld({{-20.0, -1.0}, {20.0, 9.0}}), {{-15.0, 0.0, 0.0}}, {{12.0, 0.0, 0.0}}};
+    PathPlannerParameters parameters = parametersFor(problem);
+    parameters.search.cost.preferredClearance = 0.2;
+    parameters.search.cost.clearanceCost = 1.0;
+    parameters.shorten = false;
+    PathPlanner planner;
+    begin(planner, problem, parameters);
+    ASSERT_EQ(planner.solve(afterAsking(3000), nullptr), Outcome::Solved);
+    EXPECT_NEAR(planner.bestPath().length(), 27.0, 1e-9);
+    EXPECT_GT(planner.bestCost(), 1.5 * 27.0);
+    EXPECT_EQ(planner.expanded(), 0u);
+
+    // Nothing can be replaced: one pass finds that out, and there is no second.
+    Path path = planner.bestPath();
+    const ReedsShepp curves(TURNING_RADIUS);
+    PathShortener shortener(problem.world, curves, planner.search().cost());
+    const SearchTuning tuning;
+    EXPECT_FALSE(
+        shortener.pass(path, tuning.knotSpacing * TURNING_RADIUS, 0.0, INFINITE, CurveChoice::Cheapest, nullptr));
+    EXPECT_GT(shortener.connections(), 0u);
+    parameters.shorten = true;
+    PathPlanner shortening;
+    begin(shortening, problem, parameters);
+    ASSERT_EQ(shortening.solve(afterAsking(3000), nullptr), Outcome::Solved);
+    EXPECT_EQ(shortening.statistics().connections, planner.statistics().connections + shortener.connections());
 }
 
 TEST(PathPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
