@@ -92,6 +92,7 @@ namespace parking
                 leg.begin = time_;
                 leg.plan = ParkingPlanner(parameters_.planning).plan(scenario_, world_);
                 result_.planningTime += leg.plan.planningTime + leg.plan.smoothingTime;
+                refuseTooNarrow(leg.plan);
                 note(reason + ": " + leg.plan.message);
                 if (!leg.plan.found)
                 {
@@ -225,6 +226,17 @@ namespace parking
         double gapOf(const ParkingLeg &leg) const
         {
             return std::min(parameters_.stopClearance, std::max(LEAST_GAP, 0.5 * leg.plan.clearance));
+        }
+
+        /** Takes back a plan on which the supervisor would stop the car, as it leads nearer to obstacles than that. */
+        void refuseTooNarrow(ParkingPlan &plan) const
+        {
+            if (!plan.found || plan.path.pieces.empty() || plan.clearance >= LEAST_GAP ||
+                world_.footprint().clearance(plan.path.start) < LEAST_GAP)
+                return;
+            plan.found = false;
+            plan.message =
+                "the way leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
         }
 
         void supervise(const ParkingLeg &leg)

@@ -267,6 +267,24 @@ namespace
         EXPECT_EQ(result.trajectory.back().v, 0.0);
     }
 
+    TEST(AutomaticParkingTest, drivesNoWayThatLeavesHardlyAMillimetre)
+    {
+        // A gate on the only way: with 4 mm to spare on each side, and with 8.
+        for (const double spare : {0.004, 0.008})
+        {
+            Scenario scenario = openGround();
+            scenario.start = {};
+            scenario.goals = {{20.0, 0.0, 0.0}};
+            scenario.bounds = {{-8.0, -5.0}, {28.0, 5.0}};
+            const double half = 0.5 * scenario.vehicle.width + spare;
+            scenario.polygons = {box(9.0, half, 10.0, 6.0), box(9.0, -6.0, 10.0, -half)};
+            const ParkingResult result = AutomaticParking().park(scenario);
+            EXPECT_EQ(result.status, spare < 0.005 ? ParkingStatus::NoPath : ParkingStatus::Parked) << result.message;
+            EXPECT_EQ(result.evaluation.collisions, 0u);
+            EXPECT_EQ(result.trajectory.empty(), spare < 0.005);
+        }
+    }
+
     TEST(AutomaticParkingTest, saysWhyItDoesNotEvenBegin)
     {
         Scenario scenario = openGround();
