@@ -43,7 +43,8 @@ namespace parking
                                               Taste{1.1, 1.5, true, 0.0, -1, 250}};
 
         search::PlanRequest requestFor(const Taste &taste, const FootprintChecker &checker, const Box &bounds,
-                                       const Path &path, const QuickestTrajectoryOptions &options)
+                                       const Path &path, const QuickestTrajectoryOptions &options,
+                                       const std::function<bool()> &interrupted)
         {
             const Vehicle &car = checker.vehicle();
             search::PlanRequest request;
@@ -61,6 +62,8 @@ namespace parking
                 request.parameters.clearanceCost = 0.0;
             request.parameters.approximate = false;
             request.maxExpansions = taste.mostExpansions;
+            if (interrupted)
+                request.stop = interrupted;
             return request;
         }
 
@@ -82,13 +85,11 @@ namespace parking
             if (fewest < 2 || length > LONGEST || options.mostExpansions == 0)
                 return std::nullopt;
             constexpr Taste HASTY{1.0, 2.5, false, 0.0, 0, ANY};
-            search::PlanRequest request = requestFor(HASTY, checker, bounds, path, options);
+            search::PlanRequest request = requestFor(HASTY, checker, bounds, path, options, interrupted);
             request.maxExpansions =
                 static_cast<std::uint64_t>(std::min(MOST, LEAST + PER_SQUARE_METRE * length * length));
             request.car.mostCusps = static_cast<std::uint8_t>(std::min<std::size_t>(fewest - 1, search::ANY_CUSPS - 1));
             request.parameters.detours = false;
-            if (interrupted)
-                request.stop = interrupted;
             search::PlanResult result = search::plan(environment, request);
             if (result.outcome != search::PlanOutcome::Solved || result.path.cusps() >= fewest)
                 return std::nullopt;
@@ -113,13 +114,11 @@ namespace parking
         {
             if (taste.direction != 0 && options.forwardOnly)
                 continue;
-            search::PlanRequest request = requestFor(taste, checker, bounds, path, options);
+            search::PlanRequest request = requestFor(taste, checker, bounds, path, options, interrupted);
             if (taste.direction == 0)
                 request.maxExpansions = options.mostExpansions - std::min(options.mostExpansions, expanded);
             if (request.maxExpansions == 0)
                 continue;
-            if (interrupted)
-                request.stop = interrupted;
             search::PlanResult result = search::plan(environment, request);
             if (taste.direction == 0)
                 expanded += result.statistics.expanded;

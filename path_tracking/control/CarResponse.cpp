@@ -104,16 +104,18 @@ namespace parking
 
     void CarResponse::watchWheels(const Measurement &measurement)
     {
-        double least = expectedTurn(delay_.periods(), steeringLag_.lag()), most = least;
-        if (!delay_.isSure())
+        // Without a delay that is sure it may be any, and the lag is not known either: wheels that are as slow as can
+        // be thought of move more than hardly.
+        const bool isSure = delay_.isSure();
+        const double lag = isSure ? steeringLag_.lag() : 0.0;
+        std::size_t delay = isSure ? delay_.periods() : 0;
+        const std::size_t last = isSure ? delay : CommandDelay::MOST;
+        double least = expectedTurn(delay, lag), most = least;
+        while (++delay <= last)
         {
-            // The lag is not known either; wheels that are as slow as can be thought of move more than hardly.
-            least = most = expectedTurn(0, 0.0);
-            for (std::size_t delay = 1; delay <= CommandDelay::MOST; ++delay)
-            {
-                least = std::min(least, expectedTurn(delay, 0.0));
-                most = std::max(most, expectedTurn(delay, 0.0));
-            }
+            const double turn = expectedTurn(delay, lag);
+            least = std::min(least, turn);
+            most = std::max(most, turn);
         }
         if (least < LEAST_TURN && most > -LEAST_TURN)
             return;

@@ -84,8 +84,7 @@ namespace parking
             steer(step);
         if (mode_ == TrackingMode::Driving && over)
         {
-            step.command =
-                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
+            step.command = stand(last_.steering);
             clock_ += parameters_.mpc.step;
         }
         else if (mode_ == TrackingMode::Driving)
@@ -99,8 +98,7 @@ namespace parking
         else if (mode_ == TrackingMode::Waiting)
             wait(step);
         else if (finished())
-            step.command =
-                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
+            step.command = stand(last_.steering);
 
         step.mode = mode_;
         step.leg = leg_;
@@ -235,6 +233,11 @@ namespace parking
         command.acceleration = std::clamp(-speed / period, -vehicle_.maxAcceleration, vehicle_.maxAcceleration);
         command.steering = towards(last, steering, rate * period);
         return command;
+    }
+
+    Command TrackingController::stand(double steering) const
+    {
+        return standStill(estimator().measuredSpeed(), last_.steering, steering, vehicle_.maxSteeringRate);
     }
 
     void TrackingController::steer(TrackingStep &step)

@@ -166,6 +166,7 @@ namespace parking
         Path stoppingWay(const Command &command) const;
         void askGuard(TrackingStep &step);
         Command standStill(double speed, double last, double steering, double rate) const;
+        Command stand(double steering) const;
         MpcProblem makeProblem(const CarState &car) const;
         double overGround(double acceleration, const CarState &car) const;
         Command commandFor(const MpcControl &control, const CarState &car) const;

@@ -26,8 +26,7 @@ namespace parking
         if (std::abs(estimator().speed()) <= STANDING && std::abs(car.speed) <= STANDING)
         {
             mode_ = poseWatch_.wasLost() || stuckAt_ ? TrackingMode::Waiting : TrackingMode::Stopped;
-            step.command =
-                standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
+            step.command = stand(last_.steering);
             return;
         }
         step.command = braking(car, reference_->project(leg_, car.pose, s_ - SEARCH, s_ + SEARCH), last_.steering);
@@ -35,8 +34,7 @@ namespace parking
 
     void TrackingController::wait(TrackingStep &step)
     {
-        step.command =
-            standStill(estimator().measuredSpeed(), last_.steering, last_.steering, vehicle_.maxSteeringRate);
+        step.command = stand(last_.steering);
         if (poseWatch_.wasLost())
             waitForPose(step);
         else
@@ -53,7 +51,7 @@ namespace parking
         {
             const double target = std::clamp(*stuckAt_ - std::copysign(TRIED, *stuckAt_), -vehicle_.maxSteeringAngle,
                                              vehicle_.maxSteeringAngle);
-            step.command = standStill(estimator().measuredSpeed(), last_.steering, target, vehicle_.maxSteeringRate);
+            step.command = stand(target);
             return;
         }
         mode_ = TrackingMode::Stopped;

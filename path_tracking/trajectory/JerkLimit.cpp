@@ -71,14 +71,19 @@ namespace parking
             /** Speed and steering angle at \e s; the time is that of the motion as it was. */
             MotionKnot at(double s) const
             {
-                const auto above = std::upper_bound(way_.begin() + 1, way_.end() - 1, s);
-                const auto k = static_cast<std::size_t>(above - way_.begin()) - 1;
+                std::size_t k = knotAt(s);
+                const double speed = std::sqrt(std::max(0.0, squaredSpeed(s, k)));
                 const MotionKnot &a = knots_[k], &b = knots_[k + 1];
-                const double duration = b.t - a.t, acceleration = (b.v - a.v) / duration;
-                const double off = std::clamp(s - way_[k], 0.0, way_[k + 1] - way_[k]);
-                const double speed = std::sqrt(std::max(0.0, a.v * a.v + 2.0 * acceleration * off));
+                const double duration = b.t - a.t, off = std::clamp(s - way_[k], 0.0, way_[k + 1] - way_[k]);
                 const double time = a.v + speed > 0.0 ? std::min(duration, 2.0 * off / (a.v + speed)) : 0.0;
                 return {a.t + time, speed, a.steering + (b.steering - a.steering) * time / duration};
+            }
+
+            /** The last knot before \e s that another one comes after. */
+            std::size_t knotAt(double s) const
+            {
+                return static_cast<std::size_t>(std::upper_bound(way_.begin() + 1, way_.end() - 1, s) - way_.begin()) -
+                       1;
             }
 
             /** Square of the speed at \e s, (m/s)^2. \param knot the last one before \e s is looked for from here on */
@@ -213,8 +218,7 @@ namespace parking
             /** The greatest jerk after a step of which the car can brake; none when there is none. */
             std::optional<double> greatestJerk(const Progress &now, double step) const
             {
-                std::size_t knot = 0;
-                way_.squaredSpeed(now.s, knot);
+                const std::size_t knot = way_.knotAt(now.s);
                 const auto isSafeWith = [&](double jerk)
                 {
                     return isSafe(now.after(step, jerk), knot);

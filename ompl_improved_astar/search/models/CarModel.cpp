@@ -223,7 +223,8 @@ namespace parking::search
                 sum += cost.join(fromStart.motion.drive(), curve.pieces[0]);
             if (curve.count > 0 && fromGoal.parent != NO_NODE)
                 sum += cost.join(curve.pieces[curve.count - 1], fromGoal.motion.drive().reversed());
-            if (sum < bound && cuspsThrough(fromStart, curve, fromGoal) <= parameters_->mostCusps)
+            if (sum < bound && (parameters_->mostCusps == ANY_CUSPS ||
+                                cuspsThrough(fromStart, curve, fromGoal) <= parameters_->mostCusps))
                 order_.emplace_back(sum, &curve);
         }
         const SearchTuning &tuning = parameters_->tuning;

@@ -113,14 +113,14 @@ namespace parking::search
             take(search_.bestPath(), search_.bestCost());
             return;
         }
-        const double little = tuning.hardlyLonger * search_.shortestMotion();
+        const double shortest = search_.shortestMotion(), little = tuning.hardlyLonger * shortest;
         const bool isShort = search_.bestPath().length() < little &&
                              search_.bestCost() < little + parameters_.search.turningRadius &&
                              closeness(search_.bestPath()) <= 0.0;
-        const double expected = std::max(search_.shortestMotion(), search_.estimate());
+        const bool isShortest = search_.bestPath().length() <= shortest * (1.0 + 1e-9);
+        const double expected = std::max(shortest, search_.estimate());
         // Nor with the shortest curve itself, dear as it may be, nor with what costs little more than it promised.
-        const bool isBare =
-            search_.expanded() == 0 && search_.bestPath().length() <= search_.shortestMotion() * (1.0 + 1e-9);
+        const bool isBare = isShortest && search_.expanded() == 0;
         const bool isCheap =
             search_.bestCost() < tuning.hardlyDearer * expected && search_.bestPath().cusps() <= tuning.fewCusps;
         if (!isShort && !isBare && !isCheap)
@@ -128,7 +128,7 @@ namespace parking::search
         Path best = search_.bestPath();
         double cost = search_.bestCost();
         // A bare curve is shortened no more.
-        if (parameters_.shorten && !(isShort && best.length() <= search_.shortestMotion() * (1.0 + 1e-9)))
+        if (parameters_.shorten && !(isShort && isShortest))
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             const bool isShorter = shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE,
