@@ -94,6 +94,26 @@ namespace parking
         return contactTest_(box);
     }
 
+    /** A lower bound of the distance between the body and the obstacles, by the field alone; negative where that does
+        not tell. What is above \e enough, or is not above \e least, need not be told apart. */
+    double FootprintChecker::roomRound(const OrientedBox &box, double least, double enough) const
+    {
+        const double atCentre = field_.lowerBound(box.x, box.y), room = atCentre - circumradius_;
+        // No circle has more room than the centre, but for its own way from there.
+        const Circle &middle = covering_[covering_.size() / 2];
+        if (room > enough || atCentre + middle.offset - middle.radius <= least)
+            return room;
+        double ofCircles = INFINITE;
+        for (const Circle &circle : covering_)
+        {
+            const double x = box.x + box.cosine * circle.offset, y = box.y + box.sine * circle.offset;
+            ofCircles = std::min(ofCircles, field_.lowerBound(x, y) - circle.radius);
+            if (ofCircles <= least)
+                return room;
+        }
+        return std::max(room, ofCircles);
+    }
+
     bool FootprintChecker::isFree(const Pose &pose) const
     {
         CheckCounts counts;
@@ -264,10 +284,12 @@ namespace parking
                         " m, not " + formatNumber(tolerance) + " m");
         ++counts.states;
         if (!isFinite(from))
-            return {{}, tolerance, -1.0};
-        SweepStart start{boxAt(obstacles_.toLocal(from)), tolerance, tolerance};
+            return {{}, tolerance, -1.0, 0.0};
+        SweepStart start{boxAt(obstacles_.toLocal(from)), tolerance, tolerance, 0.0};
         const OrientedBox &box = start.box;
-        if (field_.lowerBound(box.x, box.y) > circumradius_ + CORNER * tolerance)
+        const double corner = CORNER * tolerance;
+        start.room = roomRound(box, corner, INFINITE) - corner;
+        if (start.room > 0.0)
         {
             ++counts.byField;
             return start;
@@ -290,6 +312,7 @@ namespace parking
         const double longest = std::min((CLEARANCE_REACH - 2.0 * start.enlargement) /
                                             std::sqrt(1.0 + curvature * centreOffset_ * curvature * centreOffset_),
                                         MAX_TURN / (turn + 1e-12));
+        const double corner = CORNER * start.tolerance;
         OrientedBox box = start.box;
         double driven = 0.0;
         for (;;)
@@ -299,7 +322,8 @@ namespace parking
             double stride = std::min(left, longest);
             // Far from everything the field alone allows a long stride. Corners of the enlarged body reach farther out
             // than its sides.
-            const double bound = field_.lowerBound(box.x, box.y) - circumradius_ - CORNER * start.tolerance;
+            const double bound =
+                driven == 0.0 ? start.room : roomRound(box, stride * speed + corner, stride * speed + corner) - corner;
             if (bound >= left * speed)
             {
                 ++counts.byField;

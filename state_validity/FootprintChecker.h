@@ -132,6 +132,8 @@ namespace parking
             double tolerance;  ///< metres
             /** Metres by which the body is enlarged on the way; negative when the pose is not free. */
             double enlargement;
+            /** Metres that the enlarged body may move in any way; none when negative. */
+            double room;
         };
 
         /** \brief Prepares a pose. \param tolerance as for freeLength() */
@@ -151,6 +153,7 @@ namespace parking
 
     private:
         OrientedBox boxAt(const Pose &local) const;
+        double roomRound(const OrientedBox &box, double least, double enough) const;
         bool isInsideObstacle(const OrientedBox &box) const;
         bool touches(const OrientedBox &box) const;
 

@@ -46,33 +46,38 @@ namespace parking::search
             return (*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
         }
 
-        /** \brief Calls visit(cell, column, row, diagonal) for the eight neighbours, row by row.
-
-            \return false when some of them lie beyond the reach of the grid and were left out */
-        template <class Visit>
-        bool forEachNeighbour(std::int32_t column, std::int32_t row, const Visit &visit)
+        /** \brief What lies round a cell. */
+        class Neighbours
         {
-            const auto c = static_cast<std::uint32_t>(column + REACH) % TILE,
-                       r = static_cast<std::uint32_t>(row + REACH) % TILE;
-            // Inside of a tile the neighbours lie at fixed distances in memory.
-            const bool within = c > 0 && r > 0 && c + 1 < TILE && r + 1 < TILE;
-            T *const cell = within ? &at(column, row) : nullptr;
-            bool all = true;
-            for (std::int32_t dr = -1; dr <= 1; ++dr)
-                for (std::int32_t dc = -1; dc <= 1; ++dc)
-                {
-                    if (dr == 0 && dc == 0)
-                        continue;
-                    const bool diagonal = dr != 0 && dc != 0;
-                    if (within)
-                        visit(*(cell + dr * TILE + dc), column + dc, row + dr, diagonal);
-                    else if (contains(column + dc, row + dr))
-                        visit(at(column + dc, row + dr), column + dc, row + dr, diagonal);
-                    else
-                        all = false;
-                }
-            return all;
-        }
+        public:
+            /** \brief Of the cell at \e column and \e row, which must be contained. */
+            Neighbours(TiledGrid &grid, std::int32_t column, std::int32_t row)
+              : grid_(grid),
+                column_(column),
+                row_(row),
+                cell_(&grid.at(column, row))
+            {
+                const auto c = static_cast<std::uint32_t>(column + REACH) % TILE,
+                           r = static_cast<std::uint32_t>(row + REACH) % TILE;
+                isWithin_ = c > 0 && r > 0 && c + 1 < TILE && r + 1 < TILE;
+            }
+
+            /** \brief The cell so many columns and rows away, -1 to 1; none beyond the reach of the grid. */
+            T *at(std::int32_t columns, std::int32_t rows) const
+            {
+                // Inside of a tile the neighbours lie at fixed distances in memory.
+                if (isWithin_)
+                    return cell_ + rows * TILE + columns;
+                const bool isContained = contains(column_ + columns, row_ + rows);
+                return isContained ? &grid_.at(column_ + columns, row_ + rows) : nullptr;
+            }
+
+        private:
+            TiledGrid &grid_;
+            std::int32_t column_, row_;
+            T *cell_;
+            bool isWithin_;
+        };
 
         /** \brief Of the tiles in use. */
         std::size_t bytes() const

@@ -1,7 +1,5 @@
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 
-#include "ompl_improved_astar/search/containers/FloatBits.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,13 +8,28 @@ namespace parking::search
 {
     namespace
     {
-        constexpr float DIAGONAL = 1.41421356f;
+        constexpr std::uint32_t STRAIGHT = 12, DIAGONAL = 17;  // lengths of the steps
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MANY_CELLS = 128;     // settled for one question
         constexpr std::size_t LARGEST_POCKET = 1000;  // cells: what is larger is no pocket
-    }                                                 // namespace
+
+        /** The eight directions, counter-clockwise from +x: the odd ones are diagonal. */
+        constexpr unsigned int DIRECTIONS = 8, ALL = 0xff;
+        constexpr std::int32_t COLUMNS[DIRECTIONS] = {1, 1, 0, -1, -1, -1, 0, 1};
+        constexpr std::int32_t ROWS[DIRECTIONS] = {0, 1, 1, 1, 0, -1, -1, -1};
+
+        constexpr unsigned int turned(unsigned int direction, int eighths)
+        {
+            return (direction + DIRECTIONS + static_cast<unsigned int>(eighths)) % DIRECTIONS;
+        }
+
+        constexpr unsigned int bitOf(unsigned int direction)
+        {
+            return 1u << direction;
+        }
+    }  // namespace
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
     {
@@ -50,6 +63,8 @@ namespace parking::search
         environment_ = &environment;
         resolution_ = resolution;
         disc_ = disc;
+        dearer_ = {static_cast<std::uint32_t>(std::lround(STRAIGHT * (disc.dear - 1.0))),
+                   static_cast<std::uint32_t>(std::lround(DIAGONAL * (disc.dear - 1.0)))};
         mostCells_ = SearchTuning().mostCells;
         states_.clear();
         open_.clear();
@@ -59,10 +74,7 @@ namespace parking::search
         pocket_.next = 0;
         // The grid is centred where the questions will be.
         origin_ = toward;
-        towardColumn_ = towardRow_ = 0.5f;
-        // A hair more than the octile distance: of many equally short ways in the open one is followed to its end. What
-        // is settled is longer than the shortest way by no more than this hair.
-        hair_ = 1.00002f;
+        towardColumn_ = towardRow_ = 0;
     }
 
     bool ObstacleHeuristic::isOpen(CellState &state, std::int32_t column, std::int32_t row)
@@ -108,40 +120,30 @@ namespace parking::search
                 }
     }
 
-    float ObstacleHeuristic::estimate(std::int32_t column, std::int32_t row) const
+    std::uint32_t ObstacleHeuristic::estimate(std::int32_t column, std::int32_t row) const
     {
-        const float dx = std::abs(static_cast<float>(column) + 0.5f - towardColumn_);
-        const float dy = std::abs(static_cast<float>(row) + 0.5f - towardRow_);
-        return hair_ * (std::max(dx, dy) + (DIAGONAL - 1.0f) * std::min(dx, dy));
+        const auto dx = static_cast<std::uint32_t>(std::abs(column - towardColumn_));
+        const auto dy = static_cast<std::uint32_t>(std::abs(row - towardRow_));
+        return STRAIGHT * std::max(dx, dy) + (DIAGONAL - STRAIGHT) * std::min(dx, dy);
     }
 
-    void ObstacleHeuristic::push(float g, std::int32_t column, std::int32_t row)
+    void ObstacleHeuristic::push(std::uint32_t g, std::int32_t column, std::int32_t row)
     {
-        const float f = g + estimate(column, row);
-        open_.push(f, entryOf(f, g, column, row));
-    }
-
-    ObstacleHeuristic::Entry ObstacleHeuristic::entryOf(float f, float g, std::int32_t column, std::int32_t row) const
-    {
-        return {(static_cast<std::uint64_t>(bitsOf(f)) << 32) | (0xffffffffu - bitsOf(g)), column, row};
+        open_.push(g + estimate(column, row), {column, row});
     }
 
     void ObstacleHeuristic::aimAt(std::int32_t column, std::int32_t row)
     {
         // Some cell of every shortest way waits with the length of that way up to it, whatever was made for until now,
         // so that what is settled from now on is settled with the length of its shortest way as well.
-        towardColumn_ = static_cast<float>(column) + 0.5f;
-        towardRow_ = static_cast<float>(row) + 0.5f;
-        hair_ = 1.0f;
+        towardColumn_ = column;
+        towardRow_ = row;
         open_.renewAll(
-            [this](Entry &entry)
+            [this](const Entry &entry, std::uint32_t &priority)
             {
                 const CellState &state = states_.at(entry.column, entry.row);
-                if (state.settled)
-                    return -1.0f;
-                const float f = state.g + estimate(entry.column, entry.row);
-                entry = entryOf(f, state.g, entry.column, entry.row);
-                return f;
+                priority = state.g + estimate(entry.column, entry.row);
+                return !state.settled;
             });
     }
 
@@ -154,8 +156,10 @@ namespace parking::search
             return;
         }
         const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-        states_.at(column, row).g = 0.0f;
-        push(0.0f, column, row);
+        CellState &state = states_.at(column, row);
+        state.g = 0;
+        state.arrivals = ALL;
+        push(0, column, row);
     }
 
     bool ObstacleHeuristic::settleNext(Entry &settled)
@@ -168,24 +172,90 @@ namespace parking::search
                 continue;
             state.settled = true;
             ++settled_;
-            const float here = state.g;
-            const bool inside = states_.forEachNeighbour(
-                settled.column, settled.row,
-                [this, here](CellState &next, std::int32_t column, std::int32_t row, bool diagonal)
-                {
-                    const float step = diagonal ? DIAGONAL : 1.0f;
-                    if (next.settled || here + step >= next.g || !isOpen(next, column, row))
-                        return;
-                    const float g = next.dear ? here + step * static_cast<float>(disc_.dear) : here + step;
-                    if (g >= next.g)
-                        return;
-                    next.g = g;
-                    push(g, column, row);
-                });
-            leftGrid_ = leftGrid_ || !inside;
+            const Neighbours neighbours(states_, settled.column, settled.row);
+            const unsigned int directions = directionsFrom(settled, neighbours, state.arrivals);
+            for (unsigned int direction = 0; direction < DIRECTIONS; ++direction)
+                if ((directions & bitOf(direction)) != 0)
+                    step(settled, neighbours, state.g, direction);
             return true;
         }
         return false;
+    }
+
+    /** Where ways that arrive at a cell in these directions go on; what they leave out is reached as soon without it. */
+    unsigned int ObstacleHeuristic::directionsFrom(const Entry &cell, const Neighbours &neighbours,
+                                                   unsigned int arrivals)
+    {
+        if (arrivals == ALL)
+            return ALL;
+        enum class Beside
+        {
+            Cheap,
+            Dear,
+            Closed
+        };
+        const auto look = [&](unsigned int direction)
+        {
+            CellState *const beside = neighbours.at(COLUMNS[direction], ROWS[direction]);
+            if (beside == nullptr)
+                return Beside::Cheap;
+            if (!isOpen(*beside, cell.column + COLUMNS[direction], cell.row + ROWS[direction]))
+                return Beside::Closed;
+            return beside->dear ? Beside::Dear : Beside::Cheap;
+        };
+        unsigned int directions = arrivals;
+        for (unsigned int arrival = 0; arrival < DIRECTIONS; ++arrival)
+        {
+            if ((arrivals & bitOf(arrival)) == 0)
+                continue;
+            const bool diagonal = arrival % 2 != 0;
+            for (const int side : {-1, 1})
+            {
+                if (diagonal)
+                    directions |= bitOf(turned(arrival, side));
+                // Another way, beside the last step, would be as short if it led through no dear or closed place.
+                const Beside beside = look(turned(arrival, diagonal ? 3 * side : 2 * side));
+                if (beside != Beside::Cheap)
+                    directions |= bitOf(turned(arrival, diagonal ? 2 * side : side));
+                // And a dear place is entered by the shorter step.
+                if (beside == Beside::Dear && !diagonal)
+                    directions |= bitOf(turned(arrival, 2 * side));
+            }
+        }
+        return directions;
+    }
+
+    void ObstacleHeuristic::step(const Entry &cell, const Neighbours &neighbours, std::uint32_t g,
+                                 unsigned int direction)
+    {
+        CellState *const next = neighbours.at(COLUMNS[direction], ROWS[direction]);
+        if (next == nullptr)
+        {
+            leftGrid_ = true;
+            return;
+        }
+        const std::int32_t column = cell.column + COLUMNS[direction], row = cell.row + ROWS[direction];
+        g += direction % 2 != 0 ? DIAGONAL : STRAIGHT;
+        if (next->g < g || !isOpen(*next, column, row))
+            return;
+        if (next->dear)
+            g += direction % 2 != 0 ? dearer_.diagonal : dearer_.straight;
+        const auto bit = static_cast<std::uint8_t>(bitOf(direction));
+        if (g < next->g && !next->settled)
+        {
+            next->g = g;
+            next->arrivals = bit;
+            push(g, column, row);
+        }
+        else if (g == next->g && (next->arrivals & bit) == 0)
+        {
+            // Another of its shortest ways, which may go on in other directions.
+            next->arrivals |= bit;
+            if (!next->settled)
+                return;
+            next->settled = false;
+            push(g, column, row);
+        }
     }
 
     void ObstacleHeuristic::beginPocket(std::int32_t column, std::int32_t row)
@@ -194,7 +264,7 @@ namespace parking::search
         if (state.looked != Looked::Never)
             return;
         state.looked = Looked::Now;
-        pocket_.cells.push_back({0, column, row});
+        pocket_.cells.push_back({column, row});
     }
 
     void ObstacleHeuristic::widenPocket()
@@ -209,17 +279,19 @@ namespace parking::search
             return;
         }
         const Entry cell = pocket_.cells[pocket_.next++];
-        bool hasWayOut = false;
-        const bool inside =
-            states_.forEachNeighbour(cell.column, cell.row,
-                                     [this, &hasWayOut](CellState &next, std::int32_t column, std::int32_t row, bool)
-                                     {
-                                         if (next.looked == Looked::Now || !isOpen(next, column, row))
-                                             return;
-                                         hasWayOut = hasWayOut || isReached(next) || next.looked == Looked::Before;
-                                         next.looked = Looked::Now;
-                                         pocket_.cells.push_back({0, column, row});
-                                     });
+        const Neighbours neighbours(states_, cell.column, cell.row);
+        bool hasWayOut = false, inside = true;
+        for (unsigned int direction = 0; direction < DIRECTIONS; ++direction)
+        {
+            const std::int32_t column = cell.column + COLUMNS[direction], row = cell.row + ROWS[direction];
+            CellState *const next = neighbours.at(COLUMNS[direction], ROWS[direction]);
+            inside = inside && next != nullptr;
+            if (next == nullptr || next->looked == Looked::Now || !isOpen(*next, column, row))
+                continue;
+            hasWayOut = hasWayOut || isReached(*next) || next->looked == Looked::Before;
+            next->looked = Looked::Now;
+            pocket_.cells.push_back({column, row});
+        }
         if (hasWayOut || !inside || pocket_.cells.size() > LARGEST_POCKET)
             endPocket(false);
     }
@@ -273,7 +345,9 @@ namespace parking::search
         }
         if (!pocket_.cells.empty())
             endPocket(false);
-        return static_cast<double>(asked.g) * resolution_;
+        if (!isReached(asked))
+            return std::numeric_limits<double>::infinity();
+        return static_cast<double>(asked.g) * (resolution_ / STRAIGHT);
     }
 
     double ObstacleHeuristic::estimate(const Pose &pose)
@@ -289,7 +363,7 @@ namespace parking::search
             return 0.0;
         // Pieces of the disc's way as long as a cell is wide touch two columns and two rows at most, so that their ends
         // lie in the same cell or in neighbours: each piece costs a diagonal at most.
-        return std::max(0.0, way * (1.0 - 1e-5) / std::sqrt(2.0) - resolution_);
+        return std::max(0.0, way * (STRAIGHT * (1.0 - 1e-9) / DIAGONAL) - resolution_);
     }
 
     bool ObstacleHeuristic::provesUnreachable(const Pose &pose)

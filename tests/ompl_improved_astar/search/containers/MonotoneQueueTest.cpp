@@ -7,8 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
-#include <queue>
+#include <map>
 #include <vector>
 
 using parking::search::MonotoneQueue;
@@ -18,50 +17,77 @@ namespace
 {
     struct Item
     {
-        std::uint64_t key;
+        std::uint32_t priority;
+        std::uint32_t number;
     };
 
-    /** The priority in the upper part of the key, as its users have it. */
-    Item itemOf(float priority, std::uint64_t rest)
-    {
-        return {static_cast<std::uint64_t>(static_cast<double>(priority) * 1024.0) << 20 | rest};
-    }
+    /** What waits, by priority, in the order in which it came. */
+    using Oracle = std::map<std::uint32_t, std::vector<std::uint32_t>>;
 
-    using Oracle = std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>>;
+    std::uint32_t upTo(Random &random, std::uint32_t most)
+    {
+        return static_cast<std::uint32_t>(random.index(most + 1));
+    }
 }  // namespace
 
 TEST(MonotoneQueue, isAPriorityQueue)
 {
-    // How far ahead of what was taken last items are pushed, in priorities: within a bucket, within those that are told
-    // apart at a time, far beyond them, and behind.
-    for (const double ahead : {0.01, 3.0, 40.0, 500.0, 20000.0, -3.0})
+    // How far ahead of what was taken last items are pushed: nearby, at the border of what is told apart at a time, and
+    // far beyond.
+    for (const std::uint32_t ahead : {0u, 3u, 40u, 1022u, 1023u, 1024u, 5000u, 1000000u})
     {
         SCOPED_TRACE(ahead);
         Random random(7);
         MonotoneQueue<Item> queue;
         Oracle oracle;
-        double last = 10.0;
-        for (int step = 0; step < 20000; ++step)
+        std::size_t size = 0;
+        std::uint32_t last = 10;
+        for (std::uint32_t step = 0; step < 20000; ++step)
         {
-            EXPECT_EQ(queue.empty(), oracle.empty());
+            ASSERT_EQ(queue.empty(), oracle.empty());
+            ASSERT_EQ(queue.size(), size);
             const bool grows = step % 2000 < 1000;
             if (oracle.empty() || random.between(0.0, 1.0) < (grows ? 0.6 : 0.3))
             {
-                const double away = ahead < 0.0 ? random.between(ahead, 3.0) : random.between(0.0, ahead);
-                const auto priority = static_cast<float>(std::max(0.0, last + away));
-                const Item item = itemOf(priority, random.index(1000));
-                queue.push(priority, item);
-                oracle.push(item.key);
+                const std::uint32_t priority = last + upTo(random, ahead);
+                queue.push(priority, {priority, step});
+                oracle[priority].push_back(step);
+                ++size;
                 continue;
             }
-            ASSERT_EQ(queue.pop().key, oracle.top()) << "step " << step;
-            last = static_cast<double>(oracle.top() >> 20) / 1024.0;
-            oracle.pop();
+            const auto least = oracle.begin();
+            const Item item = queue.pop();
+            ASSERT_EQ(item.priority, least->first) << "step " << step;
+            const auto found = std::find(least->second.begin(), least->second.end(), item.number);
+            ASSERT_NE(found, least->second.end()) << "each comes out once";
+            least->second.erase(found);
+            if (least->second.empty())
+                oracle.erase(least);
+            last = item.priority;
+            --size;
         }
-        for (; !oracle.empty(); oracle.pop())
-            ASSERT_EQ(queue.pop().key, oracle.top());
-        EXPECT_TRUE(queue.empty());
     }
+}
+
+TEST(MonotoneQueue, takesOfEqualPrioritiesTheLastOne)
+{
+    MonotoneQueue<Item> queue;
+    for (std::uint32_t number = 0; number < 5; ++number)
+        queue.push(7, {7, number});
+    for (std::uint32_t number = 5; number-- > 0;)
+        EXPECT_EQ(queue.pop().number, number);
+}
+
+TEST(MonotoneQueue, takesWhatIsPushedTooLowNext)
+{
+    MonotoneQueue<Item> queue;
+    queue.push(100, {100, 0});
+    queue.push(101, {101, 1});
+    EXPECT_EQ(queue.pop().number, 0u);
+    queue.push(3, {3, 2});
+    EXPECT_EQ(queue.pop().number, 2u);
+    EXPECT_EQ(queue.pop().number, 1u);
+    EXPECT_TRUE(queue.empty());
 }
 
 TEST(MonotoneQueue, forgetsOnClear)
@@ -69,15 +95,15 @@ TEST(MonotoneQueue, forgetsOnClear)
     MonotoneQueue<Item> queue;
     for (int round = 0; round < 3; ++round)
     {
-        for (const float priority : {5.0f, 0.5f, 90.0f, 1e5f})
-            queue.push(priority, itemOf(priority, 0));
-        EXPECT_EQ(queue.pop().key, itemOf(0.5f, 0).key);
-        EXPECT_EQ(queue.pop().key, itemOf(5.0f, 0).key);
+        for (const std::uint32_t priority : {5u, 1u, 90u, 100000u})
+            queue.push(priority, {priority, 0});
+        EXPECT_EQ(queue.pop().priority, 1u);
+        EXPECT_EQ(queue.pop().priority, 5u);
         EXPECT_GT(queue.bytes(), 0u);
         queue.clear();
         EXPECT_TRUE(queue.empty());
-        queue.push(1.0f, itemOf(1.0f, 1));
-        EXPECT_EQ(queue.pop().key, itemOf(1.0f, 1).key) << "and not what was left in the round before";
+        queue.push(2, {2, 1});
+        EXPECT_EQ(queue.pop().number, 1u) << "and not what was left in the round before";
         EXPECT_TRUE(queue.empty());
         queue.clear();
     }
@@ -85,52 +111,50 @@ TEST(MonotoneQueue, forgetsOnClear)
 
 TEST(MonotoneQueue, takesNewPriorities)
 {
-    for (const double widest : {0.5, 20.0, 500.0})
+    for (const std::uint32_t widest : {20u, 900u, 16000u})
     {
         SCOPED_TRACE(widest);
         Random random(11);
         MonotoneQueue<Item> queue;
-        std::vector<std::uint64_t> kept;
+        std::vector<std::uint32_t> kept;
+        const auto takeLeast = [&]
+        {
+            const auto least = std::min_element(kept.begin(), kept.end());
+            const std::uint32_t expected = *least;
+            kept.erase(least);
+            return expected;
+        };
         for (int round = 0; round < 20; ++round)
         {
-            for (std::size_t i = 0; i < 300; ++i)
+            const std::uint32_t first = kept.empty() ? 0 : *std::max_element(kept.begin(), kept.end());
+            for (std::uint32_t i = 0; i < 300; ++i)
             {
-                const auto priority = static_cast<float>(random.between(0.0, widest));
-                const Item item = itemOf(priority, i);
-                queue.push(priority, item);
-                kept.push_back(item.key);
+                const std::uint32_t priority = first + upTo(random, widest);
+                queue.push(priority, {priority, i});
+                kept.push_back(priority);
             }
             EXPECT_EQ(queue.size(), kept.size());
             for (int i = 0; i < 50; ++i)
-            {
-                const auto least = std::min_element(kept.begin(), kept.end());
-                ASSERT_EQ(queue.pop().key, *least);
-                kept.erase(least);
-            }
-            // What was last is first now, and every third item is dropped.
-            const auto renewed = [widest](std::uint64_t key)
-            {
-                const double priority = static_cast<double>(key >> 20) / 1024.0;
-                return key % 3 == 0 ? -1.0f : static_cast<float>(widest - priority);
-            };
+                ASSERT_EQ(queue.pop().priority, takeLeast());
+            // What was last is first now, and every third priority is dropped.
+            const std::uint32_t last = *std::max_element(kept.begin(), kept.end());
             queue.renewAll(
-                [&renewed](Item &item)
+                [last](Item &item, std::uint32_t &priority)
                 {
-                    const float priority = renewed(item.key);
-                    item = itemOf(std::max(0.0f, priority), item.key % 1000);
-                    return priority;
+                    const bool isKept = item.priority % 3 != 0;
+                    priority = item.priority = last - item.priority;
+                    return isKept;
                 });
-            std::vector<std::uint64_t> left;
-            for (const std::uint64_t key : kept)
-                if (const float priority = renewed(key); priority >= 0.0f)
-                    left.push_back(itemOf(priority, key % 1000).key);
+            std::vector<std::uint32_t> left;
+            for (const std::uint32_t priority : kept)
+                if (priority % 3 != 0)
+                    left.push_back(last - priority);
             kept = left;
         }
-        std::sort(kept.begin(), kept.end());
-        for (const std::uint64_t key : kept)
-            ASSERT_EQ(queue.pop().key, key);
+        while (!kept.empty())
+            ASSERT_EQ(queue.pop().priority, takeLeast());
         EXPECT_TRUE(queue.empty());
-        queue.renewAll([](Item &) { return 1.0f; });
+        queue.renewAll([](Item &, std::uint32_t &) { return true; });
         EXPECT_TRUE(queue.empty());
     }
 }

@@ -23,12 +23,12 @@ namespace
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
     using Place = std::pair<int, int>;
 
-    /** Dijkstra over the same cells as the class documents them: eight neighbours, centred on \e toward, open unless
-        the disc surely hits something wherever in the cell it stands. */
+    /** Dijkstra over the same cells as the class documents them: eight neighbours, 12 and 17 parts of a cell away,
+        centred on \e toward, open unless the disc surely hits something wherever in the cell it stands. */
     class PlainDijkstra
     {
     public:
-        PlainDijkstra(const DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward,
+        PlainDijkstra(const DiscCarWorld &world, double resolution, const Disc &disc, const Eigen::Vector2d &toward,
                       const std::vector<Eigen::Vector2d> &targets)
           : resolution_(resolution),
             toward_(toward)
@@ -48,8 +48,10 @@ namespace
                         const Place next{at.first + dc, at.second + dr};
                         const double x = toward.x() + (next.first + 0.5) * resolution;
                         const double y = toward.y() + (next.second + 0.5) * resolution;
-                        if (mayHoldDisc(world, x, y, resolution, radius))
-                            open.push({g + std::hypot(dc, dr) * resolution, next});
+                        const double step = (dc != 0 && dr != 0 ? 17.0 / 12.0 : 1.0) * resolution;
+                        const bool dear = disc.wide > 0.0 && !mayHoldDisc(world, x, y, resolution, disc.wide);
+                        if (mayHoldDisc(world, x, y, resolution, disc.radius))
+                            open.push({g + step * (dear ? disc.dear : 1.0), next});
                     }
             }
         }
@@ -180,9 +182,9 @@ namespace
     class HeuristicIn : public ObstacleHeuristic
     {
     public:
-        HeuristicIn(DiscCarWorld &world, double resolution, double radius, const Eigen::Vector2d &toward)
+        HeuristicIn(DiscCarWorld &world, double resolution, const Disc &disc, const Eigen::Vector2d &toward)
         {
-            reset(world, resolution, {radius}, toward, stop);
+            reset(world, resolution, disc, toward, stop);
         }
 
         StopFunction stop;
@@ -201,16 +203,42 @@ TEST(ObstacleHeuristic, isDijkstrasDistance)
         std::vector<Eigen::Vector2d> targets;
         for (std::uint64_t i = 0; i <= seed % 3; ++i)
             targets.push_back(anywhere(random));
-        HeuristicIn heuristic(world, resolution, radius, toward);
+        HeuristicIn heuristic(world, resolution, {radius}, toward);
         for (const Eigen::Vector2d &target : targets)
             heuristic.addTarget(target.x(), target.y());
-        const PlainDijkstra oracle(world, resolution, radius, toward, targets);
+        const PlainDijkstra oracle(world, resolution, {radius}, toward, targets);
         for (int i = 0; i < 200; ++i)
         {
             const Eigen::Vector2d p = anywhere(random);
             expectSame(heuristic.distance(p.x(), p.y()), oracle.distance(p.x(), p.y()));
         }
     }
+}
+
+TEST(ObstacleHeuristic, isDijkstrasDistanceWherePlacesAreDear)
+{
+    int dearer = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        DiscCarWorld world = smallWorld(seed);
+        Random random(seed + 200);
+        const double resolution = random.between(0.12, 0.4), radius = random.between(0.2, 0.6);
+        const Disc disc{radius, random.between(1.1, 3.0) * radius, seed % 3 == 0 ? 2.0 : 21.0};
+        const Eigen::Vector2d toward = anywhere(random), target = anywhere(random);
+        HeuristicIn heuristic(world, resolution, disc, toward);
+        heuristic.addTarget(target.x(), target.y());
+        const PlainDijkstra oracle(world, resolution, disc, toward, {target});
+        const PlainDijkstra cheap(world, resolution, {radius}, toward, {target});
+        for (int i = 0; i < 100; ++i)
+        {
+            const Eigen::Vector2d p = anywhere(random);
+            const double expected = oracle.distance(p.x(), p.y());
+            expectSame(heuristic.distance(p.x(), p.y()), expected);
+            dearer += expected < INFINITE && expected > 1.01 * cheap.distance(p.x(), p.y());
+        }
+    }
+    EXPECT_GT(dearer, 300);
 }
 
 TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
@@ -225,7 +253,7 @@ TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
         for (int i = 0; i < 60; ++i)
             points.push_back(anywhere(random));
         std::vector<double> forwards, backwards(points.size());
-        HeuristicIn lazy(world, 0.3, 0.5, toward), reverse(world, 0.3, 0.5, toward);
+        HeuristicIn lazy(world, 0.3, {0.5}, toward), reverse(world, 0.3, {0.5}, toward);
         lazy.addTarget(target.x(), target.y());
         reverse.addTarget(target.x(), target.y());
         for (const Eigen::Vector2d &p : points)
@@ -243,7 +271,7 @@ TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
 TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
 {
     DiscCarWorld world({{-300.0, -300.0}, {300.0, 300.0}});
-    HeuristicIn heuristic(world, 0.5, 1.0, {0.0, 0.0});
+    HeuristicIn heuristic(world, 0.5, {1.0}, {0.0, 0.0});
     heuristic.addTarget(10.0, 0.0);
     heuristic.distance(0.0, 0.0);
     EXPECT_LT(heuristic.cells(), 1000u) << "of 1.4 million";
@@ -272,9 +300,9 @@ TEST(ObstacleHeuristic, isDijkstrasDistanceForCellsFarApartAndInPockets)
             world.boxes.push_back({{high.x() - 0.1, low.y() + door}, high});
         }
         const Eigen::Vector2d toward = anywhere(random), target = anywhere(random);
-        HeuristicIn heuristic(world, RESOLUTION, RADIUS, toward);
+        HeuristicIn heuristic(world, RESOLUTION, {RADIUS}, toward);
         heuristic.addTarget(target.x(), target.y());
-        const PlainDijkstra oracle(world, RESOLUTION, RADIUS, toward, {target});
+        const PlainDijkstra oracle(world, RESOLUTION, {RADIUS}, toward, {target});
         for (int i = 0; i < 150; ++i)
         {
             const Eigen::Vector2d p = anywhere(random);
@@ -296,7 +324,7 @@ TEST(ObstacleHeuristic, findsOutFromWithinThatAPocketIsClosed)
                                                                 {{-8.0, 7.0}, {8.0, 8.0}},
                                                                 {{-8.0, -8.0}, {-7.0, 8.0}},
                                                                 {{7.0, -8.0 + gap}, {8.0, 8.0}}});
-        HeuristicIn heuristic(world, 0.5, 1.0, {0.0, 0.0});
+        HeuristicIn heuristic(world, 0.5, {1.0}, {0.0, 0.0});
         heuristic.addTarget(20.0, 0.0);
         EXPECT_EQ(heuristic.provesUnreachable({0.0, 0.0, 0.0}), gap == 0.0);
         EXPECT_LT(heuristic.cells(), 2000u);
@@ -311,7 +339,7 @@ TEST(ObstacleHeuristic, findsOutFromWithinThatAPocketIsClosed)
 TEST(ObstacleHeuristic, stopsAndGoesOn)
 {
     DiscCarWorld world({{-60.0, -60.0}, {60.0, 60.0}}, {{{-50.0, -1.0}, {60.0, 1.0}}});
-    HeuristicIn heuristic(world, 0.3, 0.5, {50.0, 10.0}), other(world, 0.3, 0.5, {50.0, 10.0});
+    HeuristicIn heuristic(world, 0.3, {0.5}, {50.0, 10.0}), other(world, 0.3, {0.5}, {50.0, 10.0});
     heuristic.addTarget(50.0, -10.0);
     other.addTarget(50.0, -10.0);
     heuristic.stop = []
@@ -331,7 +359,7 @@ TEST(ObstacleHeuristic, resetForgetsTheWorldAndTheTargets)
 {
     DiscCarWorld closed = twoRooms(0.0), open = twoRooms(4.0);
     DiscCarWorld world = closed;
-    HeuristicIn heuristic(world, 0.3, 0.9, {-6.0, 0.0});
+    HeuristicIn heuristic(world, 0.3, {0.9}, {-6.0, 0.0});
     heuristic.addTarget(6.0, 0.0);
     EXPECT_EQ(heuristic.distance(-6.0, 0.0), INFINITE);
     world.boxes = open.boxes;
@@ -347,7 +375,7 @@ TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
     for (std::uint64_t seed = 0; seed < 5; ++seed)
     {
         DiscCarWorld world = smallWorld(seed);
-        HeuristicIn lazy(world, 0.25, 0.5, {0.0, 0.0}), eager(world, 0.25, 0.5, {0.0, 0.0});
+        HeuristicIn lazy(world, 0.25, {0.5}, {0.0, 0.0}), eager(world, 0.25, {0.5}, {0.0, 0.0});
         eager.load({{-6.0, -6.0}, {6.0, 6.0}});
         lazy.addTarget(5.0, 5.0);
         eager.addTarget(5.0, 5.0);
@@ -372,7 +400,7 @@ TEST(ObstacleHeuristic, lowerBoundIsNeverAboveTheWayOfTheDisc)
         const Eigen::Vector2d target = anywhere(random), toward = anywhere(random);
         if (world.distanceFrom(target.x(), target.y()) < radius + 0.01)
             continue;
-        HeuristicIn heuristic(world, resolution, radius, toward);
+        HeuristicIn heuristic(world, resolution, {radius}, toward);
         heuristic.addTarget(target.x(), target.y());
         for (int i = 0; i < 8; ++i)
         {
@@ -404,7 +432,7 @@ TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
                                          : Box{{x - 1e-3, 0.75 + RADIUS}, {x + 1e-3, 12.0}});
     }
     const Eigen::Vector2d from(-2.0, 1.0), to(2.0 * WALLS + 2.0, 1.0);
-    HeuristicIn heuristic(world, 1.0, RADIUS, {0.0, 0.0});
+    HeuristicIn heuristic(world, 1.0, {RADIUS}, {0.0, 0.0});
     heuristic.addTarget(to.x(), to.y());
     const double way = wayOfDisc(world, RADIUS, from, to);
     ASSERT_LT(way, 1.1 * (to - from).norm());
@@ -414,7 +442,7 @@ TEST(ObstacleHeuristic, lowerBoundHoldsInASlalomBetweenCellsToo)
 TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
 {
     DiscCarWorld world({{-1e6, -1e6}, {1e6, 1e6}});
-    HeuristicIn heuristic(world, 0.03, 0.1, {0.0, 0.0});
+    HeuristicIn heuristic(world, 0.03, {0.1}, {0.0, 0.0});
     heuristic.addTarget(500.0, 0.0);
     EXPECT_LT(heuristic.lowerBound({0.0, 0.0, 0.0}), 500.0) << "infinite would say that there is no way";
 }
