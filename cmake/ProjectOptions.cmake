@@ -48,6 +48,8 @@ add_library(parking_build_flags INTERFACE)
 target_compile_options(parking_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${PARKING_WARNINGS_AS_ERRORS}>:-Werror>)
+# A program finds the functions of its libraries when it starts, and not while it plans for the first time.
+target_link_options(parking_build_flags INTERFACE $<$<PLATFORM_ID:Linux>:-Wl,-z,now>)
 if(BUILD_SHARED_LIBS AND NOT PARKING_SANITIZER)
   # What a library lacks, its own build says. A module finds the rest in what loads it: the Python module, in Python.
   target_link_options(parking_build_flags INTERFACE

@@ -332,6 +332,14 @@ namespace parking
         return separation(box, INFINITE);
     }
 
+    bool EdgeIndex::isSeparate(const OrientedBox &box, double least) const
+    {
+        for (const BlockInBox &each : near(box.x, box.y))
+            if (each.gap(box) < least && each.block->separation(box) < least)
+                return false;
+        return true;
+    }
+
     int EdgeIndex::side(const OrientedBox &box, double band) const
     {
         double smallest = INFINITE;

@@ -48,6 +48,9 @@ namespace parking
         /** \brief The same, told apart however large. */
         double separation(const OrientedBox &box) const;
 
+        /** \brief Is separation() at least \e least? */
+        bool isSeparate(const OrientedBox &box, double least) const;
+
         /** \brief Whether the smallest separation is above \e band (1), below minus \e band (-1), or between (0). */
         int side(const OrientedBox &box, double band) const;
 

@@ -240,9 +240,8 @@ namespace parking
             return true;
         }
         ++counts.byEdges;
-        // What is farther away than is asked for need not be looked at.
-        return edges_.separation(box, std::min(clearance, CLEARANCE_REACH) + 2.0 * ROUNDING) - ROUNDING >= clearance &&
-               !isInsideObstacle(box);
+        // clearance() tells no more than its reach.
+        return clearance <= CLEARANCE_REACH && edges_.isSeparate(box, clearance + ROUNDING) && !isInsideObstacle(box);
     }
 
     double FootprintChecker::exactClearance(const Pose &pose) const

@@ -105,13 +105,13 @@ TEST(SearchDetours, areTheSameEachTime)
 }
 
 // Where nothing is known of the room, no disc shows another way. In small worlds exploration seldom pays: of 600 fields
-// it is used in 57, and these are the three that are not solved without it.
+// it is used in 56, and these are the two that are not solved without it.
 TEST(SearchDetours, explorationFindsWaysWithoutDiscs)
 {
     std::uint64_t with = 0, without = 0;
     SearchParameters notExploring = carParameters();
     notExploring.tuning.stalledDetours = 2 * MOST_EXPANSIONS;
-    for (const std::uint64_t seed : {393u, 446u, 550u})
+    for (const std::uint64_t seed : {393u, 446u})
     {
         CarProblem problem = randomProblem(seed, 14);
         problem.world.tellsRoom = false;
