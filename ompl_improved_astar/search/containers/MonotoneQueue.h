@@ -11,9 +11,9 @@ namespace parking::search
     /** \brief A priority queue for whole priorities that never fall below the one taken last, as those of A* with a
         consistent heuristic.
 
-        Items wait in one bucket for each priority, so that adding and taking cost the same however many there are (R. B.
-        Dial, "Algorithm 360: shortest-path forest with topological ordering", 1969). Of equal priorities the one added
-        last comes out first. Memory is kept by clear(). */
+        Items wait in one bucket for each priority, so that adding and taking cost the same however many there are
+        (R. B. Dial, "Algorithm 360: shortest-path forest with topological ordering", 1969). Of equal priorities the
+        one added last comes out first. Memory is kept by clear(). */
     template <class Item>
     class MonotoneQueue
     {
@@ -150,8 +150,8 @@ namespace parking::search
 
         static std::uint32_t leastOf(const std::vector<Waiting> &items)
         {
-            return std::min_element(items.begin(), items.end(), [](const Waiting &a, const Waiting &b)
-                                    { return a.priority < b.priority; })
+            return std::min_element(items.begin(), items.end(),
+                                    [](const Waiting &a, const Waiting &b) { return a.priority < b.priority; })
                 ->priority;
         }
 

@@ -182,7 +182,7 @@ namespace parking::search
         return false;
     }
 
-    /** Where ways that arrive at a cell in these directions go on; what they leave out is reached as soon without it. */
+    /** Where ways that arrive at a cell in these directions go on; what this leaves out is reached as soon without. */
     unsigned int ObstacleHeuristic::directionsFrom(const Entry &cell, const Neighbours &neighbours,
                                                    unsigned int arrivals)
     {

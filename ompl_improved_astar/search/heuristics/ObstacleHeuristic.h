@@ -30,11 +30,11 @@ namespace parking::search
         that takes long is made for itself, and looked round: where it lies in a pocket that the disc cannot leave, this
         is found out from within.
 
-        Lengths are whole numbers: twelve for a step to the side and seventeen for a diagonal one, 0.2 % too much. Of the
-        many equally short ways through the open only those that begin diagonally are followed (N. Sturtevant and S.
-        Rabin, "Canonical orderings on grids", 2016; the turns round blocked cells are those of D. Harabor and A.
-        Grastien, "Online graph pruning for pathfinding on grid maps", 2011; what is dear is gone round like what is
-        blocked).
+        Lengths are whole numbers: twelve for a step to the side and seventeen for a diagonal one, 0.2 % too much.
+        Of the many equally short ways through the open only those that begin diagonally are followed (N. Sturtevant
+        and S. Rabin, "Canonical orderings on grids", 2016; the turns round blocked cells are those of D. Harabor and
+        A. Grastien, "Online graph pruning for pathfinding on grid maps", 2011; what is dear is gone round like what
+        is blocked).
 
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
         an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
