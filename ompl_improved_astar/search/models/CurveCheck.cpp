@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parking::search
 {
@@ -21,36 +22,86 @@ namespace parking::search
                         return false;
             return true;
         }
+
+        /** Is the car free where pieces of the curve end, and in the middle of long ones? */
+        bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve)
+        {
+            Pose pose = from;
+            for (std::size_t k = 0; k + 1 < curve.count; ++k)
+            {
+                pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
+                if (!environment.isPassable(pose))
+                    return false;
+            }
+            pose = from;
+            for (std::size_t k = 0; k < curve.count; ++k)
+            {
+                if (!hasFreeMiddle(environment, pose, curve.pieces[k]))
+                    return false;
+                pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
+            }
+            return true;
+        }
+
+        /** Calls visit(pose, piece, end) for each piece, from the given end of the curve on, until that says no: the
+            poses are those between which the piece is driven. Says whether all said yes. */
+        template <class Visit>
+        bool visitPieces(const Pose &from, const ReedsSheppCurve &curve, const Pose &to, CurveEnd first,
+                         const Visit &visit)
+        {
+            const bool forwards = first == CurveEnd::Start;
+            Pose pose = forwards ? from : to;
+            for (std::size_t k = 0; k < curve.count; ++k)
+            {
+                const Arc &piece = curve.pieces[forwards ? k : curve.count - 1 - k];
+                const Pose next = advance(pose, piece.curvature, forwards ? piece.length : -piece.length);
+                if (!(forwards ? visit(pose, piece, next) : visit(next, piece, pose)))
+                    return false;
+                pose = next;
+            }
+            return true;
+        }
+
+        bool isPieceFree(MotionEnvironment &environment, const Pose &from, const Arc &piece, const Pose &to,
+                         CurveEnd first)
+        {
+            return (first == CurveEnd::Start
+                        ? environment.freeLength(from, piece.curvature, piece.length)
+                        : environment.freeLength(to, piece.curvature, -piece.length)) >= std::abs(piece.length);
+        }
+
+        /** What the obstacles near a free curve cost; infinite where it is not free, or where that is above most. */
+        double closenessOfFree(MotionEnvironment &environment, const CostModel &cost, const Pose &from,
+                               const ReedsSheppCurve &curve, const Pose &to, CurveEnd first, double most)
+        {
+            constexpr double INFINITE = std::numeric_limits<double>::infinity();
+            if (!cost.prefersClearance())
+                return isCurveFree(environment, from, curve, to, first)
+                           ? curveCloseness(cost, from, curve, environment, most)
+                           : INFINITE;
+            if (!hasFreePoses(environment, from, curve))
+                return INFINITE;
+            double sum = 0.0;
+            const auto add = [&](const Pose &start, const Arc &piece, const Pose &end)
+            {
+                double clear = 0.0;
+                environment.clearLengths(start, &piece, 1, cost.preferredClearance, &clear);
+                sum += cost.closeness(start, piece, environment, clear, most - sum);
+                // What keeps the preferred clearance to its end is free, too.
+                return sum <= most &&
+                       (clear >= std::abs(piece.length) || isPieceFree(environment, start, piece, end, first));
+            };
+            return visitPieces(from, curve, to, first, add) ? sum : INFINITE;
+        }
     }  // namespace
 
     bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
                      CurveEnd first)
     {
-        Pose pose = from;
-        for (std::size_t k = 0; k + 1 < curve.count; ++k)
-        {
-            pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
-            if (!environment.isPassable(pose))
-                return false;
-        }
-        pose = from;
-        for (std::size_t k = 0; k < curve.count; ++k)
-        {
-            if (!hasFreeMiddle(environment, pose, curve.pieces[k]))
-                return false;
-            pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
-        }
-        const bool forwards = first == CurveEnd::Start;
-        pose = forwards ? from : to;
-        for (std::size_t k = 0; k < curve.count; ++k)
-        {
-            const Arc &segment = curve.pieces[forwards ? k : curve.count - 1 - k];
-            const double length = forwards ? segment.length : -segment.length;
-            if (environment.freeLength(pose, segment.curvature, length) < std::abs(length))
-                return false;
-            pose = advance(pose, segment.curvature, length);
-        }
-        return true;
+        return hasFreePoses(environment, from, curve) &&
+               visitPieces(from, curve, to, first,
+                           [&](const Pose &start, const Arc &piece, const Pose &end)
+                           { return isPieceFree(environment, start, piece, end, first); });
     }
 
     bool offerFreeCurves(MotionEnvironment &environment, const CostModel &cost, const Pose &from, const Pose &to,
@@ -79,9 +130,8 @@ namespace parking::search
                 return true;
             if (sum >= bound)
                 break;
-            if (!isCurveFree(environment, from, *curve, to, first))
-                continue;
-            if (const double whole = sum + curveCloseness(cost, from, *curve, environment, bound - sum); whole < bound)
+            const double closeness = closenessOfFree(environment, cost, from, *curve, to, first, bound - sum);
+            if (const double whole = sum + closeness; whole < bound)
                 waiting.emplace_back(whole, curve);
         }
         return offerUpTo(bound);
