@@ -57,28 +57,33 @@ namespace parking
             double distance;
             double angle;
             double square;
-            double tangent;  // length of the tangent of two opposite turns: sqrt(square - 4); negative: none
+            double tangent;       // length of the tangent of two opposite turns: sqrt(square - 4); negative: none
+            double tangentAngle;  // between it and the line through the centres
 
-            Centres(double x, double y) : distance(0.0), angle(std::atan2(y, x)), square(x * x + y * y), tangent(-1.0)
+            Centres(double x, double y)
+              : distance(0.0),
+                angle(std::atan2(y, x)),
+                square(x * x + y * y),
+                tangent(-1.0),
+                tangentAngle(0.0)
             {
                 distance = std::sqrt(square);
-                if (square >= 4.0)
-                    tangent = std::sqrt(square - 4.0);
+                if (square < 4.0)
+                    return;
+                tangent = std::sqrt(square - 4.0);
+                tangentAngle = std::atan2(2.0, tangent);
             }
         };
 
         /** Two turns the same way: what the words with equal outer turns need. */
         struct SameTurns : Centres
         {
-            double middleTurn;    // 8.3, 8.4: of L R L; negative; 0 where the circles are too far apart
-            double quarterAngle;  // 8.9
+            double middleTurn;  // 8.3, 8.4: of L R L; negative; 0 where the circles are too far apart
 
-            SameTurns(double x, double y) : Centres(x, y), middleTurn(0.0), quarterAngle(0.0)
+            SameTurns(double x, double y) : Centres(x, y), middleTurn(0.0)
             {
                 if (distance <= 4.0)
                     middleTurn = -2.0 * std::asin(0.25 * distance);
-                if (tangent >= 2.0)
-                    quarterAngle = std::atan2(tangent, -2.0);
             }
         };
 
@@ -94,17 +99,11 @@ namespace parking
         /** Two turns opposite ways: what the words with opposite outer turns need. */
         struct OppositeTurns : Centres
         {
-            double tangentAngle;  // 8.2
-            double doubleAngle;   // 8.11
-            OuterTurns between;   // 8.7: the cusp between the middle turns
-            OuterTurns twice;     // 8.8: cusps before and after them
+            OuterTurns between;  // 8.7: the cusp between the middle turns
+            OuterTurns twice;    // 8.8: cusps before and after them
 
-            OppositeTurns(double x, double y) : Centres(x, y), tangentAngle(0.0), doubleAngle(0.0)
+            OppositeTurns(double x, double y) : Centres(x, y)
             {
-                if (tangent >= 0.0)
-                    tangentAngle = std::atan2(2.0, tangent);
-                if (tangent >= 4.0)
-                    doubleAngle = std::atan2(tangent, -2.0);
                 if (const double cosine = 0.25 * (2.0 + distance); cosine <= 1.0)
                 {
                     const double u = std::acos(cosine);
@@ -163,10 +162,10 @@ namespace parking
                 // 8.9: L+ R-(pi/2) S- L-, and its reverse
                 if (const double u = 2.0 - ll.tangent; ll.tangent >= 2.0 && HALF_PI - u <= emit.cap())
                 {
-                    if (const double t = wrap(angle + ll.quarterAngle); t >= -ZERO)
+                    if (const double t = wrap(angle + HALF_PI + ll.tangentAngle); t >= -ZERO)
                         if (const double v = wrap(phi - HALF_PI - t); v <= ZERO)
                             give(LRSL, 4, {f * t, -f * HALF_PI, f * u, f * v});
-                    if (const double t = wrap(angleBack + ll.quarterAngle); t >= -ZERO)
+                    if (const double t = wrap(angleBack + HALF_PI + ll.tangentAngle); t >= -ZERO)
                         if (const double v = wrap(phi - HALF_PI - t); v <= ZERO)
                             give(LSRL, 4, {f * v, f * u, -f * HALF_PI, f * t});
                 }
@@ -202,7 +201,7 @@ namespace parking
                 // 8.11: L+ R-(pi/2) S- L-(pi/2) R+
                 if (const double u = 4.0 - lr.tangent; lr.tangent >= 4.0 && PI - u <= emit.cap())
                 {
-                    const double t = wrap(angleAcross + lr.doubleAngle);
+                    const double t = wrap(angleAcross + HALF_PI + lr.tangentAngle);
                     if (t >= -ZERO)
                         if (const double v = wrap(t - phi); v >= -ZERO)
                             give(LRSLR, 5, {f * t, -f * HALF_PI, f * u, -f * HALF_PI, f * v});

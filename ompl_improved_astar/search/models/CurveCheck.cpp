@@ -3,8 +3,10 @@
 #include "parking_geometry/curves/Path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace parking::search
 {
@@ -23,41 +25,37 @@ namespace parking::search
             return true;
         }
 
+        /** Where a curve begins, where each of its pieces ends. */
+        using Joints = std::array<Pose, std::tuple_size_v<decltype(ReedsSheppCurve::pieces)> + 1>;
+
         /** Is the car free where pieces of the curve end, and in the middle of long ones? */
-        bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve)
+        bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve,
+                          const Pose &to, Joints &joints)
         {
-            Pose pose = from;
+            joints[0] = from;
             for (std::size_t k = 0; k + 1 < curve.count; ++k)
             {
-                pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
-                if (!environment.isPassable(pose))
+                joints[k + 1] = advance(joints[k], curve.pieces[k].curvature, curve.pieces[k].length);
+                if (!environment.isPassable(joints[k + 1]))
                     return false;
             }
-            pose = from;
+            joints[curve.count] = to;
             for (std::size_t k = 0; k < curve.count; ++k)
-            {
-                if (!hasFreeMiddle(environment, pose, curve.pieces[k]))
+                if (!hasFreeMiddle(environment, joints[k], curve.pieces[k]))
                     return false;
-                pose = advance(pose, curve.pieces[k].curvature, curve.pieces[k].length);
-            }
             return true;
         }
 
-        /** Calls visit(pose, piece, end) for each piece, from the given end of the curve on, until that says no: the
-            poses are those between which the piece is driven. Says whether all said yes. */
+        /** Calls visit(from, piece, to) for each piece, from the given end of the curve on, until that says no. Says
+            whether all said yes. */
         template <class Visit>
-        bool visitPieces(const Pose &from, const ReedsSheppCurve &curve, const Pose &to, CurveEnd first,
-                         const Visit &visit)
+        bool visitPieces(const ReedsSheppCurve &curve, const Joints &joints, CurveEnd first, const Visit &visit)
         {
-            const bool forwards = first == CurveEnd::Start;
-            Pose pose = forwards ? from : to;
-            for (std::size_t k = 0; k < curve.count; ++k)
+            for (std::size_t n = 0; n < curve.count; ++n)
             {
-                const Arc &piece = curve.pieces[forwards ? k : curve.count - 1 - k];
-                const Pose next = advance(pose, piece.curvature, forwards ? piece.length : -piece.length);
-                if (!(forwards ? visit(pose, piece, next) : visit(next, piece, pose)))
+                const std::size_t k = first == CurveEnd::Start ? n : curve.count - 1 - n;
+                if (!visit(joints[k], curve.pieces[k], joints[k + 1]))
                     return false;
-                pose = next;
             }
             return true;
         }
@@ -79,7 +77,8 @@ namespace parking::search
                 return isCurveFree(environment, from, curve, to, first)
                            ? curveCloseness(cost, from, curve, environment, most)
                            : INFINITE;
-            if (!hasFreePoses(environment, from, curve))
+            Joints joints;
+            if (!hasFreePoses(environment, from, curve, to, joints))
                 return INFINITE;
             double sum = 0.0;
             const auto add = [&](const Pose &start, const Arc &piece, const Pose &end)
@@ -91,15 +90,16 @@ namespace parking::search
                 return sum <= most &&
                        (clear >= std::abs(piece.length) || isPieceFree(environment, start, piece, end, first));
             };
-            return visitPieces(from, curve, to, first, add) ? sum : INFINITE;
+            return visitPieces(curve, joints, first, add) ? sum : INFINITE;
         }
     }  // namespace
 
     bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
                      CurveEnd first)
     {
-        return hasFreePoses(environment, from, curve) &&
-               visitPieces(from, curve, to, first,
+        Joints joints;
+        return hasFreePoses(environment, from, curve, to, joints) &&
+               visitPieces(curve, joints, first,
                            [&](const Pose &start, const Arc &piece, const Pose &end)
                            { return isPieceFree(environment, start, piece, end, first); });
     }
