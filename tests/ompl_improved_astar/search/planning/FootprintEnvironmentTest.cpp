@@ -151,6 +151,67 @@ TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
     EXPECT_GT(blocked, 3000);
 }
 
+/** Curves that keep the preferred clearance are not swept as free once more, and most are given up before they are
+   priced: what is offered must be what is left when each is swept, priced and compared by itself. */
+TEST(CurveCheck, offersTheFreeCurvesThatCostLessThanTheBoundCheapestFirst)
+{
+    const Vehicle vehicle;
+    const ReedsShepp curves(4.0);
+    int offers = 0, clear = 0, close = 0, dear = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+        const World world = randomPolygonWorld(seed);
+        const FootprintChecker checker(world.obstacles, vehicle);
+        FootprintEnvironment environment(checker, world.obstacles.bounds(), TOLERANCE);
+        Random random(seed + 20);
+        std::vector<ReedsSheppCurve> candidates;
+        for (int i = 0; i < 1000; ++i)
+        {
+            CostModel cost;
+            cost.preferredClearance = i % 4 == 0 ? 0.0 : random.between(0.02, 0.4);
+            cost.clearanceCost = 10.0;
+            cost.clearanceWeight = i % 5 == 0 ? 0.3 : 0.0;
+            const CurveEnd first = i % 2 == 0 ? CurveEnd::Start : CurveEnd::Goal;
+            const Pose from = world.anywhere(random);
+            const Pose to = advance(from, random.between(-0.2, 0.2), random.magnitude(1.0, 12.0));
+            if (!environment.isFree(from) || !environment.isFree(to))
+                continue;
+            const double bound = curves.distance(from, to) * random.between(1.0, 3.0);
+            curves.candidates(from, to, candidates, bound);
+            std::vector<PricedCurve> order, expected, offered;
+            for (const ReedsSheppCurve &curve : candidates)
+            {
+                order.emplace_back(curve.length, &curve);
+                if (!isCurveFree(environment, from, curve, to, first))
+                    continue;
+                const double closeness = curveCloseness(cost, from, curve, environment);
+                if (curve.length + closeness < bound)
+                    expected.emplace_back(curve.length + closeness, &curve);
+                ++(closeness <= 0.0 ? clear : curve.length + closeness < bound ? close : dear);
+            }
+            std::stable_sort(expected.begin(), expected.end());
+            const bool isTaken = offerFreeCurves(environment, cost, from, to, order, first, bound,
+                                                 [&](const ReedsSheppCurve &curve, double whole)
+                                                 {
+                                                     offered.emplace_back(whole, &curve);
+                                                     return false;
+                                                 });
+            EXPECT_FALSE(isTaken);
+            ASSERT_EQ(offered.size(), expected.size());
+            for (std::size_t k = 0; k < offered.size(); ++k)
+                ASSERT_NEAR(offered[k].first, expected[k].first, 1e-9);
+            for (const PricedCurve &each : expected)
+                ASSERT_TRUE(std::any_of(offered.begin(), offered.end(),
+                                        [&](const PricedCurve &other) { return other.second == each.second; }));
+            offers += static_cast<int>(offered.size());
+        }
+    }
+    EXPECT_GT(offers, 1000);
+    EXPECT_GT(clear, 300);
+    EXPECT_GT(close, 300);
+    EXPECT_GT(dear, 100);
+}
+
 /** A checker that takes its time must not be asked on and on when the time is up. */
 TEST(StateSpaceEnvironment, posesOfMotionsAreAskedForUntilTheTimeIsUpAndHardlyLonger)
 {
