@@ -207,7 +207,9 @@ namespace ompl::geometric
             query_->planner.addGoal(pose);
         };
         const bool finite = region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
-        for (unsigned int attempt = 0; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && !ptc; ++attempt)
+        // The first is looked at in any case: that the time is up does not make a goal invalid.
+        for (unsigned int attempt = 0; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc);
+             ++attempt)
         {
             if (!finite && query_->goals.size() >= MAX_GOALS)
                 break;

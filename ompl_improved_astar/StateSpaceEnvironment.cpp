@@ -98,17 +98,9 @@ namespace parking
         return std::max(0.0, si_->getStateValidityChecker()->clearance(state_.get()));
     }
 
-    bool StateSpaceEnvironment::keeps(const Pose &pose, double clearance)
+    bool StateSpaceEnvironment::knowsClearance() const
     {
-        return !clearanceKnown_ || this->clearance(pose) >= clearance;
-    }
-
-    void StateSpaceEnvironment::clearLengths(const Pose & /*from*/, const Arc *arcs, std::size_t count,
-                                             double /*clearance*/, double *clear)
-    {
-        // What a checker knows of one pose says nothing of the next, so that motions are sampled.
-        for (std::size_t i = 0; i < count; ++i)
-            clear[i] = clearanceKnown_ ? 0.0 : std::abs(arcs[i].length);
+        return clearanceKnown_;
     }
 
     bool StateSpaceEnvironment::isTimeUp()

@@ -49,9 +49,7 @@ namespace parking
         bool isFree(const Pose &pose) override;
         bool isPassable(const Pose &pose) override;
         double clearance(const Pose &pose) override;
-        bool keeps(const Pose &pose, double clearance) override;
-        void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
-                          double *clear) override;
+        bool knowsClearance() const override;
         double freeLength(const Pose &from, double curvature, double length) override;
         double roomAt(double x, double y) override;
         bool acceptPath(const Path &path) override;

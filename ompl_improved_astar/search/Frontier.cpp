@@ -137,8 +137,7 @@ namespace parking::search
         double fewest = std::numeric_limits<double>::infinity(), ratio = 1.0;
         for (std::size_t level = 0; level < chosen.open.size(); ++level, ratio *= turnsRatio_)
         {
-            // A level that has had no turn yet waits for its first as long as for the others.
-            const double turns = static_cast<double>(chosen.turns[level] + 1) * ratio;
+            const double turns = static_cast<double>(chosen.turns[level]) * ratio;
             if (!chosen.open[level]->empty() && turns < fewest)
             {
                 fewest = turns;

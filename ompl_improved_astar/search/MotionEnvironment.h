@@ -60,8 +60,13 @@ namespace parking::search
                 free[i] = freeLength(from, arcs[i].curvature, arcs[i].length);
         }
 
-        /** \brief Does the car keep so many metres from all obstacles at \e pose? Also yes when nothing is known of
-            clearances. */
+        /** \brief Is anything known of clearances? Where not, nothing is asked of them. */
+        virtual bool knowsClearance() const
+        {
+            return true;
+        }
+
+        /** \brief Does the car keep so many metres from all obstacles at \e pose? */
         virtual bool keeps(const Pose &pose, double clearance)
         {
             return this->clearance(pose) >= clearance;

@@ -31,7 +31,7 @@ namespace parking::search
         modelName_ = parameters.motionModel;
         model_->begin(environment, parameters_);
         traits_ = model_->traits();
-        if (!traits_.prefersClearance)
+        if (!traits_.prefersClearance || !environment.knowsClearance())
             parameters_.cost.preferredClearance = 0.0;
         const std::string heuristic = parameters.heuristic == "default" ? model_->heuristic() : parameters.heuristic;
         for (Guides &guides : guides_)

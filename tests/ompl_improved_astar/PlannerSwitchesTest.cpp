@@ -1,11 +1,13 @@
 // Each switch of the planner has the effect that it names.
 
+#include "state_validity/FootprintChecker.h"
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <string>
@@ -71,6 +73,26 @@ namespace
             return planned(Space::SE2, gridSite(), {-9.0, -5.0, 0.0}, {9.0, 5.0, 0.0}, parameters);
         }
     };
+
+    /** A checker as most have it says what is valid and no more: all motions are asked for then, whatever clearance is
+        preferred. (Once they were taken for clear of obstacles, and the tree grew through them.) */
+    TEST_F(PlannerSwitches, aPreferredClearanceIsNothingToACheckerThatKnowsNone)
+    {
+        const auto checker = std::make_shared<parking::FootprintChecker>(slotSite().set(), parking::Vehicle());
+        const auto planned = [&](const char *clearance)
+        {
+            PlanningProblem problem(Space::ReedsShepp, slotSite().bounds,
+                                    [checker](const Pose &pose) { return checker->isFree(pose); });
+            problem.set("preferred_clearance", std::string(clearance));
+            problem.from(AISLE).to({SLOT});
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            return problem;
+        };
+        const PlanningProblem preferred = planned("0.1"), none = planned("0");
+        EXPECT_EQ(preferred.planner->statistics().expanded, none.planner->statistics().expanded);
+        EXPECT_EQ(preferred.planner->checkedStates(), none.planner->checkedStates());
+        EXPECT_EQ(preferred.pdef->getSolutionPath()->length(), none.pdef->getSolutionPath()->length());
+    }
 
     TEST_F(PlannerSwitches, PenaltiesAreAvoided)
     {

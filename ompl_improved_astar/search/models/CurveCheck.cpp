@@ -85,10 +85,18 @@ namespace parking::search
             {
                 double clear = 0.0;
                 environment.clearLengths(start, &piece, 1, cost.preferredClearance, &clear);
+                const auto isFree = [&]
+                {
+                    return isPieceFree(environment, start, piece, end, first);
+                };
+                // What keeps the preferred clearance to its end is free, too. Of the rest few samples show that most
+                // are dear; but where nothing is too dear, or nothing known to be clear, sampling is the longer way to
+                // find out that a piece is not free.
+                const bool isClear = clear >= std::abs(piece.length), isPricedFirst = clear > 0.0 && most < INFINITE;
+                if (!isClear && !isPricedFirst && !isFree())
+                    return false;
                 sum += cost.closeness(start, piece, environment, clear, most - sum);
-                // What keeps the preferred clearance to its end is free, too.
-                return sum <= most &&
-                       (clear >= std::abs(piece.length) || isPieceFree(environment, start, piece, end, first));
+                return sum <= most && (isClear || !isPricedFirst || isFree());
             };
             return visitPieces(curve, joints, first, add) ? sum : INFINITE;
         }
