@@ -24,9 +24,13 @@ namespace parking
 
             value - side * sqrt(2)  <=  distance(q, obstacles)  <=  value + side * sqrt(2),
 
-        the upper bound since a blocked cell holds at least one obstacle point. Cells that lie entirely inside of an
-        obstacle are marked, so that a point deep inside of a large obstacle is known to be blocked. The outside of the
-        bounds is an obstacle; points there have distance zero.
+        the upper bound since a blocked cell holds at least one obstacle point. In a grid world, whose cells may be a
+        metre wide, a blocked cell is an obstacle as a whole, and with it the circle round b of half a side, so that
+
+            distance(q, obstacles)  <=  value + |q - c| - side / 2.
+
+        Cells that lie entirely inside of an obstacle are marked, so that a point deep inside of a large obstacle is
+        known to be blocked. The outside of the bounds is an obstacle; points there have distance zero.
 
         Immutable after construction, so const calls from several threads are safe. */
     class DistanceField
@@ -39,7 +43,8 @@ namespace parking
             cells. */
         explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
 
-        /** \brief The field of the non-zero entries of \e blocked, row by row: the transform itself. */
+        /** \brief The field of the non-zero entries of \e blocked, row by row, as of a grid world: the transform itself.
+         */
         DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
                       double resolution);
 
@@ -61,7 +66,7 @@ namespace parking
             return rows_;
         }
 
-        /** \brief How far lowerBound() and upperBound() are from the value of the cell, in metres. */
+        /** \brief How far lowerBound() and upperBound() are from the value of the cell at most, in metres. */
         double errorBound() const
         {
             return error_;
@@ -78,7 +83,14 @@ namespace parking
             of one. Infinite where there is no obstacle at all. */
         double upperBound(double x, double y) const
         {
-            return upperBoundOf(valueAt(x, y));
+            const double value = valueAt(x, y);
+            if (value < 0.0 || !isGrid_)
+                return upperBoundOf(value);
+            const double u = (x - origin_.x()) * inverse_, v = (y - origin_.y()) * inverse_;
+            // Neither is negative here, and a conversion is cheaper than std::floor.
+            const double du = u - static_cast<double>(static_cast<std::ptrdiff_t>(u)) - 0.5,
+                         dv = v - static_cast<double>(static_cast<std::ptrdiff_t>(v)) - 0.5;
+            return value * (1.0 + ROUNDING) + (std::sqrt(du * du + dv * dv) - INSCRIBED) * resolution_;
         }
 
         /** \brief Between what the distance from a point to the nearest obstacle lies, in metres. */
@@ -88,7 +100,7 @@ namespace parking
             double upper;  ///< never less
         };
 
-        /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
+        /** \brief lowerBound() of the local point, and what no point of its cell has more than, at the price of one. */
         Bounds bounds(double x, double y) const
         {
             const double value = valueAt(x, y);
@@ -116,6 +128,8 @@ namespace parking
     private:
         /** Relative error of a float, twice over. */
         static constexpr double ROUNDING = 1.2e-7;
+        /** Radius of a circle inside of a cell, in sides: a hair less than half, for rounding. */
+        static constexpr double INSCRIBED = 0.5 * (1.0 - 1e-5);
 
         double lowerBoundOf(double value) const
         {
@@ -125,7 +139,7 @@ namespace parking
 
         double upperBoundOf(double value) const
         {
-            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
+            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + upperError_;
         }
 
         double valueAt(double x, double y) const
@@ -147,6 +161,8 @@ namespace parking
         double resolution_{1.0};
         double inverse_{1.0};
         double error_{0.0};
+        double upperError_{0.0};  // of points anywhere in a cell
+        bool isGrid_{true};       // blocked cells are obstacles as a whole
         Eigen::Vector2d origin_{0.0, 0.0};
         std::vector<float> values_;
     };

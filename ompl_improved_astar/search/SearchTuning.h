@@ -36,7 +36,7 @@ namespace parking::search
             @{ */
         double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
         double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
-        double coarsestCell{3.0};            ///< but at most so many times heuristicCell
+        double coarsestCell{2.0};            ///< but at most so many times heuristicCell
         std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
@@ -50,7 +50,7 @@ namespace parking::search
         double nearer{0.25};                    ///< by this much
         double narrowDisc{1.6};                 ///< in inscribed radii: of the disc that keeps out of gaps
         double wideDisc{2.5};                   ///< and of the one that keeps to where a car can turn
-        double dear{21.0};                      ///< what a metre costs the wide disc where it does not fit
+        double dear{60.0};                      ///< what a metre costs the wide disc where it does not fit
         std::uint64_t extraTurns{4};            ///< of a queue that comes nearer than it ever was
         double noWay{1.2};                      ///< factor on the estimate of a node that a disc finds no way from
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at

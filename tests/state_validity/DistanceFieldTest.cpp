@@ -154,6 +154,54 @@ TEST(DistanceField, UpperBoundIsTight)
     }
 }
 
+/** In a grid world whose cells are a metre wide, half a metre more or less decides whether a car fits through a gap. */
+TEST(DistanceField, UpperBoundOfAGridWorldIsTheDistanceAcrossFromAWall)
+{
+    OccupancyGrid map(20, 9, 1.0);
+    for (std::size_t column = 0; column < 20; ++column)
+        map.set(column, 4, Cell::Occupied);
+    const DistanceField field(ObstacleSet::fromGrid(map));
+    for (const double distance : {0.5, 0.75, 1.0, 1.5, 1.625, 2.0})
+        for (const double y : {5.0 + distance, 4.0 - distance})
+        {
+            const double fromCentre = std::abs(std::fmod(distance, 1.0) - 0.5);
+            // Exact at the centre and behind it as seen from the wall; in front of it twice the way from the centre.
+            const double excess = std::fmod(distance, 1.0) >= 0.5 ? 0.0 : 2.0 * fromCentre;
+            EXPECT_GE(field.upperBound(10.5, y), distance) << y;
+            EXPECT_LT(field.upperBound(10.5, y), distance + excess + 1e-4) << y;
+        }
+}
+
+/** And it holds beside corners, at the ends of the map and wherever cells meet. */
+TEST(DistanceField, UpperBoundOfAGridWorldHoldsAtItsTightest)
+{
+    Random random(23);
+    for (int world = 0; world < 40; ++world)
+    {
+        OccupancyGrid map(8 + random.index(10), 8 + random.index(10), 0.5 + random.between(0.0, 1.0));
+        for (std::size_t i = 0; i < 1 + random.index(12); ++i)
+            map.set(random.index(map.width()), random.index(map.height()), Cell::Occupied);
+        const ObstacleSet obstacles = ObstacleSet::fromGrid(map);
+        const DistanceField field(obstacles);
+        const double side = obstacles.cellSize();
+        for (std::size_t row = 0; row < map.height(); ++row)
+            for (std::size_t column = 0; column < map.width(); ++column)
+                for (const double dx : {1e-9, 0.25, 0.5, 0.75, 1.0 - 1e-9})
+                    for (const double dy : {1e-9, 0.5, 1.0 - 1e-9})
+                    {
+                        const Eigen::Vector2d at((static_cast<double>(column) + dx) * side,
+                                                 (static_cast<double>(row) + dy) * side);
+                        const double distance = std::max(0.0, signedDistance(obstacles, at));
+                        const double upper = field.upperBound(at.x(), at.y());
+                        ASSERT_GE(upper, distance - 1e-12) << at.transpose();
+                        ASSERT_GE(field.bounds(at.x(), at.y()).upper, upper - 1e-12) << at.transpose();
+                        // A corner is farther than the circle inside of its cell.
+                        ASSERT_LE(upper, distance + (2.0 * std::hypot(dx - 0.5, dy - 0.5) + 0.2072) * side)
+                            << at.transpose();
+                    }
+    }
+}
+
 TEST(DistanceField, ThinObstaclesBlockEveryCellThatTheyTouch)
 {
     // A wall of 0.1 mm that runs askew through cells of half a metre, and a post of a millimetre.

@@ -3,6 +3,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
+#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
@@ -99,6 +100,30 @@ TEST(FootprintEnvironment, severalMotionsFromOnePoseAreWhatEachIsAlone)
             for (std::size_t k = 0; k < arcs.size(); ++k)
                 ASSERT_EQ(free[k], environment.freeLength(from, arcs[k].curvature, arcs[k].length));
         }
+    }
+}
+
+/** In maps whose cells are a metre wide: were the room told with the error of a cell, discs would go where they do not
+    fit, and lead the search there. */
+TEST(FootprintEnvironment, discsPassGapsOfMapsWithWideCellsJustWhereTheyFit)
+{
+    constexpr double GAP = 4.0;
+    OccupancyGrid map(80, 60, 1.0);
+    for (std::size_t row = 0; row < 60; ++row)
+        if (row < 30 || row >= 30 + static_cast<std::size_t>(GAP))
+            map.set(40, row, Cell::Occupied);
+    const Vehicle vehicle;
+    const FootprintChecker checker(ObstacleSet::fromGrid(map), vehicle);
+    FootprintEnvironment environment(checker, {{0.0, 0.0}, {80.0, 60.0}}, TOLERANCE);
+    const StopFunction never;
+    const std::vector<Pose> roots{{60.0, 50.0, 0.0}}, targets{{20.0, 10.0, 0.0}};
+    const SearchParameters parameters;
+    const HeuristicQuery query{environment, parameters, Side::Start, roots, targets, never};
+    for (const double radius : {0.5, 1.0, 1.5, 0.499 * GAP, 0.75 * GAP, GAP})
+    {
+        ObstacleHeuristic way;
+        way.begin(query, {radius}, parameters.tuning.mostCells);
+        EXPECT_EQ(way.provesUnreachable(roots.front()), 2.0 * radius > GAP) << radius;
     }
 }
 
