@@ -116,14 +116,14 @@ namespace parking
     }  // namespace
 
     DistanceField::DistanceField(const ObstacleSet &obstacles, double resolution)
-      : isGrid_(obstacles.cellSize() > 0.0)
     {
         std::vector<std::uint8_t> blocked;
         const Eigen::Vector2d size = obstacles.bounds().size();
-        if (isGrid_)
+        if (obstacles.cellSize() > 0.0)
         {
             // One ring of blocked cells stands for the outside of the map.
             resolution_ = obstacles.cellSize();
+            isGrid_ = true;
             columns_ = obstacles.columns() + 2;
             rows_ = obstacles.rows() + 2;
             origin_ = Eigen::Vector2d(-resolution_, -resolution_);
@@ -189,7 +189,6 @@ namespace parking
         height_ = static_cast<double>(rows_);
         // A hair more than a diagonal, for cells that an outline misses by rounding but that are marked all the same.
         error_ = std::sqrt(2.0) * resolution_ * (1.0 + 1e-5);
-        upperError_ = isGrid_ ? 0.5 * error_ - INSCRIBED * resolution_ : error_;
         constexpr float FAR = std::numeric_limits<float>::infinity();
         values_.resize(columns_ * rows_);
 

@@ -43,8 +43,7 @@ namespace parking
             cells. */
         explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
 
-        /** \brief The field of the non-zero entries of \e blocked, row by row, as of a grid world: the transform itself.
-         */
+        /** \brief The field of the non-zero entries of \e blocked, row by row: the transform itself. */
         DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
                       double resolution);
 
@@ -66,7 +65,7 @@ namespace parking
             return rows_;
         }
 
-        /** \brief How far lowerBound() and upperBound() are from the value of the cell at most, in metres. */
+        /** \brief How far lowerBound() and upperBound() are from the value of the cell, in metres. */
         double errorBound() const
         {
             return error_;
@@ -82,6 +81,12 @@ namespace parking
         /** \brief Never less than the distance from the local point to the nearest obstacle; 0 when it is surely inside
             of one. Infinite where there is no obstacle at all. */
         double upperBound(double x, double y) const
+        {
+            return upperBoundOf(valueAt(x, y));
+        }
+
+        /** \brief upperBound(), in a grid world closer by up to two sides, at the price of a square root. */
+        double closeUpperBound(double x, double y) const
         {
             const double value = valueAt(x, y);
             if (value < 0.0 || !isGrid_)
@@ -100,7 +105,7 @@ namespace parking
             double upper;  ///< never less
         };
 
-        /** \brief lowerBound() of the local point, and what no point of its cell has more than, at the price of one. */
+        /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
         Bounds bounds(double x, double y) const
         {
             const double value = valueAt(x, y);
@@ -139,7 +144,7 @@ namespace parking
 
         double upperBoundOf(double value) const
         {
-            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + upperError_;
+            return value < 0.0 ? 0.0 : value * (1.0 + ROUNDING) + error_;
         }
 
         double valueAt(double x, double y) const
@@ -161,8 +166,7 @@ namespace parking
         double resolution_{1.0};
         double inverse_{1.0};
         double error_{0.0};
-        double upperError_{0.0};  // of points anywhere in a cell
-        bool isGrid_{true};       // blocked cells are obstacles as a whole
+        bool isGrid_{false};  // blocked cells are obstacles as a whole
         Eigen::Vector2d origin_{0.0, 0.0};
         std::vector<float> values_;
     };

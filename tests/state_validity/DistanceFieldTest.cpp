@@ -155,7 +155,7 @@ TEST(DistanceField, UpperBoundIsTight)
 }
 
 /** In a grid world whose cells are a metre wide, half a metre more or less decides whether a car fits through a gap. */
-TEST(DistanceField, UpperBoundOfAGridWorldIsTheDistanceAcrossFromAWall)
+TEST(DistanceField, CloseUpperBoundOfAGridWorldIsTheDistanceAcrossFromAWall)
 {
     OccupancyGrid map(20, 9, 1.0);
     for (std::size_t column = 0; column < 20; ++column)
@@ -167,13 +167,13 @@ TEST(DistanceField, UpperBoundOfAGridWorldIsTheDistanceAcrossFromAWall)
             const double fromCentre = std::abs(std::fmod(distance, 1.0) - 0.5);
             // Exact at the centre and behind it as seen from the wall; in front of it twice the way from the centre.
             const double excess = std::fmod(distance, 1.0) >= 0.5 ? 0.0 : 2.0 * fromCentre;
-            EXPECT_GE(field.upperBound(10.5, y), distance) << y;
-            EXPECT_LT(field.upperBound(10.5, y), distance + excess + 1e-4) << y;
+            EXPECT_GE(field.closeUpperBound(10.5, y), distance) << y;
+            EXPECT_LT(field.closeUpperBound(10.5, y), distance + excess + 1e-4) << y;
         }
 }
 
 /** And it holds beside corners, at the ends of the map and wherever cells meet. */
-TEST(DistanceField, UpperBoundOfAGridWorldHoldsAtItsTightest)
+TEST(DistanceField, CloseUpperBoundOfAGridWorldHoldsAtItsTightest)
 {
     Random random(23);
     for (int world = 0; world < 40; ++world)
@@ -192,9 +192,9 @@ TEST(DistanceField, UpperBoundOfAGridWorldHoldsAtItsTightest)
                         const Eigen::Vector2d at((static_cast<double>(column) + dx) * side,
                                                  (static_cast<double>(row) + dy) * side);
                         const double distance = std::max(0.0, signedDistance(obstacles, at));
-                        const double upper = field.upperBound(at.x(), at.y());
+                        const double upper = field.closeUpperBound(at.x(), at.y());
                         ASSERT_GE(upper, distance - 1e-12) << at.transpose();
-                        ASSERT_GE(field.bounds(at.x(), at.y()).upper, upper - 1e-12) << at.transpose();
+                        ASSERT_GE(field.upperBound(at.x(), at.y()), upper) << at.transpose();
                         // A corner is farther than the circle inside of its cell.
                         ASSERT_LE(upper, distance + (2.0 * std::hypot(dx - 0.5, dy - 0.5) + 0.2072) * side)
                             << at.transpose();

@@ -55,6 +55,7 @@ namespace parking
         double tolerance_;
         search::MotionEnvironment *judge_;
         bool boundsMatter_;
+        bool hasWideCells_;
         CheckCounts counts_;
     };
 }  // namespace parking
