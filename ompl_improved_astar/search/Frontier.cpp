@@ -15,6 +15,7 @@ namespace parking::search
         doneByFormerQueues_ = {};
         queueTurn_ = 0;
         extraTurns_ = 0;
+        turns_ = 0;
         setQueues(1);
         nodes_.clear();
         cells_.clear();

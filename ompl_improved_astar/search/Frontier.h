@@ -135,6 +135,13 @@ namespace parking::search
         void countTurn(std::size_t queue, std::size_t level)
         {
             ++queues_[queue].turns[level];
+            ++turns_;
+        }
+
+        /** \brief How often countTurn() has been called since begin(). */
+        std::uint64_t turns() const
+        {
+            return turns_;
         }
 
         /** \brief All that is open, with stale entries among it: the lists of the first queue, one for each level. */
@@ -189,6 +196,7 @@ namespace parking::search
         std::size_t queueCount_{1};
         OpenList::Work doneByFormerQueues_;
         std::size_t queueTurn_{0};
+        std::uint64_t turns_{0};
         std::uint64_t extraTurns_{0};  // that this queue still has
         std::size_t levels_{1};
         std::string openListName_;

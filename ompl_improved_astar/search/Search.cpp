@@ -13,10 +13,7 @@ namespace parking::search
         constexpr double ROUNDING = 1e-9;  // metres of cost: nodes and entries that differ by less are equal
     }                                      // namespace
 
-    Search::Search()
-      : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)},
-        leastDropped_{INFINITE, INFINITE},
-        farthest_{INFINITE, INFINITE}
+    Search::Search() : frontiers_{Frontier(Side::Start), Frontier(Side::Goal)}, leastDropped_{INFINITE, INFINITE}
     {
     }
 
@@ -164,7 +161,7 @@ namespace parking::search
             }
             step(frontier(side));
             if (isStuck())
-                takeDetours();
+                takeDetour();
             if (mayExplore())
                 explore();
             widenEnclosures();

@@ -227,7 +227,7 @@ namespace parking::search
         {
             std::array<std::vector<NodeIndex>, 2> nodes;
             unsigned int samples{0};
-            std::uint64_t since{0};  // expansions when the detours began
+            std::uint64_t since{0};  // expansions when the first detour was taken
             std::vector<Successor> motions;
         };
 
@@ -282,10 +282,14 @@ namespace parking::search
         // SearchDetours.cpp: what is done when the search is stuck
         void noteProgress(const Frontier &own, NodeIndex index);
         bool isStuck() const;
+        std::size_t detoursTaken() const
+        {
+            return frontier(confined_).queues() - 1;
+        }
         bool mayExplore() const;
-        void takeDetours();
+        void takeDetour();
         void endDetours();
-        void pushToDetours(Frontier &own, std::size_t level, NodeIndex index);
+        void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index);
         void explore();
         NodeIndex keepExplored(Frontier &own, Node node);
         NodeIndex nearestExplored(Side side, const Pose &pose) const;
@@ -322,12 +326,12 @@ namespace parking::search
         mutable SearchStatistics statistics_;
         Expansion expansion_;  // of the node under way
         UnderWay underWay_;
-        std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, one for each further queue
+        std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         Exploration exploration_;
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;
-        std::size_t enclosureLevel_{0};   // of their cells: each finer than the one before
-        std::array<double, 2> farthest_;  // least h of the closed nodes, by side
-        std::uint64_t progressAt_{0};     // expansions when it fell last
+        std::size_t enclosureLevel_{0};                             // of their cells: each finer than the one before
+        double farthest_{std::numeric_limits<double>::infinity()};  // least h of the confined side's closed nodes
+        std::uint64_t progressAt_{0};                               // turns of that side when it fell last
     };
 }  // namespace parking::search

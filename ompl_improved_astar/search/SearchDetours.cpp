@@ -28,29 +28,33 @@ namespace parking::search
 
     void Search::noteProgress(const Frontier &own, NodeIndex index)
     {
-        const Node &node = own.node(index);
-        double &farthest = farthest_[static_cast<std::size_t>(own.side())];
-        if (node.h < farthest - parameters_.tuning.nearer * parameters_.turningRadius)
-        {
-            farthest = node.h;
-            progressAt_ = statistics_.expanded;
-        }
-        if (own.queues() == 1)
+        if (own.side() != confined_)
             return;
-        for (const std::unique_ptr<Detour> &detour : detours_)
-            if (const double ahead = detour->estimate(node, parameters_.tuning.noWay); ahead < detour->nearest)
+        const Node &node = own.node(index);
+        if (node.h < farthest_ - parameters_.tuning.nearer * parameters_.turningRadius)
+        {
+            farthest_ = node.h;
+            progressAt_ = own.turns();
+        }
+        for (std::size_t i = 0; i < detoursTaken(); ++i)
+            if (const double ahead = detours_[i]->estimate(node, parameters_.tuning.noWay);
+                ahead < detours_[i]->nearest)
             {
-                detour->nearest = ahead;
-                detour->best = index;
+                detours_[i]->nearest = ahead;
+                detours_[i]->best = index;
             }
     }
 
     bool Search::isStuck() const
     {
         const SearchTuning &tuning = parameters_.tuning;
-        return parameters_.detours && traits_.joinsAfar && !hasTarget_ && !hasSolution() &&
-               frontier(confined_).queues() == 1 && statistics_.expanded >= tuning.leastExpansions &&
-               statistics_.expanded > progressAt_ + tuning.stalledExpansions && !guides(confined_).targets.empty();
+        if (!parameters_.detours || !traits_.joinsAfar || hasTarget_ || hasSolution() ||
+            guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.dear))
+            return false;
+        if (detoursTaken() > 0)
+            return statistics_.expanded >= exploration_.since + detoursTaken() * tuning.nextDetour;
+        return statistics_.expanded >= tuning.leastExpansions &&
+               frontier(confined_).turns() >= progressAt_ + tuning.stalledExpansions;
     }
 
     double Search::Detour::estimate(const Node &node, double noWay)
@@ -59,33 +63,31 @@ namespace parking::search
         return length < INFINITE ? std::max<double>(node.h, length) : noWay * node.h;
     }
 
-    void Search::takeDetours()
+    void Search::takeDetour()
     {
         const SearchTuning &tuning = parameters_.tuning;
-        const double inscribed = parameters_.inscribedRadius;
-        const Disc discs[] = {{tuning.narrowDisc * inscribed},
-                              {inscribed, tuning.wideDisc * inscribed, tuning.dear},
-                              {tuning.wideDisc * inscribed}};
-        const Guides &own = guides(confined_);
-        const HeuristicQuery query{*environment_, parameters_, confined_, own.roots, own.targets, stop_};
-        detours_.resize(std::size(discs));
-        for (std::size_t i = 0; i < detours_.size(); ++i)
+        const std::size_t number = detoursTaken();
+        if (number == 0)
         {
-            if (!detours_[i])
-                detours_[i] = std::make_unique<Detour>();
-            detours_[i]->way.begin(query, discs[i], tuning.mostDetourCells);
-            detours_[i]->best = NO_NODE;
-            detours_[i]->nearest = INFINITE;
+            exploration_.since = statistics_.expanded;
+            enclosureLevel_ = 0;
+            bodyCells_.reset();
         }
+        if (detours_.size() <= number)
+            detours_.push_back(std::make_unique<Detour>());
+        const Guides &guides = this->guides(confined_);
+        const double inscribed = parameters_.inscribedRadius;
+        detours_[number]->way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
+                                    {inscribed, tuning.wideDisc * inscribed, tuning.dear[number]},
+                                    tuning.mostDetourCells);
+        detours_[number]->best = NO_NODE;
+        detours_[number]->nearest = INFINITE;
         Frontier &stuck = frontier(confined_);
-        stuck.setQueues(1 + detours_.size());
+        stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
             if (const Node &node = stuck.node(i);
                 node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded()))
-                pushToDetours(stuck, node.next, i);
-        exploration_.since = statistics_.expanded;
-        enclosureLevel_ = 0;
-        bodyCells_.reset();
+                pushToDetour(number, node.next, i);
     }
 
     void Search::endDetours()
@@ -95,8 +97,8 @@ namespace parking::search
         for (std::vector<NodeIndex> &nodes : exploration_.nodes)
             nodes.clear();
         exploration_.samples = 0;
-        farthest_ = {INFINITE, INFINITE};
-        progressAt_ = statistics_.expanded;
+        farthest_ = INFINITE;
+        progressAt_ = frontier(confined_).turns();
     }
 
     void Search::beginEnclosures()
@@ -120,8 +122,7 @@ namespace parking::search
     void Search::widenEnclosures()
     {
         const SearchTuning &tuning = parameters_.tuning;
-        if (frontier(confined_).queues() == 1 || improved_ ||
-            statistics_.expanded < exploration_.since + tuning.enclosureAfter ||
+        if (detoursTaken() == 0 || improved_ || statistics_.expanded < exploration_.since + tuning.enclosureAfter ||
             enclosureLevel_ >= std::size(tuning.enclosureCells))
             return;
         if (!bodyCells_)
@@ -148,21 +149,18 @@ namespace parking::search
         bodyCells_.reset();
     }
 
-    void Search::pushToDetours(Frontier &own, std::size_t level, NodeIndex index)
+    void Search::pushToDetour(std::size_t detour, std::size_t level, NodeIndex index)
     {
+        Frontier &own = frontier(confined_);
         const Node &node = own.node(index);
-        for (std::size_t i = 0; i < detours_.size(); ++i)
-        {
-            const double ahead = detours_[i]->estimate(node, parameters_.tuning.noWay);
-            own.push(1 + i, level, priority(own, node, ahead), ahead, index);
-        }
+        const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay);
+        own.push(1 + detour, level, priority(own, node, ahead), ahead, index);
     }
 
     bool Search::mayExplore() const
     {
         const SearchTuning &tuning = parameters_.tuning;
-        return frontier(confined_).queues() > 1 && !improved_ &&
-               statistics_.expanded >= exploration_.since + tuning.stalledDetours &&
+        return detoursTaken() > 0 && !improved_ && statistics_.expanded >= exploration_.since + tuning.stalledDetours &&
                statistics_.expanded % tuning.explorationPeriod == 0 && parameters_.bounds.size().minCoeff() > 0.0;
     }
 

@@ -173,8 +173,8 @@ namespace parking::search
     {
         const Node &node = own.node(index);
         own.push(0, level, priority(own, node, node.h), node.h, index);
-        if (own.queues() > 1)
-            pushToDetours(own, level, index);
+        for (std::size_t i = 0; i + 1 < own.queues(); ++i)
+            pushToDetour(i, level, index);
     }
 
     void Search::rekey(Frontier &own)

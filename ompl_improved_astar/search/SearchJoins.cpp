@@ -38,10 +38,9 @@ namespace parking::search
             joinPair(own, index, root);
         if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.node(other.bestClosed).parent != NO_NODE)
             joinPair(own, index, other.bestClosed);
-        if (other.queues() > 1)
-            for (const std::unique_ptr<Detour> &detour : detours_)
-                if (detour->best != NO_NODE && detour->best != other.bestClosed)
-                    joinPair(own, index, detour->best);
+        for (std::size_t i = 0; i + 1 < other.queues(); ++i)
+            if (const NodeIndex best = detours_[i]->best; best != NO_NODE && best != other.bestClosed)
+                joinPair(own, index, best);
     }
 
     bool Search::join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom)

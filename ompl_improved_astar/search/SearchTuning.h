@@ -42,15 +42,14 @@ namespace parking::search
 
         /** \name Detours, when the search is stuck
 
-            Chosen by hand on the problems of docs/planner.md, which they leave as they were, and on random queries with
-            the seeds that docs/planner.md names.
+            Chosen by hand on random queries with the seeds that docs/planner.md names.
             @{ */
-        std::uint64_t leastExpansions{100};     ///< before a search is called stuck,
-        std::uint64_t stalledExpansions{40};    ///< and so many since either side came nearer to the other
+        std::uint64_t leastExpansions{80};      ///< before a search is called stuck,
+        std::uint64_t stalledExpansions{30};    ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                    ///< by this much
-        double narrowDisc{1.6};                 ///< in inscribed radii: of the disc that keeps out of gaps
-        double wideDisc{2.5};                   ///< and of the one that keeps to where a car can turn
-        double dear{60.0};                      ///< what a metre costs the wide disc where it does not fit
+        double wideDisc{2.5};                   ///< in inscribed radii: of a disc that keeps to where a car can turn
+        double dear[2]{60.0, 600.0};            ///< what a metre where it does not fit costs the first and the second
+        std::uint64_t nextDetour{300};          ///< expansions with the first before there is the second
         std::uint64_t extraTurns{4};            ///< of a queue that comes nearer than it ever was
         double noWay{1.2};                      ///< factor on the estimate of a node that a disc finds no way from
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
@@ -62,12 +61,12 @@ namespace parking::search
 
             Chosen by hand on the random queries of docs/planner.md. The cells of the second try are finer.
             @{ */
-        std::uint64_t enclosureAfter{800};        ///< expansions with detours before the proof begins
-        std::uint64_t expansionsPerColumn{3000};  ///< an expansion is worth a column of cells at each end, and one more
-                                                  ///< for each so many that came before it
-        std::size_t mostColumns{100000};          ///< at each end
-        double enclosureCells[2]{0.2, 0.1};       ///< side of a cell, in inscribed radii
-        int enclosureHeadings[2]{72, 120};        ///< cells round the circle
+        std::uint64_t enclosureAfter{800};      ///< expansions with detours before the proof begins
+        std::uint64_t expansionsPerColumn{30};  ///< an expansion is worth a column of cells at each end, and one more
+                                                ///< for each so many that came before it
+        std::size_t mostColumns{100000};        ///< at each end
+        double enclosureCells[2]{0.2, 0.1};     ///< side of a cell, in inscribed radii
+        int enclosureHeadings[2]{72, 120};      ///< cells round the circle
         /** @} */
 
         /** \name Thinking again after the first solution
