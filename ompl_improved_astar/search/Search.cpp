@@ -160,7 +160,7 @@ namespace parking::search
                 return SearchOutcome::Exhausted;
             }
             step(frontier(side));
-            if (isStuck())
+            if (needsDetour())
                 takeDetour();
             if (mayExplore())
                 explore();

@@ -281,11 +281,15 @@ namespace parking::search
 
         // SearchDetours.cpp: what is done when the search is stuck
         void noteProgress(const Frontier &own, NodeIndex index);
-        bool isStuck() const;
+        static std::size_t detoursOf(const Frontier &own)
+        {
+            return own.queues() - 1;
+        }
         std::size_t detoursTaken() const
         {
-            return frontier(confined_).queues() - 1;
+            return detoursOf(frontier(confined_));
         }
+        bool needsDetour() const;
         bool mayExplore() const;
         void takeDetour();
         void endDetours();

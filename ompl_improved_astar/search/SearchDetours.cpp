@@ -36,16 +36,18 @@ namespace parking::search
             farthest_ = node.h;
             progressAt_ = own.turns();
         }
-        for (std::size_t i = 0; i < detoursTaken(); ++i)
-            if (const double ahead = detours_[i]->estimate(node, parameters_.tuning.noWay);
-                ahead < detours_[i]->nearest)
-            {
-                detours_[i]->nearest = ahead;
-                detours_[i]->best = index;
-            }
+        for (std::size_t i = 0; i < detoursOf(own); ++i)
+        {
+            Detour &detour = *detours_[i];
+            const double ahead = detour.estimate(node, parameters_.tuning.noWay);
+            if (ahead >= detour.nearest)
+                continue;
+            detour.nearest = ahead;
+            detour.best = index;
+        }
     }
 
-    bool Search::isStuck() const
+    bool Search::needsDetour() const
     {
         const SearchTuning &tuning = parameters_.tuning;
         if (!parameters_.detours || !traits_.joinsAfar || hasTarget_ || hasSolution() ||
@@ -68,20 +70,16 @@ namespace parking::search
         const SearchTuning &tuning = parameters_.tuning;
         const std::size_t number = detoursTaken();
         if (number == 0)
-        {
             exploration_.since = statistics_.expanded;
-            enclosureLevel_ = 0;
-            bodyCells_.reset();
-        }
         if (detours_.size() <= number)
             detours_.push_back(std::make_unique<Detour>());
         const Guides &guides = this->guides(confined_);
         const double inscribed = parameters_.inscribedRadius;
-        detours_[number]->way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
-                                    {inscribed, tuning.wideDisc * inscribed, tuning.dear[number]},
-                                    tuning.mostDetourCells);
-        detours_[number]->best = NO_NODE;
-        detours_[number]->nearest = INFINITE;
+        Detour &detour = *detours_[number];
+        detour.way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
+                         {inscribed, tuning.wideDisc * inscribed, tuning.dear[number]}, tuning.mostDetourCells);
+        detour.best = NO_NODE;
+        detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
@@ -97,6 +95,8 @@ namespace parking::search
         for (std::vector<NodeIndex> &nodes : exploration_.nodes)
             nodes.clear();
         exploration_.samples = 0;
+        enclosureLevel_ = 0;
+        bodyCells_.reset();
         farthest_ = INFINITE;
         progressAt_ = frontier(confined_).turns();
     }

@@ -173,7 +173,7 @@ namespace parking::search
     {
         const Node &node = own.node(index);
         own.push(0, level, priority(own, node, node.h), node.h, index);
-        for (std::size_t i = 0; i + 1 < own.queues(); ++i)
+        for (std::size_t i = 0; i < detoursOf(own); ++i)
             pushToDetour(i, level, index);
     }
 

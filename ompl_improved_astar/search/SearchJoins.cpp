@@ -38,7 +38,7 @@ namespace parking::search
             joinPair(own, index, root);
         if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.node(other.bestClosed).parent != NO_NODE)
             joinPair(own, index, other.bestClosed);
-        for (std::size_t i = 0; i + 1 < other.queues(); ++i)
+        for (std::size_t i = 0; i < detoursOf(other); ++i)
             if (const NodeIndex best = detours_[i]->best; best != NO_NODE && best != other.bestClosed)
                 joinPair(own, index, best);
     }
