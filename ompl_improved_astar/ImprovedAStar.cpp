@@ -170,7 +170,13 @@ namespace ompl::geometric
             query_->outcome = parking::search::PlanOutcome::InvalidStart;
             return false;
         }
-        if (!readGoals(*region, ptc))
+        const GoalReading reading = readGoals(*region, ptc);
+        if (reading == GoalReading::TimeUp)
+        {
+            failure = ob::PlannerStatus::TIMEOUT;
+            return false;
+        }
+        if (reading == GoalReading::NoneValid)
         {
             query_->fallbackTarget = anyGoal(*pdef_->getGoal(), si_);
             query_->outcome = parking::search::PlanOutcome::InvalidGoal;
@@ -195,7 +201,8 @@ namespace ompl::geometric
         return !query_->starts.empty();
     }
 
-    bool ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region, const ob::PlannerTerminationCondition &ptc)
+    ImprovedAStar::GoalReading ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region,
+                                                        const ob::PlannerTerminationCondition &ptc)
     {
         const auto add = [&](const ob::State *state)
         {
@@ -207,9 +214,9 @@ namespace ompl::geometric
             query_->planner.addGoal(pose);
         };
         const bool finite = region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
-        // The first is looked at in any case: that the time is up does not make a goal invalid.
-        for (unsigned int attempt = 0; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc);
-             ++attempt)
+        unsigned int attempt = 0;
+        // The first is looked at in any case.
+        for (; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
         {
             if (!finite && query_->goals.size() >= MAX_GOALS)
                 break;
@@ -226,7 +233,11 @@ namespace ompl::geometric
         if (query_->goals.empty() && region.couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
                 add(state);
-        return !query_->goals.empty();
+        if (!query_->goals.empty())
+            return GoalReading::Some;
+        // That the time is up does not make those invalid that nobody has looked at.
+        const bool hasSeenAll = attempt == GOAL_ATTEMPTS || !(pis_.haveMoreGoalStates() || mayHaveMore);
+        return hasSeenAll || !ptc ? GoalReading::NoneValid : GoalReading::TimeUp;
     }
 
     ob::PlannerStatus ImprovedAStar::solve(const ob::PlannerTerminationCondition &ptc)

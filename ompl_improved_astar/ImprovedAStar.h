@@ -143,7 +143,13 @@ namespace ompl::geometric
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
         bool readStarts();
-        bool readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
+        enum class GoalReading
+        {
+            Some,
+            NoneValid,
+            TimeUp  // before all, or any, had been looked at
+        };
+        GoalReading readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc);
         parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;

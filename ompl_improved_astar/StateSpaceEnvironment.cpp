@@ -119,12 +119,9 @@ namespace parking
         return whole;
     }
 
-    double StateSpaceEnvironment::roomAt(double x, double y)
+    double StateSpaceEnvironment::roomAt(double /*x*/, double /*y*/)
     {
-        // Nothing is known of obstacles but where the world ends.
-        const bool inside =
-            x >= bounds_.min.x() && x <= bounds_.max.x() && y >= bounds_.min.y() && y <= bounds_.max.y();
-        return inside ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+        return std::numeric_limits<double>::infinity();
     }
 
     bool StateSpaceEnvironment::isMotionFree(const Pose &from, const Pose &to)

@@ -51,6 +51,11 @@ namespace parking
         double clearance(const Pose &pose) override;
         bool knowsClearance() const override;
         double freeLength(const Pose &from, double curvature, double length) override;
+        Box bounds() const override
+        {
+            return bounds_;
+        }
+        /** Infinite: nothing is known of the obstacles. */
         double roomAt(double x, double y) override;
         bool acceptPath(const Path &path) override;
         bool wasInterrupted() const override

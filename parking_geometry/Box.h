@@ -24,6 +24,12 @@ namespace parking
             return x >= min.x() && x <= max.x() && y >= min.y() && y <= max.y();
         }
 
+        /** \brief The point of the box that is nearest to the given one. */
+        Eigen::Vector2d nearest(const Eigen::Vector2d &point) const
+        {
+            return point.cwiseMax(min).cwiseMin(max);
+        }
+
         /** \brief Grows until it contains the point. */
         void include(const Eigen::Vector2d &point)
         {

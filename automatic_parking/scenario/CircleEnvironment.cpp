@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace parking
 {
@@ -37,7 +36,7 @@ namespace parking
 
     double CircleEnvironment::roomAt(double x, double y)
     {
-        return bounds_.contains(x, y) ? checker_.roomAt(x, y) : -std::numeric_limits<double>::infinity();
+        return checker_.roomAt(x, y);
     }
 
     bool CircleEnvironment::isMotionFree(const Pose &from, const Pose &to)

@@ -20,6 +20,10 @@ namespace parking
         bool isFree(const Pose &pose) override;
         double clearance(const Pose &pose) override;
         double freeLength(const Pose &from, double curvature, double length) override;
+        Box bounds() const override
+        {
+            return bounds_;
+        }
         double roomAt(double x, double y) override;
         bool isMotionFree(const Pose &from, const Pose &to) override;
         bool headingMatters() const override

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace parking::search
@@ -60,7 +62,7 @@ namespace parking::search
                 free[i] = freeLength(from, arcs[i].curvature, arcs[i].length);
         }
 
-        /** \brief Is anything known of clearances? Where not, nothing is asked of them. */
+        /** \brief Is anything known of clearances? Where not, they cost nothing. */
         virtual bool knowsClearance() const
         {
             return true;
@@ -73,6 +75,7 @@ namespace parking::search
         }
 
         /** \brief How far the car can drive along arcs from one pose and surely keep so many metres from all obstacles.
+            What is clear to its end is free: freeLength() is not asked about it.
 
             \param clear takes a length between 0 and that of the arc for each; 0 where it is not known */
         virtual void clearLengths(const Pose & /*from*/, const Arc * /*arcs*/, std::size_t count, double /*clearance*/,
@@ -81,8 +84,16 @@ namespace parking::search
             std::fill(clear, clear + count, 0.0);
         }
 
-        /** \brief An upper bound of the distance between the point (x, y) and the nearest obstacle, in metres; infinite
-            when it is not known. A car whose inscribed circle at the rear axle is larger cannot be there. */
+        /** \brief Where the rear axle may be, whatever the obstacles: everywhere, unless a world says otherwise. */
+        virtual Box bounds() const
+        {
+            constexpr double INFINITE = std::numeric_limits<double>::infinity();
+            return {{-INFINITE, -INFINITE}, {INFINITE, INFINITE}};
+        }
+
+        /** \brief An upper bound of the distance between the point (x, y), which lies within the bounds, and the
+            nearest obstacle, in metres; infinite when it is not known. A car whose inscribed circle at the rear axle is
+            larger cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
         /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is

@@ -6,7 +6,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <thread>
+#include <utility>
 
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>
@@ -68,6 +70,59 @@ namespace
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         EXPECT_TRUE(isSamePose(problem.poses().front(), HERE, SAME));
         EXPECT_TRUE(isSamePose(problem.poses().back(), SLOT, SAME));
+    }
+
+    TEST_F(PlannerGoals, NobodyHasLookedAtAreNotInvalid)
+    {
+        PlanningProblem some(Space::ReedsShepp, slotSite());
+        some.set("approximate", false);
+        some.from(HERE).to({{-2.5, 2.0, 0.0}, NEAR});
+        EXPECT_EQ(some.solveForQuestions(1), Status::TIMEOUT);
+        EXPECT_EQ(some.solve(), Status::EXACT_SOLUTION);
+
+        PlanningProblem none(Space::ReedsShepp, slotSite());
+        none.set("approximate", false);
+        none.from(HERE).to({{-2.5, 2.0, 0.0}});
+        EXPECT_EQ(none.solveForQuestions(1), Status::INVALID_GOAL);
+    }
+
+    // Cells of the disc's way lie across the bounds: what is outside of them must not close the part inside.
+    TEST_F(PlannerGoals, CloseToTheBoundsAreReached)
+    {
+        const parking::Polygon wall = box(-0.2, -40.0, 0.2, 8.0);
+        const parking::Box bounds{{-15.0, -15.0}, {15.0, 15.0}};
+        const auto isFree = [](const Pose &pose)
+        {
+            return std::abs(pose.x) > 1.2 || pose.y > 9.0;
+        };
+        for (const bool byFootprint : {false, true})
+            for (const double distance : {0.0, 0.01, 0.1, 0.3})
+            {
+                const double edge = 15.0 - distance;
+                for (const auto &[start, goal] : {std::pair<Pose, Pose>{{-9.0, 0.0, 0.0}, {edge, 0.0, 0.0}},
+                                                  {{9.0, 0.0, 0.0}, {-edge, 0.0, 0.0}},
+                                                  {{-9.0, 0.0, 0.0}, {9.0, edge, 0.0}},
+                                                  {{-9.0, 0.0, 0.0}, {9.0, -edge, 0.0}},
+                                                  {{-9.0, 0.0, 0.0}, {edge, edge, 0.0}}})
+                {
+                    SCOPED_TRACE(testing::Message() << byFootprint << ", " << goal.x << ", " << goal.y);
+                    PlanningProblem problem(Space::ReedsShepp, bounds, isFree);
+                    if (byFootprint)
+                    {
+                        problem.setObstacles(
+                            parking::ObstacleSet::fromPolygons({wall}, {{-40.0, -40.0}, {40.0, 40.0}}));
+                        problem.makePlanner();
+                    }
+                    for (const bool backwards : {false, true})
+                    {
+                        problem.pdef->clearStartStates();
+                        problem.pdef->clearSolutionPaths();
+                        problem.planner->clear();
+                        problem.from(backwards ? goal : start).to({backwards ? start : goal});
+                        EXPECT_EQ(problem.solve(5.0), Status::EXACT_SOLUTION) << problem.planner->reason();
+                    }
+                }
+            }
     }
 
     TEST_F(PlannerGoals, OneOutOfReachDoesNotHinder)
@@ -206,7 +261,7 @@ namespace
         problem.pdef->setGoal(lazy);
         const Status status = problem.solve(0.2);
         lazy->stopSampling();
-        EXPECT_NE(status, Status::EXACT_SOLUTION);
+        EXPECT_EQ(status, Status::TIMEOUT);
         EXPECT_FALSE(problem.pdef->hasExactSolution());
     }
 

@@ -60,6 +60,8 @@ namespace
             const double distance = signedDistance(obstacles, point);
             ASSERT_LE(field.lowerBound(point.x(), point.y()), std::max(0.0, distance) + 1e-12) << point.transpose();
             ASSERT_GE(field.upperBound(point.x(), point.y()), std::max(0.0, distance) - 1e-12) << point.transpose();
+            ASSERT_GE(field.closeUpperBound(point.x(), point.y()), std::max(0.0, distance) - 1e-12)
+                << point.transpose();
             ASSERT_FALSE(field.isInside(point.x(), point.y()) && distance > 1e-12) << point.transpose();
             ASSERT_FALSE(field.isOutside(point.x(), point.y()) && distance <= 0.0) << point.transpose();
         }

@@ -151,10 +151,9 @@ namespace parking
         return std::abs(length);
     }
 
-    double DiscWorld::roomAt(double x, double y)
+    double DiscWorld::roomAt(double /*x*/, double /*y*/)
     {
-        const double infinite = std::numeric_limits<double>::infinity();
-        return bounds_.contains(x, y) ? infinite : -infinite;
+        return std::numeric_limits<double>::infinity();
     }
 
     bool DiscWorld::isMotionFree(const Pose &from, const Pose &to)

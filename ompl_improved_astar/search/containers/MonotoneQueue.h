@@ -35,10 +35,12 @@ namespace parking::search
             return inRing_ + beyond_.size();
         }
 
-        /** \brief Bytes in use. */
+        /** \brief The most bytes that the items since clear() take up to the next growth, old and new arrays
+            together. */
         std::size_t bytes() const
         {
-            return (pool_.capacity() + beyond_.capacity()) * sizeof(Waiting);
+            constexpr std::size_t GROWING = 3;
+            return GROWING * (pool_.size() + beyond_.size()) * sizeof(Waiting);
         }
 
         /** \brief Forgets the items; memory is kept, and priorities may be small again. */

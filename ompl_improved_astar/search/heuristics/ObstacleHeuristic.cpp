@@ -10,6 +10,8 @@ namespace parking::search
     {
         constexpr std::uint32_t STRAIGHT = 12, DIAGONAL = 17;  // lengths of the steps
         constexpr double HALF_DIAGONAL = 0.70710679;
+        constexpr double ON_THE_BOUNDS =
+            0.01;                       // of half a cell: so near to the bounds, rounding decides what is inside
         constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MANY_CELLS = 128;     // settled for one question
@@ -61,6 +63,7 @@ namespace parking::search
         stop_ = &stop;
         stopped_ = false;
         environment_ = &environment;
+        bounds_ = environment.bounds();
         resolution_ = resolution;
         disc_ = disc;
         dearer_ = {static_cast<std::uint32_t>(std::lround(STRAIGHT * (disc.dear - 1.0))),
@@ -91,7 +94,12 @@ namespace parking::search
 
     bool ObstacleHeuristic::mayHoldDisc(double radius, double x, double y, double halfSide, int refinements)
     {
-        const double room = environment_->roomAt(x, y);
+        // Of a cell on the bounds only a part counts, and none of its points is farther from the one that is asked for
+        // than half a diagonal.
+        const Eigen::Vector2d middle{x, y}, asked = bounds_.nearest(middle);
+        if ((asked - middle).cwiseAbs().maxCoeff() > halfSide * (1.0 + ON_THE_BOUNDS))
+            return false;
+        const double room = environment_->roomAt(asked.x(), asked.y());
         if (room >= radius)
             return true;
         if (room + 2.0 * HALF_DIAGONAL * halfSide < radius)

@@ -37,8 +37,9 @@ namespace parking::search
         is blocked).
 
         The disc is the circle inscribed in the car at the rear axle: a cell is passable unless that circle surely hits
-        an obstacle wherever in the cell it stands. Ways from centre to centre of such cells can be longer than the way
-        of the disc by a factor of 17 / 12, where it slips past the corners of cells; see lowerBound(). */
+        an obstacle, or its centre leaves the bounds, wherever in the cell it stands. Ways from centre to centre of such
+       cells can be longer than the way of the disc by a factor of 17 / 12, where it slips past the corners of cells;
+       see lowerBound(). */
     class ObstacleHeuristic : public Heuristic
     {
     public:
@@ -91,7 +92,7 @@ namespace parking::search
         /** \brief Bytes of cells and open list at the most, while the list grows. */
         std::size_t bytes() const
         {
-            return states_.bytes() + 2 * open_.bytes();
+            return states_.bytes() + open_.bytes();
         }
 
     private:
@@ -147,6 +148,7 @@ namespace parking::search
         }
 
         MotionEnvironment *environment_{nullptr};
+        Box bounds_;
         const StopFunction *stop_{nullptr};
         double resolution_{1.0};
         Disc disc_;

@@ -100,8 +100,9 @@ namespace parking
                                             double *clear)
     {
         std::fill(clear, clear + count, 0.0);
-        if (clearance > FootprintChecker::MAX_TOLERANCE)
-            return;  // too large to sweep: the caller samples
+        // Too large to sweep, or too small to prove anything free: the caller samples.
+        if (clearance > FootprintChecker::MAX_TOLERANCE || clearance < tolerance_)
+            return;
         const FootprintChecker::SweepStart start = checker_.sweepStart(from, clearance, counts_);
         if (start.enlargement >= clearance)
             sweep(start, from, arcs, count, clear);
@@ -149,8 +150,6 @@ namespace parking
 
     double FootprintEnvironment::roomAt(double x, double y)
     {
-        if (boundsMatter_ && !bounds_.contains(x, y))
-            return 0.0;
         const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
         const DistanceField &field = checker_.field();
         return hasWideCells_ ? field.closeUpperBound(local.x, local.y) : field.upperBound(local.x, local.y);

@@ -29,6 +29,10 @@ namespace parking
         bool keeps(const Pose &pose, double clearance) override;
         void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                           double *clear) override;
+        Box bounds() const override
+        {
+            return bounds_;
+        }
         double roomAt(double x, double y) override;
         /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
         bool isMotionFree(const Pose &from, const Pose &to) override;
