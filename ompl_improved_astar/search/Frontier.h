@@ -18,8 +18,8 @@ namespace parking::search
     /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and what is open: a
         queue, with a list for each level of resolution.
 
-        A side that is stuck gets further queues, which order the open nodes by other estimates (see Detours) and take
-        turns with the first one. Every open node is in the first queue, whatever the others hold. */
+        A side that is stuck gets further queues, which order the open nodes by other estimates (see SearchDetours.cpp)
+       and take turns with the first one. Every open node is in the first queue, whatever the others hold. */
     class Frontier
     {
     public:

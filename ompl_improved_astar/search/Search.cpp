@@ -30,6 +30,8 @@ namespace parking::search
         traits_ = model_->traits();
         if (!traits_.prefersClearance || !environment.knowsClearance())
             parameters_.cost.preferredClearance = 0.0;
+        if (!environment.knowsClearance())
+            parameters_.cost.clearanceWeight = 0.0;
         const std::string heuristic = parameters.heuristic == "default" ? model_->heuristic() : parameters.heuristic;
         for (Guides &guides : guides_)
         {
@@ -323,8 +325,8 @@ namespace parking::search
         for (const Guides &guides : guides_)
             if (guides.roundObstacles)
                 bytes += guides.obstacles.bytes();
-        for (const std::unique_ptr<Detour> &detour : detours_)
-            bytes += detour->way.bytes();
+        for (std::size_t i = 0; i < detoursTaken(); ++i)
+            bytes += detours_[i]->way.bytes();
         for (const Enclosure &enclosure : enclosures_)
             bytes += enclosure.bytes();
         return bytes;

@@ -227,7 +227,6 @@ namespace parking::search
         {
             std::array<std::vector<NodeIndex>, 2> nodes;
             unsigned int samples{0};
-            std::uint64_t since{0};  // expansions when the first detour was taken
             std::vector<Successor> motions;
         };
 
@@ -331,11 +330,13 @@ namespace parking::search
         Expansion expansion_;  // of the node under way
         UnderWay underWay_;
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
+        std::uint64_t detoursSince_{0};                 // expansions when the first was taken
         Exploration exploration_;
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;
-        std::size_t enclosureLevel_{0};                             // of their cells: each finer than the one before
-        double farthest_{std::numeric_limits<double>::infinity()};  // least h of the confined side's closed nodes
-        std::uint64_t progressAt_{0};                               // turns of that side when it fell last
+        std::size_t enclosureLevel_{0};  // of their cells: each finer than the one before
+        // Estimate of the node with which the confined side came nearer last, and turns of that side up to then.
+        double progressEstimate_{std::numeric_limits<double>::infinity()};
+        std::uint64_t progressAt_{0};
     };
 }  // namespace parking::search

@@ -31,9 +31,9 @@ namespace parking::search
         if (own.side() != confined_)
             return;
         const Node &node = own.node(index);
-        if (node.h < farthest_ - parameters_.tuning.nearer * parameters_.turningRadius)
+        if (node.h < progressEstimate_ - parameters_.tuning.nearer * parameters_.turningRadius)
         {
-            farthest_ = node.h;
+            progressEstimate_ = node.h;
             progressAt_ = own.turns();
         }
         for (std::size_t i = 0; i < detoursOf(own); ++i)
@@ -54,9 +54,11 @@ namespace parking::search
             guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.dear))
             return false;
         if (detoursTaken() > 0)
-            return statistics_.expanded >= exploration_.since + detoursTaken() * tuning.nextDetour;
+            return statistics_.expanded >= detoursSince_ + detoursTaken() * tuning.nextDetour;
+        // A side that has run dry comes no nearer, and gets no turns any more.
+        const Frontier &stuck = frontier(confined_);
         return statistics_.expanded >= tuning.leastExpansions &&
-               frontier(confined_).turns() >= progressAt_ + tuning.stalledExpansions;
+               (stuck.isExhausted() || stuck.turns() >= progressAt_ + tuning.stalledExpansions);
     }
 
     double Search::Detour::estimate(const Node &node, double noWay)
@@ -70,7 +72,7 @@ namespace parking::search
         const SearchTuning &tuning = parameters_.tuning;
         const std::size_t number = detoursTaken();
         if (number == 0)
-            exploration_.since = statistics_.expanded;
+            detoursSince_ = statistics_.expanded;
         if (detours_.size() <= number)
             detours_.push_back(std::make_unique<Detour>());
         const Guides &guides = this->guides(confined_);
@@ -96,8 +98,9 @@ namespace parking::search
             nodes.clear();
         exploration_.samples = 0;
         enclosureLevel_ = 0;
+        enclosures_.clear();
         bodyCells_.reset();
-        farthest_ = INFINITE;
+        progressEstimate_ = INFINITE;
         progressAt_ = frontier(confined_).turns();
     }
 
@@ -122,7 +125,7 @@ namespace parking::search
     void Search::widenEnclosures()
     {
         const SearchTuning &tuning = parameters_.tuning;
-        if (detoursTaken() == 0 || improved_ || statistics_.expanded < exploration_.since + tuning.enclosureAfter ||
+        if (detoursTaken() == 0 || improved_ || statistics_.expanded < detoursSince_ + tuning.enclosureAfter ||
             enclosureLevel_ >= std::size(tuning.enclosureCells))
             return;
         if (!bodyCells_)
@@ -133,7 +136,7 @@ namespace parking::search
             return;
         }
         const std::size_t columns =
-            1 + (statistics_.expanded - exploration_.since - tuning.enclosureAfter) / tuning.expansionsPerColumn;
+            1 + (statistics_.expanded - detoursSince_ - tuning.enclosureAfter) / tuning.expansionsPerColumn;
         bool isConnected = false, isOver = true;
         for (Enclosure &enclosure : enclosures_)
         {
@@ -160,7 +163,7 @@ namespace parking::search
     bool Search::mayExplore() const
     {
         const SearchTuning &tuning = parameters_.tuning;
-        return detoursTaken() > 0 && !improved_ && statistics_.expanded >= exploration_.since + tuning.stalledDetours &&
+        return detoursTaken() > 0 && !improved_ && statistics_.expanded >= detoursSince_ + tuning.stalledDetours &&
                statistics_.expanded % tuning.explorationPeriod == 0 && parameters_.bounds.size().minCoeff() > 0.0;
     }
 

@@ -36,22 +36,22 @@ namespace parking::search
             @{ */
         double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
         double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
-        double coarsestCell{2.0};            ///< but at most so many times heuristicCell
+        double coarsestCell{2.0};            ///< but at most so many times heuristicCell (chosen with seed tune10a)
         std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
         /** \name Detours, when the search is stuck
 
-            Chosen by hand on random queries with the seeds that docs/planner.md names.
+            Chosen by hand on random queries with the tuning seeds that docs/planner.md names.
             @{ */
-        std::uint64_t leastExpansions{80};      ///< before a search is called stuck,
-        std::uint64_t stalledExpansions{30};    ///< and so many of the more confined side since it came nearer
-        double nearer{0.25};                    ///< by this much
-        double wideDisc{2.5};                   ///< in inscribed radii: of a disc that keeps to where a car can turn
-        double dear[2]{60.0, 600.0};            ///< what a metre where it does not fit costs the first and the second
-        std::uint64_t nextDetour{300};          ///< expansions with the first before there is the second
-        std::uint64_t extraTurns{4};            ///< of a queue that comes nearer than it ever was
-        double noWay{1.2};                      ///< factor on the estimate of a node that a disc finds no way from
+        std::uint64_t leastExpansions{80};    ///< before a search is called stuck,
+        std::uint64_t stalledExpansions{30};  ///< and so many of the more confined side since it came nearer
+        double nearer{0.25};                  ///< by this much
+        double wideDisc{2.5};                 ///< in inscribed radii: of a disc that keeps to where a car can turn
+        double dear[2]{60.0, 600.0};          ///< what a metre where it does not fit costs the first and the second
+        std::uint64_t nextDetour{300};        ///< expansions with the first before there is the second
+        std::uint64_t extraTurns{4};          ///< of a queue that comes nearer than it ever was
+        double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t stalledDetours{50};       ///< expansions with detours before the world is explored, too,
         std::uint64_t explorationPeriod{3};     ///< by one move in so many expansions
@@ -59,7 +59,8 @@ namespace parking::search
 
         /** \name Proving that there is no way, when the search stays stuck
 
-            Chosen by hand on the random queries of docs/planner.md. The cells of the second try are finer.
+            Chosen by hand on random queries with the tuning seeds that docs/planner.md names. The cells of the second
+           try are finer.
             @{ */
         std::uint64_t enclosureAfter{800};      ///< expansions with detours before the proof begins
         std::uint64_t expansionsPerColumn{30};  ///< an expansion is worth a column of cells at each end, and one more

@@ -76,22 +76,27 @@ namespace
 
     /** A checker as most have it says what is valid and no more: all motions are asked for then, whatever clearance is
         preferred. (Once they were taken for clear of obstacles, and the tree grew through them.) */
-    TEST_F(PlannerSwitches, aPreferredClearanceIsNothingToACheckerThatKnowsNone)
+    TEST_F(PlannerSwitches, RoomCostsNothingWhereTheCheckerKnowsNoClearance)
     {
         const auto checker = std::make_shared<parking::FootprintChecker>(slotSite().set(), parking::Vehicle());
-        const auto planned = [&](const char *clearance)
+        const auto planned = [&](const char *clearance, const char *weight)
         {
             PlanningProblem problem(Space::ReedsShepp, slotSite().bounds,
                                     [checker](const Pose &pose) { return checker->isFree(pose); });
             problem.set("preferred_clearance", std::string(clearance));
+            problem.set("clearance_weight", std::string(weight));
             problem.from(AISLE).to({SLOT});
             EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
             return problem;
         };
-        const PlanningProblem preferred = planned("0.1"), none = planned("0");
-        EXPECT_EQ(preferred.planner->statistics().expanded, none.planner->statistics().expanded);
-        EXPECT_EQ(preferred.planner->checkedStates(), none.planner->checkedStates());
-        EXPECT_EQ(preferred.pdef->getSolutionPath()->length(), none.pdef->getSolutionPath()->length());
+        const PlanningProblem none = planned("0", "0");
+        for (const PlanningProblem &priced : {planned("0.1", "0"), planned("0", "1"), planned("0.1", "1")})
+        {
+            EXPECT_EQ(priced.planner->statistics().expanded, none.planner->statistics().expanded);
+            EXPECT_EQ(priced.planner->checkedStates(), none.planner->checkedStates());
+            EXPECT_EQ(priced.pdef->getSolutionPath()->length(), none.pdef->getSolutionPath()->length());
+            EXPECT_EQ(priced.planner->suboptimalityBound(), none.planner->suboptimalityBound());
+        }
     }
 
     TEST_F(PlannerSwitches, PenaltiesAreAvoided)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -38,10 +37,11 @@ namespace parking::search
             }
         }
 
-        /** \brief The most bytes that it takes up to its next growth, old and new slots together. */
+        /** \brief The most bytes that its cells take up to its next growth, old and new slots together; slots that an
+            earlier, larger query has left do not count. */
         std::size_t bytes() const
         {
-            return std::max(slots_.size(), 6 * size_) * sizeof(Slot);
+            return 6 * size_ * sizeof(Slot);
         }
 
         /** \brief Inserts or overwrites. */

@@ -51,15 +51,16 @@ namespace
         bool solved;
         std::uint64_t expanded;
         double length;
+        std::size_t memory;  // that the search says it has at the end
     };
 
-    Counts searched(CarProblem problem, bool detours, const Eigen::Vector2d &half,
-                    SearchParameters parameters = carParameters())
+    /** Searches, with an object that may have searched before. */
+    Counts searched(Search &search, CarProblem &problem, bool detours, const Eigen::Vector2d &half,
+                    SearchParameters parameters)
     {
         parameters.inscribedRadius = problem.world.radius;
         parameters.detours = detours;
         parameters.bounds = {-half, half};
-        Search search;
         problem.begin(search, parameters);
         std::uint64_t operations = 0;
         const SearchOutcome outcome = search.run(
@@ -88,7 +89,15 @@ namespace
             }
         }
         return {search.hasSolution(), search.statistics().expanded,
-                search.hasSolution() ? search.bestPath().length() : std::numeric_limits<double>::infinity()};
+                search.hasSolution() ? search.bestPath().length() : std::numeric_limits<double>::infinity(),
+                search.memory()};
+    }
+
+    Counts searched(CarProblem problem, bool detours, const Eigen::Vector2d &half,
+                    SearchParameters parameters = carParameters())
+    {
+        Search search;
+        return searched(search, problem, detours, half, parameters);
     }
 }  // namespace
 
@@ -144,13 +153,19 @@ TEST(SearchDetours, leaveOtherSearchesAsTheyAre)
     EXPECT_GT(compared, 20);
 }
 
+// Whatever the same object has searched before.
 TEST(SearchDetours, areTheSameEachTime)
 {
-    const Row row;
-    const Counts once = searched(rowOfCars(row), true, row.halfWorld());
-    const Counts again = searched(rowOfCars(row), true, row.halfWorld());
+    const Row row, longRow{500.0};
+    CarProblem trap = rowOfCars(row), longTrap = rowOfCars(longRow);
+    Search search;
+    const Counts once = searched(search, trap, true, row.halfWorld(), carParameters());
+    const Counts both = searched(search, longTrap, true, longRow.halfWorld(), carParameters());
+    EXPECT_GT(both.expanded, once.expanded + carParameters().tuning.nextDetour) << "two detours";
+    const Counts again = searched(search, trap, true, row.halfWorld(), carParameters());
     EXPECT_EQ(once.expanded, again.expanded);
     EXPECT_EQ(once.length, again.length);
+    EXPECT_EQ(once.memory, again.memory);
 }
 
 // Where nothing is known of the room, no disc shows another way. In small worlds exploration seldom pays: of 600 fields

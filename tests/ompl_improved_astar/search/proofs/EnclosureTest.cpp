@@ -161,6 +161,37 @@ TEST(Enclosure, givesUpWhereThereIsNoEnd)
     EXPECT_EQ(enclosure.widen(1000), Enclosure::Verdict::Closed) << "the room has an end";
 }
 
+/** No motion leaves the goal, between walls a centimetre from the car's body; behind it a disc gets out. The goal's
+   side has nothing to expand, so that it cannot be told by its expansions that it is stuck. */
+TEST(Enclosure, endsASearchOneSideOfWhichRunsDry)
+{
+    Vehicle car;
+    car.rearOverhang = 0.5;
+    const double side = 0.5 * car.width + 0.01, rear = -car.rearOverhang - 0.01,
+                 front = car.length() - car.rearOverhang + 0.01;
+    const Box bounds{{-20.0, -20.0}, {20.0, 20.0}};
+    const std::vector<Polygon> walls = {
+        {{rear - 1.0, side}, {front + 1.0, side}, {front + 1.0, side + 1.0}, {rear - 1.0, side + 1.0}},
+        {{rear - 1.0, -side - 1.0}, {front + 1.0, -side - 1.0}, {front + 1.0, -side}, {rear - 1.0, -side}},
+        {{front, -side}, {front + 1.0, -side}, {front + 1.0, side}, {front, side}},
+        {{rear - 1.0, 0.6}, {rear, 0.6}, {rear, side}, {rear - 1.0, side}},
+        {{rear - 1.0, -side}, {rear, -side}, {rear, -0.6}, {rear - 1.0, -0.6}}};
+    const FootprintChecker checker(ObstacleSet::fromPolygons(walls, bounds), car);
+    FootprintEnvironment environment(checker, bounds, 1e-3);
+    PlanRequest request;
+    request.starts = {{-12.0, 5.0, 0.0}};
+    request.goals = {{0.0, 0.0, 0.0}};
+    request.car.turningRadius = car.minTurningRadius();
+    request.car.inscribedRadius = car.rearOverhang;
+    request.car.bounds = bounds;
+    request.parameters.approximate = false;
+    request.maxExpansions = 30000;
+    const PlanResult result = plan(environment, request);
+    EXPECT_EQ(result.outcome, PlanOutcome::Infeasible);
+    EXPECT_NE(result.reason.find("sideways"), std::string::npos) << result.reason;
+    EXPECT_LT(result.statistics.expanded, 2000u);
+}
+
 /** The disc at the rear axle gets round the bend, the car does not; where it is wide enough for the car, it does. */
 TEST(Enclosure, endsASearchThatTheDiscCannotEnd)
 {
