@@ -30,14 +30,14 @@ namespace parking
         double steeringShare{1.0};      ///< of the steering angle; where the path needs more the motion may fail
         double steeringRateShare{1.0};  ///< of the steering rate
 
-        /** Whether nodes lie where the motion changes from one limit to another, instead of being spread evenly: 0.25 %
+        /** Whether nodes lie where the motion changes from one limit to another, instead of being spread evenly: 0.3 %
             quicker. A motion that is to be driven by a controller should do without: where it changes more gently
             there is more to correct with, and errors of noise and lags are up to three times smaller. */
         bool sharpest{true};
 
         /** m/s^3 by which the acceleration may change; 0 for no limit. The motion that is the quickest without one is
-            then driven along the same way with it, see withJerkLimit(): some milliseconds, up to 0.1 s for hundreds of
-            metres, in which nobody is asked about interruptions. */
+            then driven along the same way with it, see withJerkLimit(): 1 ms in the median, up to 0.3 s for hundreds
+            of metres, in which nobody is asked about interruptions. */
         double maxJerk{0.0};
 
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Is the table of docs/parameters.md of parameters what the planner has?
 
-usage: check_text_parameters.py ROOT LIST_PARAMETERS [--update]
+usage: check_parameters.py ROOT LIST_PARAMETERS [--update]
 LIST_PARAMETERS is the program built from list_parameters.cpp, which prints the table. --update puts it there.
 """
 import os

@@ -219,7 +219,9 @@ namespace parking
             {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
              "guide the search round obstacles (car model)"},
             {"detours", &P::detours, yesOrNo(), "",
-             "when the search is stuck: try ways through wider gaps, and explore (car model)"},
+             "when the search is stuck: try ways through wider gaps, explore, and look for a proof that there is no "
+             "way (car "
+             "model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
              "when to find out which cells are free: as the search asks, or all of them beforehand"},
             {"adaptive_resolution", &P::adaptiveResolution, yesOrNo(), "",

@@ -84,7 +84,7 @@ namespace parking
         Member member;           ///< where its value is
         ParameterValues values;  ///< none for a switch
         std::string unit;        ///< of a number; empty for none
-        std::string meaning;     ///< one line of Markdown, for the README's table
+        std::string meaning;     ///< one line of Markdown, for docs/parameters.md
 
         /** \brief What is right, for error messages and tables: "between 0 and 10", "car, grid8, grid16". */
         std::string allowed() const;
@@ -104,7 +104,7 @@ namespace parking
         void setNumber(PlannerParameters &parameters, double value) const;
     };
 
-    /** \brief Every parameter, in the order in which the README lists them. */
+    /** \brief Every parameter, in the order in which docs/parameters.md lists them. */
     const std::vector<Parameter> &parameterTable();
 
     /** \brief The row of this name; throws parking::Error naming the nearest one otherwise. */

@@ -58,8 +58,7 @@ namespace parking::search
     struct PlanResult
     {
         PlanOutcome outcome{PlanOutcome::Timeout};  ///< how it ended
-        /** Why there is no solution: for Infeasible always, for Approximate where the goal was found out to be out of
-            reach, and not only out of time. */
+        /** Why there is no solution, unless it is only for want of time; empty then, and when there is one. */
         std::string reason;
         Path path;            ///< of Solved and Approximate
         std::size_t goal{0};  ///< index into PlanRequest::goals: the one that is reached, or was aimed at
