@@ -44,6 +44,7 @@ namespace parking::search
             each.begin(parameters.openList, traits_.levels, parameters.tuning.turnsRatio);
         boundIsKept_ = parameters.weights.far <= 1.0 && parameters.weights.near <= 1.0;
         leastDropped_ = {INFINITE, INFINITE};
+        hasLateRoots_ = joinsAgain_ = false;
         confined_ = Side::Goal;
         prepared_ = false;
         loaded_ = false;
@@ -69,6 +70,8 @@ namespace parking::search
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
         prepared_ = false;
+        hasLateRoots_ = hasLateRoots_ || statistics_.expanded > 0;
+        joinsAgain_ = joinsAgain_ || hasLateRoots_;
         if (!traits_.joinsAfar)
             return;
         for (const NodeIndex other : frontier(opposite(side)).roots())
@@ -201,7 +204,7 @@ namespace parking::search
         Node &node = own.node(entry.node);
         const bool first = !node.isExpanded();
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
-        if (node.next != level || node.g + node.h >= costBound_ ||
+        if (node.next != level || !mayImprove(own.side(), node) ||
             (queue == 0 && entry.f > priority(own, node, node.h) + ROUNDING))
             return;
         own.countTurn(queue, level);
@@ -213,7 +216,8 @@ namespace parking::search
         if (first && !traits_.joinsAfar)
         {
             joinAround(own, entry.node);
-            if (improved_)
+            // For the bound the node has to be expanded all the same: it is in no list any more.
+            if (improved_ && !boundIsKept_)
                 return;
         }
         ++statistics_.expanded;
@@ -302,7 +306,7 @@ namespace parking::search
             if (!model_->isFree(own.side(), own.node(parentIndex), successor))
                 return;
             node.h = estimateOf(own.side(), node.pose);
-            if (g + node.h >= costBound_)
+            if (!mayImprove(own.side(), node))
                 return;
             node.level = node.next = static_cast<std::uint8_t>(level);
             if (hasTarget_ && node.h < nearest_ - parameters_.tuning.leastProgress)

@@ -272,6 +272,7 @@ namespace parking::search
         void queueRoots(Frontier &own);
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
+        bool mayImprove(Side side, const Node &node);
         double priority(const Frontier &own, const Node &node, double ahead) const;
         void push(Frontier &own, std::size_t level, NodeIndex index);
         void rekey(Frontier &own);
@@ -308,6 +309,8 @@ namespace parking::search
         std::array<Guides, 2> guides_;
         Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
         bool prepared_{false};
+        bool hasLateRoots_{false};  // that were added after some expansions
+        bool joinsAgain_{false};    // nodes are yet to be joined with such roots
         bool loaded_{false};
         Exhaustion proof_{Exhaustion::None};  // that no way exists
         Exhaustion exhaustion_{Exhaustion::None};

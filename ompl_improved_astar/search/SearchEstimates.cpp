@@ -34,6 +34,7 @@ namespace parking::search
         proof_ = isProvenUnreachable() ? Exhaustion::WalledIn : Exhaustion::None;
         for (Frontier &each : frontiers_)
             queueRoots(each);
+        joinsAgain_ = false;
     }
 
     void Search::measureMobility(Frontier &own)
@@ -106,6 +107,14 @@ namespace parking::search
                 own.node(i).h = estimateOf(own.side(), own.node(i).pose);
             rekey(own);
         }
+        // Nodes are joined when they are expanded: those that are so far have never met the new ones.
+        for (NodeIndex i = 0; i < own.nodes().size() && joinsAgain_; ++i)
+            if (Node &node = own.node(i); node.isExpanded() && !node.fixed)
+            {
+                node.next = node.level;
+                push(own, node.level, i);
+                own.expansionsWhenExhausted = 0;
+            }
         for (const NodeIndex root : own.roots())
         {
             Node &node = own.node(root);
@@ -157,6 +166,12 @@ namespace parking::search
         return own.roundObstacles ? std::max(ahead, own.obstacles.lowerBound(pose)) : ahead;
     }
 
+    bool Search::mayImprove(Side side, const Node &node)
+    {
+        // What is estimated to an aim is no bound of what lies ahead: the way to a root may be shorter.
+        return node.g + (boundIsKept_ && traits_.aims ? admissible(side, node.pose) : node.h) < costBound_;
+    }
+
     double Search::priority(const Frontier &own, const Node &node, double ahead) const
     {
         // What is estimated to an aim that moves must not depend on where it is now. Where both weights are equal no
@@ -185,7 +200,7 @@ namespace parking::search
                 {
                     const Node &node = own.node(entry.node);
                     entry.f = priority(own, node, node.h);
-                    return node.g + node.h < costBound_;
+                    return mayImprove(own.side(), node);
                 });
     }
 
@@ -201,8 +216,9 @@ namespace parking::search
         double &least = leastDropped_[static_cast<std::size_t>(side)];
         if (!boundIsKept_ || hasTarget_ || g >= least)
             return;
-        // Nothing is lost with a node whose place another holds at no more cost, but for rounding.
-        const bool samePlace = pose.x == keeper.pose.x && pose.y == keeper.pose.y &&
+        // Nothing is lost with a node whose place another holds at no more cost, but for rounding; unless what comes
+        // next depends on how it was arrived at, as with cars.
+        const bool samePlace = traits_.complete && pose.x == keeper.pose.x && pose.y == keeper.pose.y &&
                                (pose.yaw == keeper.pose.yaw || !environment_->headingMatters());
         if (!samePlace || g < keeper.g - 1e-9)
             least = std::min(least, g + admissible(side, pose));
@@ -222,7 +238,8 @@ namespace parking::search
                 least = std::min(least, admissible(side, root));
             ofRoots = std::max(ofRoots, least);
         }
-        if (!boundIsKept_ || guides_.front().base->overestimates())
+        // What was dropped or pruned before a root was added was so without it.
+        if (!boundIsKept_ || hasLateRoots_ || guides_.front().base->overestimates())
             return std::min(ofRoots, costBound_);
         // A complete model's motions are the same from both ends, so that either side bounds all paths; otherwise each
         // bounds those that are made of its own motions.
@@ -232,6 +249,12 @@ namespace parking::search
             if (!parameters_.bidirectional && side != confined_)
                 continue;
             double least = leastDropped_[static_cast<std::size_t>(side)];
+            // The node under way is in no list, and not all of its successors are yet.
+            if (underWay_.node != NO_NODE && underWay_.side == side)
+            {
+                const Node &node = frontier(side).node(underWay_.node);
+                least = std::min(least, node.g + admissible(side, node.pose));
+            }
             for (std::size_t level = 0; level < traits_.levels; ++level)
                 for (const OpenList::Entry &entry : frontier(side).openLists()[level]->entries())
                 {

@@ -12,6 +12,7 @@ namespace parking
     {
         constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
         constexpr double RADIANS_AT_A_TIME = 1.0;
+        constexpr double A_HAIR = 1e-9;  // metres
         // Cells of the field, in inscribed radii: from this on their error decides where a disc fits.
         constexpr double WIDE_CELL = 0.5;
 
@@ -118,13 +119,14 @@ namespace parking
         if (from.x - bounds_.min.x() > whole && bounds_.max.x() - from.x > whole && from.y - bounds_.min.y() > whole &&
             bounds_.max.y() - from.y > whole)
             return whole;
+        // The walls stand a hair outside: else who begins on the bounds touches one even when driving away from it.
+        const Eigen::Vector2d hair(A_HAIR, A_HAIR), low = bounds_.min - hair, high = bounds_.max + hair;
         double driven = 0.0;
         while (driven < whole)
         {
             const Pose pose = advance(from, curvature, direction * driven);
             const double stride = std::min(whole - driven, RADIANS_AT_A_TIME / (std::abs(curvature) + 1e-9));
             const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-            const Eigen::Vector2d low = bounds_.min, high = bounds_.max;
             const Eigen::Vector2d corners[4] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
             double contact = stride;
             bool leaves = false;
@@ -145,7 +147,8 @@ namespace parking
                 return std::max(0.0, driven + contact - tolerance_);
             driven += stride;
         }
-        return whole;
+        const Pose end = advance(from, curvature, length);
+        return bounds_.contains(end.x, end.y) ? whole : std::max(0.0, whole - tolerance_);
     }
 
     double FootprintEnvironment::roomAt(double x, double y)

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -220,34 +222,116 @@ TEST(SearchBound, ofOneSideOnAGridIsTheOptimum)
 
 TEST(SearchBound, ofBothSidesOnAGridIsNeverAboveTheOptimum)
 {
-    int compared = 0;
+    // Asked after each improvement and between motions, too, with weights below one, from either side or both.
+    int compared = 0, betweenMotions = 0;
     for (const auto &[model, heuristic] : {std::pair("grid8", "straight"),
                                            {"grid8", "octile"},
                                            {"grid8", "manhattan"},
                                            {"grid16", "straight"},
                                            {"grid16", "octile"},
                                            {"grid16", "manhattan"}})
-        for (std::uint64_t seed = 0; seed < 200; ++seed)
+        for (std::uint64_t seed = 0; seed < 300; ++seed)
         {
             SCOPED_TRACE(std::string(model) + ", " + heuristic + ", " + std::to_string(seed));
-            GridWorld world = randomGrid(seed, 0.3);
             Random random(seed);
+            GridWorld world = randomGrid(seed, random.between(0.05, 0.35));
             const Pose start = world.freePose(random), goal = world.freePose(random);
-            SearchParameters parameters = unweighted(world.parameters());
+            SearchParameters parameters = world.parameters();
+            parameters.weights = {0.25 * random.index(5), 0.25 * random.index(5), random.between(0.0, 8.0), 0.0};
             parameters.motionModel = model;
             parameters.heuristic = heuristic;
+            parameters.bidirectional = random.chance(0.6);
+            parameters.searchFromGoal = random.chance(0.5);
             const double best = shortestByDijkstra(world, start, goal, std::string(model) == "grid16");
             Search search;
             search.begin(world, parameters);
             search.addStart(start);
             search.addGoal(goal);
-            if (search.run(afterAsking()) != SearchOutcome::Improved)
-                continue;
-            ++compared;
-            ASSERT_LE(search.lowerBound(), best + 1e-6);
-            ASSERT_GE(search.bestCost(), best - 1e-6);
+            const int questions = 1 + 3 * static_cast<int>(random.index(5));
+            SearchOutcome outcome = SearchOutcome::Stopped;
+            for (int i = 0; i < 20000 && outcome != SearchOutcome::Exhausted; ++i)
+            {
+                outcome = search.run(afterAsking(questions));
+                ASSERT_LE(search.lowerBound(), best + 1e-6);
+                ASSERT_GE(search.bestCost(), best - 1e-6);
+                betweenMotions += outcome == SearchOutcome::Stopped;
+            }
+            ASSERT_EQ(outcome, SearchOutcome::Exhausted);
+            compared += search.hasSolution();
         }
+    EXPECT_GT(compared, 1000);
+    EXPECT_GT(betweenMotions, 10000);
+}
+
+TEST(SearchBound, holdsWhereTwoCarsComeToOnePlace)
+{
+    // The known way backs from the second start through where a motion from the first one ends, at no more cost, but
+    // heading on: whoever arrives so has to change gear, and who backs through is not to be forgotten.
+    constexpr double STEP = 2.0, FREE = 2.5;  // metres; steps are made where more than they is free
+    int compared = 0, tight = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const Pose first{0.0, 0.0, 0.0}, second{4.0, 0.0, 0.0};
+        CarProblem problem{DiscCarWorld({{-14.0, -14.0}, {14.0, 14.0}}), {first, second}, {}};
+        std::vector<double> curvatures{0.0};
+        for (std::uint32_t i = 0, pieces = 2 + random.index(3); i < pieces; ++i)
+        {
+            const double last = curvatures.back(), other = last == 0.0 ? 1.0 / TURNING_RADIUS : -last;
+            const double curvature = (static_cast<int>(random.index(3)) - 1) / TURNING_RADIUS;
+            curvatures.push_back(curvature != last ? curvature : other);
+        }
+        std::vector<Pose> swept{first};
+        Pose end = second;
+        for (const double curvature : curvatures)
+        {
+            for (double driven = 0.0; driven <= FREE; driven += 0.25)
+                swept.push_back(advance(end, curvature, -driven));
+            end = advance(end, curvature, -STEP);
+        }
+        problem.goals = {{end.x, end.y, wrapAngle(end.yaw)}};
+        for (std::uint32_t i = 0, tries = 60 + random.index(100); i < tries; ++i)
+        {
+            const Pose &near = swept[random.index(static_cast<std::uint32_t>(swept.size()))];
+            const double x = near.x + random.between(-4.0, 6.0), y = near.y + random.between(-4.0, 4.0);
+            const double w = random.between(0.1, 2.0), h = random.between(0.1, 2.0);
+            problem.world.boxes.push_back({{x - w, y - h}, {x + w, y + h}});
+            if (std::any_of(swept.begin(), swept.end(),
+                            [&](const Pose &pose) { return problem.world.gap(pose) < 0.01; }))
+                problem.world.boxes.pop_back();
+        }
+        Pose pose = second;
+        bool isWayFree = true;
+        for (const double curvature : curvatures)
+        {
+            isWayFree = isWayFree && problem.world.freeLength(pose, curvature, -FREE) >= FREE;
+            pose = advance(pose, curvature, -STEP);
+        }
+        if (!isWayFree)
+            continue;
+        const double known = STEP * static_cast<double>(curvatures.size());
+        SearchParameters parameters = unweighted(carParameters());
+        parameters.adaptiveResolution = parameters.bidirectional = parameters.searchFromGoal = false;
+        parameters.cost.gearChangePenalty = 20.0;
+        parameters.cost.steeringChangePenalty = 0.0;
+        parameters.bounds = problem.world.inside;
+        parameters.inscribedRadius = problem.world.radius;
+        Search search;
+        problem.begin(search, parameters);
+        double largest = 0.0;
+        for (std::uint64_t most = 2; most < 3000; most = most * 3 / 2 + 1)
+        {
+            while (search.run([&] { return search.statistics().expanded >= most; }) == SearchOutcome::Improved)
+                largest = std::max(largest, search.lowerBound());
+            largest = std::max(largest, search.lowerBound());
+        }
+        ++compared;
+        tight += largest > 0.9 * known;
+        EXPECT_LE(largest, known + 1e-6);
+    }
     EXPECT_GT(compared, 100);
+    EXPECT_GT(tight, 50) << "a bound that says little is easily right";
 }
 
 TEST(SearchBound, withWeightsIsWhatTheRootsPromise)

@@ -6,6 +6,7 @@
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <gtest/gtest.h>
@@ -76,6 +77,36 @@ TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
     EXPECT_GT(whole, 300);
     EXPECT_GT(atBounds, 300);
     EXPECT_GT(atObstacles, 300);
+}
+
+TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)
+{
+    // At a slot's end the bounds pass through the goal, to which only a straight way leads.
+    const Vehicle vehicle;
+    const Box bounds{{-25.0, -25.0}, {10.0, 25.0}};
+    for (const double half : {0.98, 1.02})
+        for (const double yaw : {0.0, 1e-12, -1e-12})
+        {
+            SCOPED_TRACE(yaw);
+            const std::vector<Polygon> walls = {{{0.0, half}, {15.0, half}, {15.0, half + 3.0}, {0.0, half + 3.0}},
+                                                {{0.0, -half - 3.0}, {15.0, -half - 3.0}, {15.0, -half}, {0.0, -half}}};
+            const FootprintChecker checker(ObstacleSet::fromPolygons(walls, {{-30.0, -30.0}, {30.0, 30.0}}), vehicle);
+            FootprintEnvironment environment(checker, bounds, TOLERANCE);
+            const Pose goal{10.0, 0.0, yaw};
+            ASSERT_TRUE(environment.isFree(goal));
+            EXPECT_EQ(environment.freeLength(goal, 0.0, -3.0), 3.0);
+            EXPECT_LT(environment.freeLength(goal, 0.0, 0.1), 0.1);
+            for (const double beyond : {1e-8, 5e-10})
+                EXPECT_LT(environment.freeLength(advance(goal, 0.0, -3.0), 0.0, 3.0 + beyond), 3.0);
+            PlanRequest request;
+            request.starts = {{-15.0, 8.0, 0.5}};
+            request.goals = {goal};
+            request.car = {vehicle.minTurningRadius(), false, vehicle.inscribedRadius(), bounds};
+            request.parameters.approximate = false;
+            request.maxExpansions = 6000;
+            const PlanResult result = plan(environment, request);
+            EXPECT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
+        }
 }
 
 TEST(FootprintEnvironment, severalMotionsFromOnePoseAreWhatEachIsAlone)
