@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
 #include "ompl_improved_astar/ImprovedAStarQuery.h"
+#include "parking_geometry/Error.h"
 #include "state_validity/ompl/CircleValidityChecker.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <typeinfo>
 
 namespace ob = ompl::base;
 
@@ -31,6 +33,14 @@ namespace ompl::geometric
 
         constexpr unsigned int MAX_GOALS = 16;        // of a region that offers ever more of them
         constexpr unsigned int GOAL_ATTEMPTS = 1000;  // to find a first valid one
+
+        /** The object if it is of just this class: one that is derived from it may say something else. */
+        template <class Class, class Base>
+        const Class *exactly(const std::shared_ptr<Base> &object)
+        {
+            const Base *known = object.get();
+            return known != nullptr && typeid(*known) == typeid(Class) ? static_cast<const Class *>(known) : nullptr;
+        }
 
         std::optional<Pose> anyGoal(const ob::Goal &goal, const ob::SpaceInformationPtr &si)
         {
@@ -120,9 +130,10 @@ namespace ompl::geometric
         query_->goal = pdef_->getGoal();
         const parking::Box bounds = parking::spaceBounds(*si_->getStateSpace());
         const double radius = query_->turningRadius();
-        const auto *circle = dynamic_cast<const parking::CircleValidityChecker *>(si_->getStateValidityChecker().get());
-        const auto *footprint =
-            dynamic_cast<const parking::FclFootprintChecker *>(si_->getStateValidityChecker().get());
+        query_->checker = si_->getStateValidityChecker();
+        query_->validator = si_->getMotionValidator();
+        const auto *circle = exactly<parking::CircleValidityChecker>(query_->checker);
+        const auto *footprint = exactly<parking::FclFootprintChecker>(query_->checker);
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
@@ -140,8 +151,7 @@ namespace ompl::geometric
             const parking::FootprintChecker &checker = footprint->footprint();
             car.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
             // The motion validator has the last word unless it asks the same questions of the same checker.
-            const auto *validator =
-                dynamic_cast<const parking::SweptMotionValidator *>(si_->getMotionValidator().get());
+            const auto *validator = exactly<parking::SweptMotionValidator>(query_->validator);
             const bool swept = !query_->isPlain() && parameters_.steeringAngles == 3 && validator != nullptr &&
                                &validator->footprint() == &footprint->footprint() &&
                                validator->tolerance() <= SWEEP_TOLERANCE;
@@ -149,7 +159,15 @@ namespace ompl::geometric
                 footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
             environment = query_->footprintEnvironment.get();
         }
-        query_->planner.begin(*environment, parking::search::plannerParameters(parameters_, car));
+        try
+        {
+            query_->planner.begin(*environment, parking::search::plannerParameters(parameters_, car));
+        }
+        catch (const parking::Error &error)
+        {
+            query_->begun = false;
+            throw Exception(getName(), error.what());
+        }
     }
 
     bool ImprovedAStar::readInputs(const ob::PlannerTerminationCondition &ptc, ob::PlannerStatus &failure)
@@ -240,10 +258,16 @@ namespace ompl::geometric
         return hasSeenAll || !ptc ? GoalReading::NoneValid : GoalReading::TimeUp;
     }
 
+    bool ImprovedAStar::isSameQuery() const
+    {
+        return query_->goal == pdef_->getGoal() && query_->parameters == parameters_ &&
+               query_->checker == si_->getStateValidityChecker() && query_->validator == si_->getMotionValidator();
+    }
+
     ob::PlannerStatus ImprovedAStar::solve(const ob::PlannerTerminationCondition &ptc)
     {
         checkValidity();
-        if (query_->begun && (query_->goal != pdef_->getGoal() || query_->parameters != parameters_))
+        if (query_->begun && !isSameQuery())
             clearQuery();
         query_->outcome = parking::search::PlanOutcome::Timeout;
         query_->reason.clear();
@@ -251,7 +275,10 @@ namespace ompl::geometric
             return ob::PlannerStatus::TIMEOUT;
         ob::PlannerStatus status;
         if (readInputs(ptc, status))
+        {
+            priceAnew();
             status = search(ptc);
+        }
         if (query_->stateEnvironment)
             query_->stateEnvironment->setStop(nullptr);
         return status;
@@ -264,7 +291,7 @@ namespace ompl::geometric
 
     parking::search::SearchStatistics ImprovedAStar::statistics() const
     {
-        return query_->planner.statistics();
+        return query_->begun ? query_->planner.statistics() : parking::search::SearchStatistics();
     }
 
     std::uint64_t ImprovedAStar::checkedStates() const
@@ -297,6 +324,6 @@ namespace ompl::geometric
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return query_->planner.suboptimalityBound();
+        return query_->hasSolution ? query_->planner.suboptimalityBound() : std::numeric_limits<double>::infinity();
     }
 }  // namespace ompl::geometric

@@ -20,6 +20,8 @@
     \brief OMPL's planners of paths without time, ImprovedAStar among them. */
 namespace ompl::geometric
 {
+    class PathGeometric;
+
     /** \anchor gImprovedAStar
 
         \par Short description
@@ -53,8 +55,9 @@ namespace ompl::geometric
         \par Several calls of solve()
 
         A call goes on where the one before it ended, with starts and goals that were added since, and returns a
-        solution at least as good. Another problem definition, another goal object or another value of a parameter
-        begins the query anew, as clearQuery() does; that is also what to call when the obstacles have changed.
+        solution at least as good. Another problem definition, goal object, checker or motion validator, and another
+       value of a parameter, begin the query anew, as clearQuery() does; that is what to call when the obstacles of the
+       same checker have changed. Another objective prices the solution anew.
 
         \par Threads
 
@@ -143,6 +146,7 @@ namespace ompl::geometric
         void prepareQuery();
         bool readInputs(const base::PlannerTerminationCondition &ptc, base::PlannerStatus &failure);
         bool readStarts();
+        bool isSameQuery() const;
         enum class GoalReading
         {
             Some,
@@ -153,6 +157,10 @@ namespace ompl::geometric
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc);
         parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;
+        std::shared_ptr<PathGeometric> geometricPath(const std::vector<parking::Pose> &poses) const;
+        base::Cost costOf(const parking::Path &path, const PathGeometric &geometric, const parking::Path &found) const;
+        void priceAnew();
+        double differenceFromGoal(const base::State *state) const;
         bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
 

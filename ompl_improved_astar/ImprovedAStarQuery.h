@@ -45,6 +45,8 @@ namespace ompl::geometric
         bool begun{false};                            ///< whether the planner was told of this query
         parking::PlannerParameters parameters;        ///< those that the query was begun with
         base::GoalPtr goal;                           ///< the one that the query was begun for
+        base::StateValidityCheckerPtr checker;        ///< likewise; the environments ask it
+        base::MotionValidatorPtr validator;           ///< likewise
         std::vector<parking::Pose> starts,            ///< valid ones, as far as they were read
             goals;                                    ///< likewise
         std::optional<parking::Pose> fallbackTarget;  ///< a goal to come near to when none is valid

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -38,27 +39,45 @@ namespace ompl::geometric
         return result;
     }
 
+    std::shared_ptr<PathGeometric> ImprovedAStar::geometricPath(const std::vector<Pose> &poses) const
+    {
+        auto path = std::make_shared<PathGeometric>(si_);
+        ob::ScopedState<> state(si_);
+        for (const Pose &pose : poses)
+        {
+            parking::setPose(state.get(), pose);
+            path->append(state.get());
+        }
+        return path;
+    }
+
+    ob::Cost ImprovedAStar::costOf(const Path &path, const PathGeometric &geometric, const Path &found) const
+    {
+        if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
+            return geometric.cost(objective);
+        // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
+        // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
+        // would look for each piece's shortest curve to find out what is known here.
+        const double length = query_->isPlain() ? geometric.length() : path.length();
+        return ob::Cost(length + query_->planner.closeness(found));
+    }
+
+    void ImprovedAStar::priceAnew()
+    {
+        if (!query_->hasSolution || query_->objective == pdef_->getOptimizationObjective())
+            return;
+        query_->objective = pdef_->getOptimizationObjective();
+        query_->bestCost = costOf(query_->path, *geometricPath(query_->states), query_->path);
+        bestCost_.store(query_->bestCost.value(), std::memory_order_relaxed);
+    }
+
     bool ImprovedAStar::takeImprovement(const Path &found, const ob::PlannerTerminationCondition &ptc)
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
         const Path path = smoothed(found, ptc);
         const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
-        auto geometric = std::make_shared<PathGeometric>(si_);
-        ob::ScopedState<> state(si_);
-        for (const Pose &pose : states)
-        {
-            parking::setPose(state.get(), pose);
-            geometric->append(state.get());
-        }
-        // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
-        // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
-        // would look for each piece's shortest curve to find out what is known here.
-        const auto length = [&]
-        {
-            return query_->isPlain() ? geometric->length() : path.length();
-        };
-        const ob::Cost cost =
-            objective ? geometric->cost(objective) : ob::Cost(length() + query_->planner.closeness(found));
+        const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
+        const ob::Cost cost = costOf(path, *geometric, found);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
                                                : cost.value() < query_->bestCost.value()))
             return false;
@@ -137,15 +156,32 @@ namespace ompl::geometric
         return report(states, true);
     }
 
+    double ImprovedAStar::differenceFromGoal(const ob::State *state) const
+    {
+        double difference = std::numeric_limits<double>::infinity();
+        const ob::Goal &goal = *pdef_->getGoal();
+        if (!goal.hasType(ob::GOAL_STATE) && !goal.hasType(ob::GOAL_STATES))
+        {
+            goal.isSatisfied(state, &difference);
+            return difference;
+        }
+        // Asked itself, the goal would measure the distance to all of its states, at which OMPL ends the program where
+        // one is out of bounds. A yaw of just pi is.
+        const std::vector<Pose> targets =
+            query_->goals.empty() ? std::vector<Pose>{*query_->fallbackTarget} : query_->goals;
+        for (const Pose &pose : targets)
+        {
+            ob::ScopedState<> target(si_);
+            parking::setPose(target.get(), pose);
+            si_->enforceBounds(target.get());
+            difference = std::min(difference, si_->distance(state, target.get()));
+        }
+        return difference;
+    }
+
     ob::PlannerStatus ImprovedAStar::report(const std::vector<Pose> &poses, bool approximate)
     {
-        auto path = std::make_shared<PathGeometric>(si_);
-        ob::ScopedState<> state(si_);
-        for (const Pose &pose : poses)
-        {
-            parking::setPose(state.get(), pose);
-            path->append(state.get());
-        }
+        const std::shared_ptr<PathGeometric> path = geometricPath(poses);
         if (!approximate)
         {
             // The exact goal; the path ends there up to rounding.
@@ -158,8 +194,9 @@ namespace ompl::geometric
                                                [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
             if (path->getStateCount() == 1)
                 path->append(path->getState(0));
-            // Turns on the spot there begin at the same place.
-            for (std::size_t i = path->getStateCount(); i-- > 1;)
+            // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but
+            // OMPL must not take it for a turn on the spot.)
+            for (std::size_t i = path->getStateCount(); i-- > 1 && query_->turnsOnTheSpot;)
             {
                 const Pose pose = parking::poseOf(path->getState(i));
                 if (positionDistance(pose, *goal) > 1e-6)
@@ -173,7 +210,7 @@ namespace ompl::geometric
             query_->solution.push_back(parking::poseOf(path->getState(i)));
         double difference = 0.0;
         if (approximate)
-            pdef_->getGoal()->isSatisfied(path->getState(path->getStateCount() - 1), &difference);
+            difference = differenceFromGoal(path->getState(path->getStateCount() - 1));
         // OMPL would look for each piece's shortest curve to find out the length, which is known here.
         ob::PlannerSolution solution(nullptr);
         solution.path_ = path;

@@ -10,7 +10,7 @@ namespace parking
     /** \brief A value as MATLAB has it. */
     struct MatValue
     {
-        /** rief What it is. */
+        /** \brief What it is. */
         enum class Kind
         {
             Numbers,  ///< of any class, as doubles

@@ -1,11 +1,10 @@
-// What OMPL asks of every planner: solving again, going on, forgetting, and the statuses.
+// What OMPL asks of every planner: that its checkers are asked, that wrong input is named, and the statuses.
 
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <string>
 
 #include <ompl/base/goals/GoalState.h>
@@ -26,155 +25,86 @@ namespace
         }
     };
 
-    bool isClearOfPost(const Pose &pose)
+    // What a class of one's own adds to the footprint or to the sweep counts.
+    TEST_F(PlannerContract, ClassesDerivedFromOursAreAsked)
     {
-        return std::hypot(pose.x, pose.y) > 3.0;
-    }
-
-    TEST_F(PlannerContract, SolvesAgainAtOnceWithAsGoodASolution)
-    {
-        for (const Space kind : {Space::ReedsShepp, Space::Dubins, Space::SE2})
+        class NotInTheMiddle : public parking::FclFootprintChecker
         {
-            PlanningProblem problem(kind, slotSite());
-            const Pose goal = kind == Space::Dubins ? Pose{8.0, -6.0, 1.0} : SLOT;
-            problem.from(AISLE).to({goal});
-            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            const double length = problem.path().length();
-            const auto expanded = problem.planner->statistics().expanded;
-            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-            EXPECT_LE(problem.path().length(), length);
-            EXPECT_EQ(problem.planner->statistics().expanded, expanded);
-            // Known already, so that no time is needed.
-            EXPECT_EQ(problem.solve(0.0), Status::EXACT_SOLUTION);
-        }
-    }
-
-    TEST_F(PlannerContract, SolvesAgainOnGrids)
-    {
-        PlanningProblem problem(Space::SE2, openSite(15.0));
-        problem.set("motion_model", "grid8");
-        problem.from(AISLE).to({{8.0, 5.0, 0.0}});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        const std::vector<Pose> first = problem.poses();
-        EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(areSame(problem.poses(), first));
-    }
-
-    TEST_F(PlannerContract, GoesOnAfterATimeout)
-    {
-        PlanningProblem whole(Space::ReedsShepp, slotSite());
-        whole.from(AISLE).to({SLOT});
-        ASSERT_EQ(whole.solve(), Status::EXACT_SOLUTION);
-
-        PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.set("approximate", false);
-        problem.from(AISLE).to({SLOT});
-        int calls = 0;
-        Status status = Status::TIMEOUT;
-        for (; status != Status::EXACT_SOLUTION && calls < 1000; ++calls)
-        {
-            status = problem.solveForQuestions(2);
-            ASSERT_TRUE(status == Status::EXACT_SOLUTION || status == Status::TIMEOUT);
-        }
-        EXPECT_EQ(status, Status::EXACT_SOLUTION);
-        EXPECT_GT(calls, 1);
-        // As much work in pieces as in one go.
-        EXPECT_LE(problem.planner->statistics().expanded, whole.planner->statistics().expanded);
-        EXPECT_TRUE(problem.path().check());
-    }
-
-    // A checker that knows states only is asked whether to stop in the middle of motions. What was cut short there must
-    // be looked at again, or the tree would stay without branches.
-    TEST_F(PlannerContract, GoesOnAfterATimeoutWithinAMotion)
-    {
-        PlanningProblem problem(Space::ReedsShepp, openSite(12.0).bounds, isClearOfPost);
-        problem.set("approximate", false);
-        problem.from({-9.0, 0.5, 0.0}).to({{9.0, 0.5, 0.0}});
-        Status status = Status::TIMEOUT;
-        unsigned int calls = 0;
-        // A little longer each time: an expansion is begun anew in each call.
-        for (; status != Status::EXACT_SOLUTION && calls < 500; ++calls)
-            status = problem.solveForQuestions(3 + calls);
-        EXPECT_EQ(status, Status::EXACT_SOLUTION);
-        EXPECT_GT(calls, 3u);
-        EXPECT_TRUE(problem.path().check());
-    }
-
-    TEST_F(PlannerContract, GoesOnAfterATimeoutOnGrids)
-    {
-        for (const char *loading : {"lazy", "eager"})
-        {
-            PlanningProblem problem(Space::SE2, openSite(15.0));
-            problem.set("motion_model", "grid16");
-            problem.set("obstacle_loading", loading);
-            problem.set("approximate", false);
-            problem.from(AISLE).to({{8.0, 5.0, 0.0}});
-            Status status = Status::TIMEOUT;
-            int calls = 0;
-            for (; status != Status::EXACT_SOLUTION && calls < 10000; ++calls)
-                status = problem.solveForQuestions(4);
-            EXPECT_EQ(status, Status::EXACT_SOLUTION) << loading;
-            EXPECT_GT(calls, 1);
-        }
-    }
-
-    TEST_F(PlannerContract, ClearForgetsEverything)
-    {
-        PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.from(AISLE).to({SLOT});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        const std::vector<Pose> first = problem.poses();
-        const auto expanded = problem.planner->statistics().expanded;
-        problem.planner->clear();
-        EXPECT_EQ(problem.planner->statistics().expanded, 0u);
-        EXPECT_EQ(problem.planner->solutionPath(), nullptr);
-        EXPECT_FALSE(problem.planner->isSetup());
-        problem.pdef->clearSolutionPaths();
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(areSame(problem.poses(), first));
-        EXPECT_EQ(problem.planner->statistics().expanded, expanded);
-    }
-
-    TEST_F(PlannerContract, ClearQueryKeepsOnlyWhatDoesNotDependOnTheQuery)
-    {
-        for (const char *model : {"car", "grid8"})
-        {
-            const Site site = slotSite();
-            const std::vector<std::pair<Pose, Pose>> queries{
-                {AISLE, {8.0, -6.0, 1.0}}, {{8.0, -8.0, 2.0}, {-9.0, 8.0, 0.0}}, {AISLE, {8.0, -6.0, 1.0}}};
-            PlanningProblem kept(Space::SE2, site);
-            kept.set("motion_model", model);
-            for (const auto &[start, goal] : queries)
+        public:
+            using FclFootprintChecker::FclFootprintChecker;
+            bool isValid(const ob::State *state) const override
             {
-                kept.planner->clearQuery();
-                EXPECT_TRUE(kept.pdef->getStartStateCount() == 0 || kept.planner->isSetup());
-                kept.pdef->clearStartStates();
-                kept.pdef->clearSolutionPaths();
-                kept.from(start).to({goal});
-                ASSERT_EQ(kept.solve(), Status::EXACT_SOLUTION) << model;
-                PlanningProblem fresh(Space::SE2, site);
-                fresh.set("motion_model", model);
-                fresh.from(start).to({goal});
-                ASSERT_EQ(fresh.solve(), Status::EXACT_SOLUTION);
-                EXPECT_TRUE(areSame(kept.poses(), fresh.poses())) << model;
-                EXPECT_EQ(kept.planner->statistics().expanded, fresh.planner->statistics().expanded);
+                const Pose pose = parking::poseOf(state);
+                return (std::abs(pose.x) > 1.0 || pose.y > 5.0) && FclFootprintChecker::isValid(state);
             }
-        }
+        };
+        class NotBeyond : public parking::SweptMotionValidator
+        {
+        public:
+            using SweptMotionValidator::checkMotion;
+            using SweptMotionValidator::SweptMotionValidator;
+            bool checkMotion(const ob::State *a, const ob::State *b) const override
+            {
+                return parking::poseOf(b).x < 9.0 && SweptMotionValidator::checkMotion(a, b);
+            }
+        };
+        const Site site = openSite(15.0);
+        PlanningProblem checked(Space::ReedsShepp, site);
+        checked.si->setStateValidityChecker(std::make_shared<NotInTheMiddle>(checked.si, site.set(), checked.vehicle));
+        checked.si->setMotionValidator(std::make_shared<parking::SweptMotionValidator>(checked.si));
+        checked.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
+        ASSERT_EQ(checked.solve(), Status::EXACT_SOLUTION);
+        og::PathGeometric path = checked.path();
+        path.interpolate(300);
+        for (const ob::State *state : path.getStates())
+            EXPECT_TRUE(checked.si->isValid(state)) << parking::poseOf(state).x << ", " << parking::poseOf(state).y;
+
+        PlanningProblem swept(Space::ReedsShepp, site);
+        swept.si->setMotionValidator(std::make_shared<NotBeyond>(swept.si));
+        const Pose near{8.0, 3.0, 0.0};
+        swept.from({-8.0, 0.0, 0.0}).to({{10.0, 0.0, 0.0}, near});
+        ASSERT_EQ(swept.solve(), Status::EXACT_SOLUTION);
+        EXPECT_TRUE(isSamePose(swept.poses().back(), near, SAME));
     }
 
-    TEST_F(PlannerContract, ClearQueryTakesUpANewMap)
+    TEST_F(PlannerContract, AYawOfPiIsOutOfBoundsButNoEnd)
     {
-        PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.from(AISLE).to({SLOT});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        Site site = slotSite();
-        site.obstacles.push_back(box(-3.0, -3.5, -2.5, -2.5));
-        problem.setObstacles(site.set());
-        EXPECT_FALSE(problem.path().check());
-        problem.planner->clearQuery();
-        problem.pdef->clearSolutionPaths();
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(problem.path().check());
+        for (const Space space : {Space::SE2, Space::ReedsShepp})
+            for (const bool another : {false, true})
+            {
+                PlanningProblem problem(space, openSite(15.0));
+                const auto goals = std::make_shared<ob::GoalStates>(problem.si);
+                ob::ScopedState<ob::SE2StateSpace> goal(problem.space);
+                goal->setXY(8.0, 0.0);
+                goal->setYaw(parking::PI);
+                goals->addState(goal);
+                if (another)
+                    goals->addState(problem.state({8.0, 3.0, 0.0}));
+                problem.from({-8.0, 0.0, 0.0});
+                problem.pdef->setGoal(goals);
+                const Status status = problem.solve();
+                EXPECT_EQ(status, another ? Status::EXACT_SOLUTION : Status::APPROXIMATE_SOLUTION);
+            }
+    }
+
+    TEST_F(PlannerContract, GridsAreNotLargerThanTheyCanBe)
+    {
+        PlanningProblem problem(Space::SE2, openSite(1500.0));
+        problem.set("motion_model", "grid8");
+        problem.set("xy_resolution", 0.5);
+        problem.from({1490.0, 0.0, 0.0}).to({{1480.0, 0.0, 0.0}});
+        try
+        {
+            problem.solve();
+            FAIL() << "beyond its last column a grid sees nothing";
+        }
+        catch (const ompl::Exception &error)
+        {
+            EXPECT_NE(std::string(error.what()).find("xy_resolution must be at least 0.73"), std::string::npos)
+                << error.what();
+        }
+        problem.set("xy_resolution", 0.75);
+        EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
     }
 
     // A motion validator that knows another map than the checker has the last word.
@@ -193,49 +123,6 @@ namespace
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         EXPECT_TRUE(isSamePose(problem.poses().back(), before, SAME));
         EXPECT_TRUE(problem.path().check());
-    }
-
-    TEST_F(PlannerContract, AnotherProblemDefinitionBeginsANewQuery)
-    {
-        PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.from(AISLE).to({SLOT});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        problem.pdef = std::make_shared<ob::ProblemDefinition>(problem.si);
-        const Pose start{8.0, -8.0, 2.0}, goal{-9.0, 8.0, 0.0};
-        problem.from(start).to({goal});
-        problem.planner->setProblemDefinition(problem.pdef);
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isSamePose(problem.poses().front(), start, SAME));
-        EXPECT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
-    }
-
-    TEST_F(PlannerContract, AnotherGoalObjectBeginsANewQuery)
-    {
-        PlanningProblem problem(Space::ReedsShepp, slotSite());
-        problem.from(AISLE).to({SLOT});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        const Pose goal{8.0, -6.0, 1.0};
-        problem.to({goal});
-        problem.pdef->clearSolutionPaths();
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
-    }
-
-    TEST_F(PlannerContract, AnotherParameterBeginsANewQuery)
-    {
-        PlanningProblem problem(Space::SE2, openSite(15.0));
-        problem.from(AISLE).to({{8.0, 5.0, 0.0}});
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        const auto turnsOnTheSpot = [&problem]
-        {
-            const std::vector<parking::PathPiece> &pieces = problem.planner->solutionPath()->pieces;
-            return std::any_of(pieces.begin(), pieces.end(), [](const auto &piece) { return piece.turn != 0.0; });
-        };
-        EXPECT_FALSE(turnsOnTheSpot());
-        problem.set("motion_model", "grid8");
-        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
-        EXPECT_TRUE(turnsOnTheSpot());
-        EXPECT_GT(problem.planner->statistics().expanded, 0u);
     }
 
     TEST_F(PlannerContract, TakesNoTimeWhenThereIsNone)

@@ -247,6 +247,30 @@ namespace
         EXPECT_NEAR(std::stod(progress(*other.planner, "best cost REAL")), 2.0 * other.path().length(), 1e-5);
     }
 
+    // Costs of two objectives are not compared.
+    TEST_F(PlannerReporting, AnotherObjectiveBetweenTwoCallsPricesTheSolutionAnew)
+    {
+        class Thousandfold : public ob::PathLengthOptimizationObjective
+        {
+        public:
+            using PathLengthOptimizationObjective::PathLengthOptimizationObjective;
+            ob::Cost motionCost(const ob::State *a, const ob::State *b) const override
+            {
+                return ob::Cost(1000.0 * si_->distance(a, b));
+            }
+        };
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(AISLE).to({SLOT});
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        const double before = std::stod(progress(*problem.planner, "best cost REAL"));
+        problem.pdef->setOptimizationObjective(std::make_shared<Thousandfold>(problem.si));
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_NEAR(std::stod(progress(*problem.planner, "best cost REAL")), 1000.0 * problem.path().length(), 0.1);
+        problem.pdef->setOptimizationObjective(nullptr);
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_NEAR(std::stod(progress(*problem.planner, "best cost REAL")), before, 1e-5);
+    }
+
     TEST_F(PlannerReporting, TheLengthReportedIsThatOfThePath)
     {
         for (const Space kind : {Space::SE2, Space::ReedsShepp, Space::Dubins})
@@ -280,6 +304,8 @@ namespace
         EXPECT_LT(first, 5.0);
         ASSERT_EQ(problem.solveForQuestions(5000), Status::EXACT_SOLUTION);
         EXPECT_LE(problem.planner->suboptimalityBound(), first + 1e-9);
+        problem.planner->clearQuery();
+        EXPECT_EQ(problem.planner->suboptimalityBound(), std::numeric_limits<double>::infinity());
     }
 
     TEST_F(PlannerReporting, SimpleSetupPlansTwice)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include <ompl/base/DiscreteMotionValidator.h>
@@ -120,6 +121,28 @@ namespace
                 EXPECT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
                 EXPECT_TRUE(problem.path().check());
             }
+    }
+
+    // The last piece may be shorter than any tolerance: taken for a turn on the spot it would be a circle.
+    TEST_F(PlannerSpaces, ShortLastPiecesStayPieces)
+    {
+        parking::Vehicle car;
+        car.wheelbase = 0.3;
+        car.frontOverhang = car.rearOverhang = 0.1;
+        car.width = 0.3;
+        car.maxSteeringAngle = std::atan(car.wheelbase / 0.5);
+        const parking::Box bounds{{-15.0, -15.0}, {15.0, 15.0}};
+        for (const Space space : {Space::Dubins, Space::ReedsShepp})
+        {
+            PlanningProblem problem(space, bounds, car);
+            problem.setObstacles(
+                parking::ObstacleSet::fromPolygons({box(-1.0, 0.3, 5.0, 0.4), box(-1.0, -0.4, 5.0, -0.3)}, bounds));
+            problem.makePlanner();
+            problem.from({0.0, 0.0, 0.0}).to({{3.0000009, 8.1e-13, 1.8e-6}});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            EXPECT_LT(problem.path().length(), 3.01);
+            EXPECT_TRUE(problem.path().check());
+        }
     }
 
     TEST_F(PlannerSpaces, OtherSpacesAreRefused)

@@ -115,7 +115,7 @@ namespace
             PlanningProblem problem(Space::SE2, openSite(300.0));
             problem.set("motion_model", model);
             problem.set("obstacle_loading", "eager");
-            problem.set("xy_resolution", 0.1);
+            problem.set("xy_resolution", 0.15);
             problem.from({-250.0, -250.0, 0.0}).to({{250.0, 250.0, 0.0}});
             expectPrompt(problem, 2000, {}, 100);
             EXPECT_EQ(problem.planner->statistics().expanded, 0u)
@@ -157,6 +157,23 @@ namespace
             problem.set("motion_model", model);
             problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
             expectPrompt(problem, 200, [&checked] { return checked; });
+        }
+    }
+
+    // Whatever the number of headings in a cell.
+    TEST_F(PlannerTermination, WhileAnyCheckerIsAskedBeforehand)
+    {
+        for (const char *model : {"grid8", "grid16", "grid32"})
+        {
+            std::uint64_t checked = 0;
+            SCOPED_TRACE(model);
+            PlanningProblem problem(Space::SE2, openSite(20.0).bounds,
+                                    [&checked](const Pose &) { return ++checked > 0; });
+            problem.set("motion_model", model);
+            problem.set("obstacle_loading", "eager");
+            problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
+            expectPrompt(
+                problem, 40, [&checked] { return checked; }, 100);
         }
     }
 

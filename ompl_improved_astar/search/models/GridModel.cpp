@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/models/GridModel.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace parking::search
     {
         constexpr double RESOLUTION = 0.5;  // metres, where the user leaves the choice (the paper's)
         // Often, since a checker may take a tenth of a millisecond for each of the states that these ask for.
-        constexpr std::int64_t CELLS_BETWEEN_STOPS = 8;
+        constexpr std::int64_t STATES_BETWEEN_STOPS = 8;
         constexpr double SAME_HEADING = 1e-9;  // radians
     }                                          // namespace
 
@@ -37,9 +38,16 @@ namespace parking::search
         parameters_ = &parameters;
         resolution_ = parameters.xyResolution > 0.0 ? parameters.xyResolution : RESOLUTION;
         const Eigen::Vector2d size = parameters.bounds.size() / resolution_;
+        constexpr double MOST = 2.0 * TiledGrid<Cell>::REACH;
+        // Written so that NaN does not pass.
+        if (!(size.maxCoeff() <= MOST))
+            throw Error("a grid has at most " + formatNumber(MOST) + " cells along x and y: for bounds of " +
+                        formatNumber(parameters.bounds.size().maxCoeff()) + " m xy_resolution must be at least " +
+                        formatNumber(parameters.bounds.size().maxCoeff() / MOST) + " m, not " +
+                        formatNumber(resolution_));
         const auto cellsAlong = [](double length)
         {
-            return static_cast<std::int32_t>(std::clamp(std::ceil(length), 1.0, 2.0 * TiledGrid<Cell>::REACH));
+            return static_cast<std::int32_t>(std::max(1.0, std::ceil(length)));
         };
         columns_ = cellsAlong(size.x());
         rows_ = cellsAlong(size.y());
@@ -109,9 +117,11 @@ namespace parking::search
     {
         const std::size_t headings = environment_->headingMatters() ? steps_.size() : 1;
         const std::int64_t count = static_cast<std::int64_t>(columns_) * rows_;
+        const auto cellsBetweenStops =
+            std::max<std::int64_t>(1, STATES_BETWEEN_STOPS / static_cast<std::int64_t>(headings));
         for (; loaded_ < count; ++loaded_)
         {
-            if (loaded_ % CELLS_BETWEEN_STOPS == 0 && stop && stop())
+            if (loaded_ % cellsBetweenStops == 0 && stop && stop())
                 return false;
             const Place place{static_cast<std::int32_t>(loaded_ % columns_),
                               static_cast<std::int32_t>(loaded_ / columns_)};

@@ -102,7 +102,7 @@ namespace parking_test
             }
         }
 
-        /** rief Of the paper's search on this grid; from the start where it is from one side. */
+        /** \brief Of the paper's search on this grid; from the start where it is from one side. */
         parking::search::SearchParameters parameters() const
         {
             parking::search::SearchParameters result;
