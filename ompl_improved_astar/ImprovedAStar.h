@@ -162,7 +162,8 @@ namespace ompl::geometric
         void priceAnew();
         double differenceFromGoal(const base::State *state) const;
         bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
-        base::PlannerStatus report(const std::vector<parking::Pose> &poses, bool approximate);
+        void endAtGoal(std::vector<parking::Pose> &poses) const;
+        base::PlannerStatus report(std::vector<parking::Pose> poses, bool approximate);
 
         parking::PlannerParameters parameters_;
         std::unique_ptr<Query> query_;

@@ -75,7 +75,8 @@ namespace ompl::geometric
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
         const Path path = smoothed(found, ptc);
-        const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
+        const std::vector<Pose> states =
+            parking::straightened(parking::pathStates(path, query_->stateSpacing()), si_->getStateSpace());
         const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
         const ob::Cost cost = costOf(path, *geometric, found);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
@@ -144,7 +145,8 @@ namespace ompl::geometric
         };
         if (!query_->planner.approximate(target, stop, nearest))
             return ob::PlannerStatus::TIMEOUT;
-        std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
+        std::vector<Pose> states = parking::straightened(
+            parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing()), si_->getStateSpace());
         // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
         // planner has been told to stop.
         if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
@@ -179,35 +181,36 @@ namespace ompl::geometric
         return difference;
     }
 
-    ob::PlannerStatus ImprovedAStar::report(const std::vector<Pose> &poses, bool approximate)
+    void ImprovedAStar::endAtGoal(std::vector<Pose> &poses) const
     {
-        const std::shared_ptr<PathGeometric> path = geometricPath(poses);
-        if (!approximate)
+        // The exact goal; the path ends there up to rounding.
+        const Pose end = poses.back();
+        const auto off = [&end](const Pose &goal)
         {
-            // The exact goal; the path ends there up to rounding.
-            const Pose &end = poses.back();
-            const auto off = [&end](const Pose &goal)
-            {
-                return positionDistance(goal, end) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
-            };
-            const auto goal = std::min_element(query_->goals.begin(), query_->goals.end(),
-                                               [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
-            if (path->getStateCount() == 1)
-                path->append(path->getState(0));
-            // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but
-            // OMPL must not take it for a turn on the spot.)
-            for (std::size_t i = path->getStateCount(); i-- > 1 && query_->turnsOnTheSpot;)
-            {
-                const Pose pose = parking::poseOf(path->getState(i));
-                if (positionDistance(pose, *goal) > 1e-6)
-                    break;
-                parking::setPose(path->getState(i), {goal->x, goal->y, pose.yaw});
-            }
-            parking::setPose(path->getState(path->getStateCount() - 1), *goal);
-        }
+            return positionDistance(goal, end) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
+        };
+        const Pose goal = *std::min_element(query_->goals.begin(), query_->goals.end(),
+                                            [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
+        if (poses.size() == 1)
+            poses.push_back(end);
+        // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but OMPL
+        // must not take it for a turn on the spot.)
+        for (std::size_t i = poses.size();
+             i-- > 1 && query_->turnsOnTheSpot && positionDistance(poses[i], goal) <= 1e-6;)
+            poses[i] = {goal.x, goal.y, poses[i].yaw};
+        poses.back() = goal;
+        // With the last digits of another end.
+        poses = parking::straightened(std::move(poses), si_->getStateSpace());
+    }
+
+    ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)
+    {
+        if (!approximate)
+            endAtGoal(poses);
+        const std::shared_ptr<PathGeometric> path = geometricPath(poses);
         query_->solution.clear();
-        for (std::size_t i = 0; i < path->getStateCount() && !approximate; ++i)
-            query_->solution.push_back(parking::poseOf(path->getState(i)));
+        if (!approximate)
+            query_->solution = std::move(poses);
         double difference = 0.0;
         if (approximate)
             difference = differenceFromGoal(path->getState(path->getStateCount() - 1));

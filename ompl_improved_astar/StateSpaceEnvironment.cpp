@@ -1,10 +1,13 @@
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 
+#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace ob = ompl::base;
 
@@ -16,33 +19,22 @@ namespace parking
         // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
         constexpr double RADIANS_PER_STATE = 0.8;
 
-        /** Calls visit(pose) for the states after the start, in order, until it returns false. \return false then */
-        template <class Visit>
-        bool forEachState(const Path &path, const StateSpacing &spacing, const Visit &visit)
+        constexpr double STRAIGHT = 1e-9;  // metres and radians by which what is straight may deviate
+        // Of a short line: where to put a state.
+        constexpr double FRACTIONS[] = {0.5, 0.37, 0.63, 0.29, 0.71, 0.43, 0.57, 0.23, 0.77, 0.17, 0.83, 0.11, 0.89};
+
+        bool swerves(const Pose &from, const Pose &to, const CurveSpace &curves, ob::ScopedState<> &first,
+                     ob::ScopedState<> &second)
         {
-            Pose pose = path.start;
-            for (const PathPiece &piece : path.pieces)
-            {
-                const double sharpest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
-                double states = std::ceil(piece.driven() * sharpest / RADIANS_PER_STATE);
-                const bool gentle =
-                    sharpest > 0.0 && (sharpest < (1.0 - 1e-9) * spacing.sharpestCurvature || piece.sharpness != 0.0);
-                const double dense = gentle ? spacing.onGentleArcs : sharpest > 0.0 ? spacing.onArcs : 0.0;
-                if (dense > 0.0)
-                    states = std::max(states, std::ceil(piece.driven() / dense));
-                states = std::max(states, 1.0);
-                states = std::max(states, std::ceil(std::abs(piece.turn) / PathPiece::LONGEST_TURN));
-                for (double i = 1.0; i <= states; i += 1.0)
-                {
-                    Pose next = piece.turn != 0.0 ? Pose{pose.x, pose.y, pose.yaw + piece.turn * i / states}
-                                                  : advance(pose, piece, piece.driven() * i / states);
-                    next.yaw = wrapAngle(next.yaw);
-                    if (!visit(next))
-                        return false;
-                }
-                pose = advance(pose, piece);
-            }
-            return true;
+            const double length = positionDistance(from, to);
+            const Pose seen = relativeTo(from, to);
+            if (length >= curves.turningRadius() || std::abs(seen.y) > STRAIGHT || std::abs(seen.yaw) > STRAIGHT)
+                return false;
+            setPose(first.get(), from);
+            setPose(second.get(), to);
+            ReedsSheppCurve curve;
+            curves.curve(first.get(), second.get(), curve);
+            return curve.length > length + STRAIGHT * (1.0 + length);
         }
     }  // namespace
 
@@ -55,13 +47,56 @@ namespace parking
     std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing)
     {
         std::vector<Pose> poses{path.start};
-        forEachState(path, spacing,
-                     [&poses](const Pose &pose)
-                     {
-                         poses.push_back(pose);
-                         return true;
-                     });
+        Pose pose = path.start;
+        for (const PathPiece &piece : path.pieces)
+        {
+            const double sharpest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            double states = std::ceil(piece.driven() * sharpest / RADIANS_PER_STATE);
+            const bool gentle =
+                sharpest > 0.0 && (sharpest < (1.0 - 1e-9) * spacing.sharpestCurvature || piece.sharpness != 0.0);
+            const double dense = gentle ? spacing.onGentleArcs : sharpest > 0.0 ? spacing.onArcs : 0.0;
+            if (dense > 0.0)
+                states = std::max(states, std::ceil(piece.driven() / dense));
+            states = std::max(states, 1.0);
+            states = std::max(states, std::ceil(std::abs(piece.turn) / PathPiece::LONGEST_TURN));
+            for (double i = 1.0; i <= states; i += 1.0)
+            {
+                Pose next = piece.turn != 0.0 ? Pose{pose.x, pose.y, pose.yaw + piece.turn * i / states}
+                                              : advance(pose, piece, piece.driven() * i / states);
+                next.yaw = wrapAngle(next.yaw);
+                poses.push_back(next);
+            }
+            pose = advance(pose, piece);
+        }
         return poses;
+    }
+
+    std::vector<Pose> straightened(std::vector<Pose> poses, const ob::StateSpacePtr &space)
+    {
+        const CurveSpace curves(*space);
+        if (curves.kind() != SpaceKind::ReedsShepp)
+            return poses;
+        ob::ScopedState<> first(space), second(space);
+        std::vector<Pose> result;
+        result.reserve(poses.size());
+        for (const Pose &pose : poses)
+        {
+            if (!result.empty() && swerves(result.back(), pose, curves, first, second))
+            {
+                const Pose from = result.back();
+                for (const double fraction : FRACTIONS)
+                {
+                    const Pose between{from.x + fraction * (pose.x - from.x), from.y + fraction * (pose.y - from.y),
+                                       from.yaw};
+                    if (swerves(from, between, curves, first, second) || swerves(between, pose, curves, first, second))
+                        continue;
+                    result.push_back(between);
+                    break;
+                }
+            }
+            result.push_back(pose);
+        }
+        return result;
     }
 
     StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step,
@@ -133,13 +168,10 @@ namespace parking
 
     bool StateSpaceEnvironment::acceptPath(const Path &path)
     {
-        Pose from = path.start;
-        return forEachState(path, stateSpacing_,
-                            [this, &from](const Pose &to)
-                            {
-                                const bool free = !isTimeUp() && isMotionFree(from, to);
-                                from = to;
-                                return free;
-                            });
+        const std::vector<Pose> poses = straightened(pathStates(path, stateSpacing_), si_->getStateSpace());
+        for (std::size_t i = 1; i < poses.size(); ++i)
+            if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
+                return false;
+        return true;
     }
 }  // namespace parking

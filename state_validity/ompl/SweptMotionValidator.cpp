@@ -22,6 +22,10 @@ namespace parking
     namespace
     {
         constexpr double MAX_TOLERANCE = 0.1;
+        // Where clearances decide: nearer than these parts of the tolerance nothing is proven, on the way and at an
+        // end.
+        constexpr double CLOSEST = 0.1, CLOSEST_END = 1e-4;
+        constexpr int MOST_TIGHT = 4096;  // questions nearer than the tolerance, which prove little each
 
         std::shared_ptr<const FootprintChecker> footprintOf(const ob::SpaceInformationPtr &si)
         {
@@ -164,16 +168,50 @@ namespace parking
         {
             const Arc &arc = curve.pieces[i];
             const double wanted = std::abs(arc.length);
-            double free = lengthWithin(bounds, pose, arc.curvature, arc.length);
-            free = std::min(
-                free, footprint_->freeLength(pose, arc.curvature, std::copysign(free, arc.length), tolerance_, counts));
-            if (free < wanted)
+            const Pose end = advance(pose, arc.curvature, arc.length);
+            const double inside = lengthWithin(bounds, pose, arc.curvature, arc.length);
+            const double free = std::min(
+                inside,
+                footprint_->freeLength(pose, arc.curvature, std::copysign(inside, arc.length), tolerance_, counts));
+            if (free < wanted && (inside < wanted || !(isLeaving(end, {arc.curvature, -arc.length}, counts) ||
+                                                       isPassing(pose, arc, free, counts))))
                 return {false, (driven + free) / curve.length,
                         advance(pose, arc.curvature, std::copysign(free, arc.length))};
-            pose = advance(pose, arc.curvature, arc.length);
+            pose = end;
             driven += wanted;
         }
         return {true, 1.0, pose};
+    }
+
+    bool SweptMotionValidator::isLeaving(const Pose &from, const Arc &arc, CheckCounts &counts) const
+    {
+        const FootprintChecker::SweepStart start = footprint_->sweepStart(from, tolerance_, counts);
+        return start.enlargement > 0.0 && start.enlargement < tolerance_ &&
+               footprint_->freeLength(start, arc.curvature, arc.length, counts) >= std::abs(arc.length);
+    }
+
+    bool SweptMotionValidator::isPassing(const Pose &from, const Arc &arc, double free, CheckCounts &counts) const
+    {
+        const auto at = [&](double driven)
+        {
+            return advance(from, arc.curvature, std::copysign(driven, arc.length));
+        };
+        const double rest = std::abs(arc.length) - free;
+        // Mostly the body collides just beyond.
+        if (!footprint_->isFree(at(free + std::min(rest, 2.0 * tolerance_)), counts))
+            return false;
+        return proveByClearances([&](double t) { return at(free + t * rest); },
+                                 rest * footprint_->speedFactor(arc.curvature), false, counts)
+            .whole;
+    }
+
+    double SweptMotionValidator::toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const
+    {
+        double tolerance = CLOSEST * tolerance_;
+        for (const Pose &pose : {from, to})
+            if (!footprint_->keeps(pose, 2.0 * tolerance, counts))
+                tolerance = std::min(tolerance, 0.5 * footprint_->exactClearance(pose));
+        return std::max(tolerance, CLOSEST_END * tolerance_);
     }
 
     SweptMotionValidator::Proof SweptMotionValidator::proveLine(const Pose &from, const Pose &to, bool exact,
@@ -186,15 +224,20 @@ namespace parking
         {
             return Pose{from.x + t * dx, from.y + t * dy, from.yaw + t * turn};
         };
-        // Metres that the fastest point of the body moves at most over the whole motion.
-        const double length =
-            (std::hypot(dx, dy) + std::abs(turn) * footprint_->farthestPoint()) * (1.0 + 1e-9) + 1e-12;
+        return proveByClearances(at, std::hypot(dx, dy) + std::abs(turn) * footprint_->farthestPoint(), exact, counts);
+    }
 
+    template <class At>
+    SweptMotionValidator::Proof SweptMotionValidator::proveByClearances(const At &at, double moved, bool exact,
+                                                                        CheckCounts &counts) const
+    {
+        const double length = moved * (1.0 + 1e-9) + 1e-12;
         // Stretches still to be proven free, the earliest on top: all before its begin is proven.
         std::array<std::pair<double, double>, 128> open;
         std::size_t count = 0;
         open[count++] = {0.0, 1.0};
-        double proven = 0.0;
+        double proven = 0.0, tolerance = tolerance_;
+        int tight = 0;
         while (count > 0)
         {
             const auto [begin, end] = open[--count];
@@ -209,10 +252,14 @@ namespace parking
                 continue;
             }
             proven = begin;
-            if (clearance < tolerance_)
+            if (clearance > 0.0 && clearance < tolerance && tolerance == tolerance_)
+                tolerance = toleranceBetween(at(0.0), at(1.0), counts);
+            if (clearance < tolerance_ && ++tight > MOST_TIGHT)
+                break;
+            if (clearance < tolerance)
             {
                 // Not free here, or too near to tell; all that matters now is how much is free before.
-                if (!exact || half < tolerance_)
+                if (!exact || half < tolerance)
                     break;
                 count = 0;
                 open[count++] = {begin, middle};
@@ -224,6 +271,6 @@ namespace parking
             open[count++] = {middle + covered, end};
             open[count++] = {begin, middle - covered};
         }
-        return proven >= 1.0 ? Proof{true, 1.0, to} : Proof{false, proven, at(proven)};
+        return proven >= 1.0 ? Proof{true, 1.0, at(1.0)} : Proof{false, proven, at(proven)};
     }
 }  // namespace parking

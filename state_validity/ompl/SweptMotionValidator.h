@@ -20,10 +20,13 @@ namespace parking
         farther than the clearance there (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of
         rigid body systems", 1996), halving what remains.
 
+        What a sweep cannot prove, since the body passes an obstacle nearer than 1.5 times the tolerance, is swept from
+        its end as well, and proven by clearances in the same way.
+
         Sound, not complete: a motion during which the body touches an obstacle is never accepted. A motion may be
-        rejected although it is free when the body, somewhere on the way, is nearer than 1.5 times the tolerance to an
-        obstacle (and at least the tolerance away otherwise accepted). Where a motion starts nearer than that, the
-        tolerance shrinks so that a car can drive away from an obstacle that it all but touches.
+        rejected although it is free when the body, somewhere on the way, is nearer to an obstacle than a tenth of the
+        tolerance, or drives along one nearer than the tolerance for metres. Where an end of a motion is nearer than
+        that a car can drive away from what it all but touches, and up to it.
 
         Motions must also stay within the bounds of the state space, and the end state must be valid by the space
         information's own state validity checker; the start is taken to be valid, as everywhere in OMPL. */
@@ -93,6 +96,16 @@ namespace parking
         /** \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
         Proof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
         Proof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
+        /** Does the arc leave what the body all but touches, and is it free? */
+        bool isLeaving(const Pose &from, const Arc &arc, CheckCounts &counts) const;
+        /** Is the arc free by clearances, beyond those metres that are known to be? */
+        bool isPassing(const Pose &from, const Arc &arc, double free, CheckCounts &counts) const;
+        /** \param at the pose at a fraction of the motion
+            \param moved metres that no point of the body exceeds on it */
+        template <class At>
+        Proof proveByClearances(const At &at, double moved, bool exact, CheckCounts &counts) const;
+        /** Metres: nearer than that clearances prove nothing between two poses, which may be near to obstacles. */
+        double toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const;
         Proof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
 
         CurveSpace space_;

@@ -1,5 +1,6 @@
 // The spaces and checkers that the planner works with, and those that it refuses.
 
+#include "benchmarks/worlds/Random.h"
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
 #include <gtest/gtest.h>
@@ -143,6 +144,49 @@ namespace
             EXPECT_LT(problem.path().length(), 3.01);
             EXPECT_TRUE(problem.path().check());
         }
+    }
+
+    // OMPL's Reeds-Shepp space swerves along some short straight lines, which the last digits of their ends decide.
+    TEST_F(PlannerSpaces, ShortStraightLinesStayStraight)
+    {
+        Random random(1);
+        int swerving = 0;
+        for (int i = 0; i < 300; ++i)
+        {
+            const Pose start{random.between(-12.0, 12.0), random.between(-12.0, 12.0), random.between(-3.1, 3.1)};
+            const double length = random.magnitude(0.01, 0.15);
+            const Pose goal = advance(start, 0.0, length);
+            PlanningProblem problem(Space::ReedsShepp, openSite(20.0));
+            problem.from(start).to({goal});
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            ob::ScopedState<> first(problem.si), last(problem.si);
+            parking::setPose(first.get(), start);
+            parking::setPose(last.get(), goal);
+            swerving += problem.space->distance(first.get(), last.get()) > 1.01 * std::abs(length);
+            ASSERT_NEAR(problem.path().length(), std::abs(length), 1e-6);
+            ASSERT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
+        }
+        EXPECT_GT(swerving, 3);
+    }
+
+    // A car parked a tenth of a millimetre from a wall is somewhere to start from and to drive to.
+    TEST_F(PlannerSpaces, StartsAndGoalsMayAllButTouch)
+    {
+        const parking::Vehicle car;
+        const double front = car.wheelbase + car.frontOverhang, rear = car.rearOverhang;
+        for (const Space space : {Space::ReedsShepp, Space::SE2, Space::Dubins})
+            for (const double gap : {1e-5, 1e-4, 6e-4})
+            {
+                SCOPED_TRACE(gap);
+                // Behind the start and ahead of the goal.
+                const Site site{{box(-9.0 - rear - gap - 0.5, -2.0, -9.0 - rear - gap, 2.0),
+                                 box(7.0 + front + gap, 2.0, 7.0 + front + gap + 0.5, 6.0)},
+                                {{-15.0, -15.0}, {15.0, 15.0}}};
+                PlanningProblem problem(space, site);
+                problem.from({-9.0, 0.0, 0.0}).to({{7.0, 4.0, 0.0}});
+                ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+                EXPECT_TRUE(problem.path().check());
+            }
     }
 
     TEST_F(PlannerSpaces, OtherSpacesAreRefused)

@@ -4,6 +4,8 @@
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <memory>
@@ -223,6 +225,121 @@ TEST(SweptMotionValidator, AcceptsWhatKeepsItsDistance)
         }
         EXPECT_GT(free, 30);
     }
+}
+
+/** A car may park a tenth of a millimetre from a wall: it drives up to it and away from it, by whatever is proven free.
+ */
+TEST(SweptMotionValidator, MotionsMayBeginAndEndWhereTheBodyAllButTouches)
+{
+    constexpr double RADIUS = 3.0056;
+    for (const SpacePtr &space : {reedsShepp(), plain()})
+    {
+        const bool curved = dynamic_cast<ob::ReedsSheppStateSpace *>(space.get()) != nullptr;
+        int upTo = 0, along = 0, accepted = 0;
+        for (std::uint64_t seed = 0; seed < 24; ++seed)
+        {
+            const World world = randomPolygonWorld(seed);
+            const Planar setup(space, world.obstacles, world.bounds);
+            const FootprintChecker &footprint = setup.validator->footprint();
+            ob::ScopedState<> a(setup.si), b(setup.si), scratch(setup.si);
+            Random random(seed);
+            CheckCounts counts;
+            for (int i = 0; i < 300; ++i)
+            {
+                const Pose from = world.anywhere(random);
+                const double curvature = curved ? (static_cast<int>(random.index(3)) - 1) / RADIUS : 0.0;
+                const double length = random.chance(0.5) ? 3.0 : -3.0;
+                const double free = footprint.freeLength(from, curvature, length, 1e-6, counts);
+                const double back = std::pow(10.0, random.between(-6.0, -3.0));
+                if (free == 3.0 || free < 0.1 || !(footprint.exactClearance(from) > 1.5 * TOLERANCE))
+                    continue;
+                const Pose near = advance(from, curvature, std::copysign(free - back, length));
+                const double clearance = footprint.exactClearance(near);
+                setPose(a.get(), from);
+                setPose(b.get(), near);
+                if (clearance > TOLERANCE || !setup.si->satisfiesBounds(b.get()))
+                    continue;
+                // Nowhere nearer than where it ends, and along that arc also by the space, which swerves along some
+                // short straight lines.
+                bool leaves = clearance > 2e-7 &&
+                              std::max(setup.si->distance(a.get(), b.get()), setup.si->distance(b.get(), a.get())) <
+                                  1.001 * (free - back);
+                for (double driven = 0.0; driven < free - back && leaves; driven += 0.001)
+                    leaves =
+                        footprint.keeps(advance(from, curvature, std::copysign(driven, length)), clearance, counts);
+                if (leaves)
+                {
+                    ++upTo;
+                    ASSERT_TRUE(setup.validator->checkMotion(a.get(), b.get())) << clearance;
+                    ASSERT_TRUE(setup.validator->checkMotion(b.get(), a.get())) << clearance;
+                }
+                // To the side as well: what is accepted is free.
+                setPose(a.get(), compose(near, {random.between(-0.4, 0.4), random.between(-0.02, 0.02),
+                                                random.between(-0.02, 0.02)}));
+                for (const bool forth : {true, false})
+                {
+                    const ob::State *first = forth ? a.get() : b.get(), *second = forth ? b.get() : a.get();
+                    ++along;
+                    if (!setup.si->isValid(a.get()) || !setup.validator->checkMotion(first, second))
+                        continue;
+                    ++accepted;
+                    const int steps = static_cast<int>(setup.si->distance(first, second) / 0.002) + 1;
+                    for (int k = 0; k <= steps; ++k)
+                        ASSERT_TRUE(world.oracle.isFree(
+                            between(setup, first, second, static_cast<double>(k) / steps, scratch.get()),
+                            setup.vehicle));
+                }
+            }
+        }
+        EXPECT_GT(upTo, 50);
+        EXPECT_GT(accepted, 20);
+        EXPECT_GT(along - accepted, 50);
+    }
+}
+
+/** Too many questions for clearances, but from its end the arc is one that leaves. */
+TEST(SweptMotionValidator, ABodyMayGlideUpToAWallThatHardlyConverges)
+{
+    constexpr double LENGTH = 3.0, SLOPE = 1e-4, GAP = 1e-6;
+    const Vehicle car;
+    const double front = car.wheelbase + car.frontOverhang, side = 0.5 * car.width + GAP;
+    const Polygon wall = {
+        {front - 8.0, side + 8.0 * SLOPE}, {front, side}, {front, side + 1.0}, {front - 8.0, side + 1.0}};
+    const Box bounds{{-15.0, -15.0}, {15.0, 15.0}};
+    const Planar setup(reedsShepp(), ObstacleSet::fromPolygons({wall}, bounds), bounds);
+    ob::ScopedState<> far(setup.si), near(setup.si), beyond(setup.si);
+    setPose(far.get(), {-LENGTH, 0.0, 0.0});
+    setPose(near.get(), {0.0, 0.0, 0.0});
+    setPose(beyond.get(), {0.0, 2.0 * GAP, 0.0});
+    EXPECT_TRUE(setup.validator->checkMotion(far.get(), near.get()));
+    EXPECT_TRUE(setup.validator->checkMotion(near.get(), far.get()));
+    EXPECT_FALSE(setup.si->isValid(beyond.get()));
+    EXPECT_FALSE(setup.validator->checkMotion(far.get(), beyond.get()));
+}
+
+/** A corner of the body swings past a post: what the enlarged body cannot do, clearances prove. */
+TEST(SweptMotionValidator, ABodyMaySwingPastAPostWithinTheTolerance)
+{
+    constexpr double RADIUS = 3.0056;
+    const Vehicle car;
+    // The front corner's way round the centre of the turn, and the post's corner outside of it.
+    const double swing = std::hypot(RADIUS + 0.5 * car.width, car.wheelbase + car.frontOverhang);
+    for (const auto &[gap, free] : {std::pair(2e-3, true), {1.2e-3, true}, {2e-4, true}, {5e-5, false}, {-1e-6, false}})
+        for (const SpacePtr &space : {reedsShepp(), dubins()})
+        {
+            const double x = (swing + gap) * std::sqrt(0.5), y = RADIUS - x;
+            const Planar setup(space,
+                               ObstacleSet::fromPolygons({{{x, y - 1.0}, {x + 1.0, y - 1.0}, {x + 1.0, y}, {x, y}}},
+                                                         {{-15.0, -15.0}, {15.0, 15.0}}),
+                               {{-15.0, -15.0}, {15.0, 15.0}});
+            ob::ScopedState<> a(setup.si), b(setup.si);
+            setPose(a.get(), advance({}, 1.0 / RADIUS, -0.9));
+            setPose(b.get(), advance({}, 1.0 / RADIUS, 0.9));
+            ASSERT_TRUE(setup.si->isValid(a.get()) && setup.si->isValid(b.get()));
+            EXPECT_EQ(setup.validator->checkMotion(a.get(), b.get()), free) << gap;
+            std::pair<ob::State *, double> last{nullptr, 1.0};
+            EXPECT_EQ(setup.validator->checkMotion(a.get(), b.get(), last), free);
+        }
 }
 
 /** In a parallel slot OMPL's own validators let curves through that cut a corner of a neighbour. */
