@@ -75,8 +75,8 @@ namespace ompl::geometric
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
         const Path path = smoothed(found, ptc);
-        const std::vector<Pose> states =
-            parking::straightened(parking::pathStates(path, query_->stateSpacing()), si_->getStateSpace());
+        const std::vector<Pose> states = parking::straightened(parking::pathStates(path, query_->stateSpacing()),
+                                                               si_->getStateSpace(), *query_->space);
         const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
         const ob::Cost cost = costOf(path, *geometric, found);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
@@ -146,7 +146,7 @@ namespace ompl::geometric
         if (!query_->planner.approximate(target, stop, nearest))
             return ob::PlannerStatus::TIMEOUT;
         std::vector<Pose> states = parking::straightened(
-            parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing()), si_->getStateSpace());
+            parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing()), si_->getStateSpace(), *query_->space);
         // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
         // planner has been told to stop.
         if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
@@ -200,7 +200,7 @@ namespace ompl::geometric
             poses[i] = {goal.x, goal.y, poses[i].yaw};
         poses.back() = goal;
         // With the last digits of another end.
-        poses = parking::straightened(std::move(poses), si_->getStateSpace());
+        poses = parking::straightened(std::move(poses), si_->getStateSpace(), *query_->space);
     }
 
     ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)

@@ -23,18 +23,24 @@ namespace parking
         // Of a short line: where to put a state.
         constexpr double FRACTIONS[] = {0.5, 0.37, 0.63, 0.29, 0.71, 0.43, 0.57, 0.23, 0.77, 0.17, 0.83, 0.11, 0.89};
 
-        bool swerves(const Pose &from, const Pose &to, const CurveSpace &curves, ob::ScopedState<> &first,
-                     ob::ScopedState<> &second)
+        constexpr double SHORT = 0.25;  // turning radii below which a line may be no straight one for OMPL
+
+        bool isShortLine(const Pose &from, const Pose &to, double turningRadius)
         {
-            const double length = positionDistance(from, to);
-            const Pose seen = relativeTo(from, to);
-            if (length >= curves.turningRadius() || std::abs(seen.y) > STRAIGHT || std::abs(seen.yaw) > STRAIGHT)
+            if (positionDistance(from, to) >= SHORT * turningRadius)
                 return false;
+            const Pose seen = relativeTo(from, to);
+            return std::abs(seen.y) <= STRAIGHT && std::abs(seen.yaw) <= STRAIGHT;
+        }
+
+        bool swerves(const Pose &from, const Pose &to, const ob::StateSpacePtr &space, const CurveSpace &curves)
+        {
+            ob::ScopedState<> first(space), second(space);
             setPose(first.get(), from);
             setPose(second.get(), to);
             ReedsSheppCurve curve;
             curves.curve(first.get(), second.get(), curve);
-            return curve.length > length + STRAIGHT * (1.0 + length);
+            return curve.length > positionDistance(from, to) + STRAIGHT;
         }
     }  // namespace
 
@@ -71,37 +77,31 @@ namespace parking
         return poses;
     }
 
-    std::vector<Pose> straightened(std::vector<Pose> poses, const ob::StateSpacePtr &space)
+    std::vector<Pose> straightened(std::vector<Pose> poses, const ob::StateSpacePtr &space, const CurveSpace &curves)
     {
-        const CurveSpace curves(*space);
         if (curves.kind() != SpaceKind::ReedsShepp)
             return poses;
-        ob::ScopedState<> first(space), second(space);
-        std::vector<Pose> result;
-        result.reserve(poses.size());
-        for (const Pose &pose : poses)
+        for (std::size_t i = 1; i < poses.size(); ++i)
         {
-            if (!result.empty() && swerves(result.back(), pose, curves, first, second))
+            const Pose from = poses[i - 1], to = poses[i];
+            if (!isShortLine(from, to, curves.turningRadius()) || !swerves(from, to, space, curves))
+                continue;
+            for (const double fraction : FRACTIONS)
             {
-                const Pose from = result.back();
-                for (const double fraction : FRACTIONS)
-                {
-                    const Pose between{from.x + fraction * (pose.x - from.x), from.y + fraction * (pose.y - from.y),
-                                       from.yaw};
-                    if (swerves(from, between, curves, first, second) || swerves(between, pose, curves, first, second))
-                        continue;
-                    result.push_back(between);
-                    break;
-                }
+                const Pose between{from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y), from.yaw};
+                if (swerves(from, between, space, curves) || swerves(between, to, space, curves))
+                    continue;
+                poses.insert(poses.begin() + static_cast<std::ptrdiff_t>(i++), between);
+                break;
             }
-            result.push_back(pose);
         }
-        return result;
+        return poses;
     }
 
-    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step,
-                                                 const StateSpacing &stateSpacing, bool headingMatters)
+    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, const CurveSpace &curves,
+                                                 double step, const StateSpacing &stateSpacing, bool headingMatters)
       : si_(si),
+        curves_(&curves),
         step_(step),
         stateSpacing_(stateSpacing),
         headingMatters_(headingMatters),
@@ -168,7 +168,7 @@ namespace parking
 
     bool StateSpaceEnvironment::acceptPath(const Path &path)
     {
-        const std::vector<Pose> poses = straightened(pathStates(path, stateSpacing_), si_->getStateSpace());
+        const std::vector<Pose> poses = straightened(pathStates(path, stateSpacing_), si_->getStateSpace(), *curves_);
         for (std::size_t i = 1; i < poses.size(); ++i)
             if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
                 return false;

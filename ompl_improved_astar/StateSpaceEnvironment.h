@@ -4,6 +4,7 @@
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "parking_geometry/Box.h"
 #include "parking_geometry/curves/Path.h"
+#include "state_validity/ompl/CurveSpace.h"
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
@@ -33,7 +34,8 @@ namespace parking
         Of straight lines much shorter than the turning radius OMPL misses the shortest curve now and then, because of
         the last digits of their ends, and takes one of four arcs instead (measured with OMPL 1.5: 4 to 7 % of those up
         to 4 % of the radius, none from 8 % on, with coordinates below 50 m). Other digits will do. */
-    std::vector<Pose> straightened(std::vector<Pose> poses, const ompl::base::StateSpacePtr &space);
+    std::vector<Pose> straightened(std::vector<Pose> poses, const ompl::base::StateSpacePtr &space,
+                                   const CurveSpace &curves);
 
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
@@ -42,10 +44,11 @@ namespace parking
     class StateSpaceEnvironment final : public search::MotionEnvironment
     {
     public:
-        /** \brief \param step metres between states asked for along a motion
+        /** \brief \param curves of the space; must outlive this object
+            \param step metres between states asked for along a motion
             \param stateSpacing between the states of a path */
-        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, const StateSpacing &stateSpacing,
-                              bool headingMatters);
+        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, const CurveSpace &curves, double step,
+                              const StateSpacing &stateSpacing, bool headingMatters);
 
         /** \brief While \e stop says true every motion is cut short, so that a slow checker does not delay the end. */
         void setStop(const search::StopFunction &stop)
@@ -87,6 +90,7 @@ namespace parking
         bool isTimeUp();
 
         ompl::base::SpaceInformationPtr si_;
+        const CurveSpace *curves_;
         double step_;
         StateSpacing stateSpacing_;
         bool headingMatters_;
