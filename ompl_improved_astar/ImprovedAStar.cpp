@@ -135,7 +135,7 @@ namespace ompl::geometric
         const auto *circle = exactly<parking::CircleValidityChecker>(query_->checker);
         const auto *footprint = exactly<parking::FclFootprintChecker>(query_->checker);
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
-            si_, *query_->space, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
+            si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
         query_->footprintEnvironment.reset();
 

@@ -55,9 +55,9 @@ namespace ompl::geometric
         \par Several calls of solve()
 
         A call goes on where the one before it ended, with starts and goals that were added since, and returns a
-        solution at least as good. Another problem definition, goal object, checker or motion validator, and another
-       value of a parameter, begin the query anew, as clearQuery() does; that is what to call when the obstacles of the
-       same checker have changed. Another objective prices the solution anew.
+        solution at least as good. Another problem definition, goal object, checker or motion validator, or another
+        value of a parameter, begins the query anew, as clearQuery() does; that is what to call when the obstacles of
+        the same checker have changed. Another objective prices the solution anew.
 
         \par Threads
 

@@ -91,8 +91,9 @@ namespace ompl::geometric
         {
             const double radius = turningRadius();
             if (turnsOnTheSpot)
-                return {parking::search::SMOOTH_STATE_SPACING, parking::search::SMOOTH_STATE_SPACING, 1.0 / radius};
-            return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius};
+                return {parking::search::SMOOTH_STATE_SPACING, parking::search::SMOOTH_STATE_SPACING, 1.0 / radius,
+                        &*space};
+            return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius, &*space};
         }
 
         /** \brief Ends the query; what depends on the space only is kept, and memory too. */

@@ -75,8 +75,7 @@ namespace ompl::geometric
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
         const Path path = smoothed(found, ptc);
-        const std::vector<Pose> states = parking::straightened(parking::pathStates(path, query_->stateSpacing()),
-                                                               si_->getStateSpace(), *query_->space);
+        const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
         const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
         const ob::Cost cost = costOf(path, *geometric, found);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
@@ -145,8 +144,7 @@ namespace ompl::geometric
         };
         if (!query_->planner.approximate(target, stop, nearest))
             return ob::PlannerStatus::TIMEOUT;
-        std::vector<Pose> states = parking::straightened(
-            parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing()), si_->getStateSpace(), *query_->space);
+        std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
         // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
         // planner has been told to stop.
         if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
@@ -171,9 +169,9 @@ namespace ompl::geometric
         // one is out of bounds. A yaw of just pi is.
         const std::vector<Pose> targets =
             query_->goals.empty() ? std::vector<Pose>{*query_->fallbackTarget} : query_->goals;
+        ob::ScopedState<> target(si_);
         for (const Pose &pose : targets)
         {
-            ob::ScopedState<> target(si_);
             parking::setPose(target.get(), pose);
             si_->enforceBounds(target.get());
             difference = std::min(difference, si_->distance(state, target.get()));
@@ -200,7 +198,7 @@ namespace ompl::geometric
             poses[i] = {goal.x, goal.y, poses[i].yaw};
         poses.back() = goal;
         // With the last digits of another end.
-        poses = parking::straightened(std::move(poses), si_->getStateSpace(), *query_->space);
+        poses = parking::straightened(std::move(poses), *query_->space);
     }
 
     ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)

@@ -1,6 +1,5 @@
 #include "ompl_improved_astar/StateSpaceEnvironment.h"
 
-#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"
 
 #include <algorithm>
@@ -18,12 +17,10 @@ namespace parking
         constexpr std::uint64_t STATES_BETWEEN_STOPS = 8;
         // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
         constexpr double RADIANS_PER_STATE = 0.8;
-
-        constexpr double STRAIGHT = 1e-9;  // metres and radians by which what is straight may deviate
-        // Of a short line: where to put a state.
+        // Of the lines that straightened() mends.
+        constexpr double SHORT = 0.25;     // turning radii that they are shorter than
+        constexpr double STRAIGHT = 1e-9;  // metres and radians by which they may deviate
         constexpr double FRACTIONS[] = {0.5, 0.37, 0.63, 0.29, 0.71, 0.43, 0.57, 0.23, 0.77, 0.17, 0.83, 0.11, 0.89};
-
-        constexpr double SHORT = 0.25;  // turning radii below which a line may be no straight one for OMPL
 
         bool isShortLine(const Pose &from, const Pose &to, double turningRadius)
         {
@@ -33,13 +30,10 @@ namespace parking
             return std::abs(seen.y) <= STRAIGHT && std::abs(seen.yaw) <= STRAIGHT;
         }
 
-        bool swerves(const Pose &from, const Pose &to, const ob::StateSpacePtr &space, const CurveSpace &curves)
+        bool swerves(const Pose &from, const Pose &to, const CurveSpace &curves)
         {
-            ob::ScopedState<> first(space), second(space);
-            setPose(first.get(), from);
-            setPose(second.get(), to);
             ReedsSheppCurve curve;
-            curves.curve(first.get(), second.get(), curve);
+            curves.curve(from, to, curve);
             return curve.length > positionDistance(from, to) + STRAIGHT;
         }
     }  // namespace
@@ -74,22 +68,24 @@ namespace parking
             }
             pose = advance(pose, piece);
         }
-        return poses;
+        if (spacing.curves == nullptr)
+            return poses;
+        return straightened(std::move(poses), *spacing.curves);
     }
 
-    std::vector<Pose> straightened(std::vector<Pose> poses, const ob::StateSpacePtr &space, const CurveSpace &curves)
+    std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves)
     {
         if (curves.kind() != SpaceKind::ReedsShepp)
             return poses;
         for (std::size_t i = 1; i < poses.size(); ++i)
         {
             const Pose from = poses[i - 1], to = poses[i];
-            if (!isShortLine(from, to, curves.turningRadius()) || !swerves(from, to, space, curves))
+            if (!isShortLine(from, to, curves.turningRadius()) || !swerves(from, to, curves))
                 continue;
             for (const double fraction : FRACTIONS)
             {
                 const Pose between{from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y), from.yaw};
-                if (swerves(from, between, space, curves) || swerves(between, to, space, curves))
+                if (swerves(from, between, curves) || swerves(between, to, curves))
                     continue;
                 poses.insert(poses.begin() + static_cast<std::ptrdiff_t>(i++), between);
                 break;
@@ -98,10 +94,9 @@ namespace parking
         return poses;
     }
 
-    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, const CurveSpace &curves,
-                                                 double step, const StateSpacing &stateSpacing, bool headingMatters)
+    StateSpaceEnvironment::StateSpaceEnvironment(const ob::SpaceInformationPtr &si, double step,
+                                                 const StateSpacing &stateSpacing, bool headingMatters)
       : si_(si),
-        curves_(&curves),
         step_(step),
         stateSpacing_(stateSpacing),
         headingMatters_(headingMatters),
@@ -168,7 +163,7 @@ namespace parking
 
     bool StateSpaceEnvironment::acceptPath(const Path &path)
     {
-        const std::vector<Pose> poses = straightened(pathStates(path, stateSpacing_), si_->getStateSpace(), *curves_);
+        const std::vector<Pose> poses = pathStates(path, stateSpacing_);
         for (std::size_t i = 1; i < poses.size(); ++i)
             if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
                 return false;

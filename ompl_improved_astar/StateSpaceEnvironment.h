@@ -20,13 +20,13 @@ namespace parking
         arc and a line. */
     struct StateSpacing
     {
-        double onArcs{0.0};             ///< metres; 0 where the ends of short arcs suffice
-        double onGentleArcs{0.0};       ///< metres; 0 as above
-        double sharpestCurvature{0.0};  ///< 1/m; arcs that turn less are gentle
+        double onArcs{0.0};                 ///< metres; 0 where the ends of short arcs suffice
+        double onGentleArcs{0.0};           ///< metres; 0 as above
+        double sharpestCurvature{0.0};      ///< 1/m; arcs that turn less are gentle
+        const CurveSpace *curves{nullptr};  ///< of the space, for straightened(); null: nothing is straightened
     };
 
-    /** \brief The poses of \e path between which the space's own interpolation follows the path, but for what
-        straightened() mends. */
+    /** \brief The poses of \e path between which the space's own interpolation follows the path. */
     std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
 
     /** \brief The poses, and others in between where a Reeds-Shepp space would swerve instead of driving straight on.
@@ -34,8 +34,7 @@ namespace parking
         Of straight lines much shorter than the turning radius OMPL misses the shortest curve now and then, because of
         the last digits of their ends, and takes one of four arcs instead (measured with OMPL 1.5: 4 to 7 % of those up
         to 4 % of the radius, none from 8 % on, with coordinates below 50 m). Other digits will do. */
-    std::vector<Pose> straightened(std::vector<Pose> poses, const ompl::base::StateSpacePtr &space,
-                                   const CurveSpace &curves);
+    std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves);
 
     /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
 
@@ -44,11 +43,10 @@ namespace parking
     class StateSpaceEnvironment final : public search::MotionEnvironment
     {
     public:
-        /** \brief \param curves of the space; must outlive this object
-            \param step metres between states asked for along a motion
+        /** \brief \param step metres between states asked for along a motion
             \param stateSpacing between the states of a path */
-        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, const CurveSpace &curves, double step,
-                              const StateSpacing &stateSpacing, bool headingMatters);
+        StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, const StateSpacing &stateSpacing,
+                              bool headingMatters);
 
         /** \brief While \e stop says true every motion is cut short, so that a slow checker does not delay the end. */
         void setStop(const search::StopFunction &stop)
@@ -90,7 +88,6 @@ namespace parking
         bool isTimeUp();
 
         ompl::base::SpaceInformationPtr si_;
-        const CurveSpace *curves_;
         double step_;
         StateSpacing stateSpacing_;
         bool headingMatters_;

@@ -70,8 +70,7 @@ namespace parking::search
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
         prepared_ = false;
-        hasLateRoots_ = hasLateRoots_ || statistics_.expanded > 0;
-        joinsAgain_ = joinsAgain_ || hasLateRoots_;
+        hasLateRoots_ = joinsAgain_ = statistics_.expanded > 0;
         if (!traits_.joinsAfar)
             return;
         for (const NodeIndex other : frontier(opposite(side)).roots())

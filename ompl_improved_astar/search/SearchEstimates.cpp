@@ -108,7 +108,8 @@ namespace parking::search
             rekey(own);
         }
         // Nodes are joined when they are expanded: those that are so far have never met the new ones.
-        for (NodeIndex i = 0; i < own.nodes().size() && joinsAgain_; ++i)
+        const std::size_t met = joinsAgain_ ? own.nodes().size() : 0;
+        for (NodeIndex i = 0; i < met; ++i)
             if (Node &node = own.node(i); node.isExpanded() && !node.fixed)
             {
                 node.next = node.level;

@@ -41,22 +41,28 @@ namespace parking
             curve.pieces[curve.count++] = {side / radius, length * radius};
         }
 
-        /** Two states whose difference is a turn on the spot: the length of their curve for radius 1 is a constant. */
-        template <class Space, class Length>
-        double recoverRadius(const Space &space, const Length &lengthForUnitRadius)
+        /** What \e ask answers about the states at two poses. */
+        template <class Ask>
+        auto withStates(const ob::StateSpace &space, const Pose &from, const Pose &to, const Ask &ask)
         {
-            const auto allocate = [&space]
-            {
-                return space.allocState();
-            };
             const auto release = [&space](ob::State *state)
             {
                 space.freeState(state);
             };
-            const std::unique_ptr<ob::State, decltype(release)> from(allocate(), release), to(allocate(), release);
-            setPose(from.get(), {0.0, 0.0, 0.0});
-            setPose(to.get(), {0.0, 0.0, 0.5 * PI});
-            return space.distance(from.get(), to.get()) / lengthForUnitRadius(from.get(), to.get());
+            using Owned = std::unique_ptr<ob::State, decltype(release)>;
+            const Owned first(space.allocState(), release), second(space.allocState(), release);
+            setPose(first.get(), from);
+            setPose(second.get(), to);
+            return ask(first.get(), second.get());
+        }
+
+        /** Two states whose difference is a turn on the spot: the length of their curve for radius 1 is a constant. */
+        template <class Length>
+        double recoverRadius(const ob::StateSpace &space, const Length &lengthForUnitRadius)
+        {
+            return withStates(space, {}, {0.0, 0.0, 0.5 * PI},
+                              [&](const ob::State *from, const ob::State *to)
+                              { return space.distance(from, to) / lengthForUnitRadius(from, to); });
         }
     }  // namespace
 
@@ -85,6 +91,12 @@ namespace parking
         if (kind_ != SpaceKind::SE2 && !(turningRadius_ > 0.0 && std::isfinite(turningRadius_)))
             throw ompl::Exception("turning radius of space '" + space.getName() +
                                   "' must be a positive number of metres, not " + std::to_string(turningRadius_));
+    }
+
+    void CurveSpace::curve(const Pose &from, const Pose &to, ReedsSheppCurve &curve) const
+    {
+        withStates(*space_, from, to,
+                   [&](const ob::State *first, const ob::State *second) { this->curve(first, second, curve); });
     }
 
     void CurveSpace::curve(const ob::State *from, const ob::State *to, ReedsSheppCurve &curve) const

@@ -56,6 +56,9 @@ namespace parking
             Not for a plain SE2 space, whose states are joined by straight lines: throws ompl::Exception. */
         void curve(const ompl::base::State *from, const ompl::base::State *to, ReedsSheppCurve &curve) const;
 
+        /** \brief The same between states at two poses, which it allocates. */
+        void curve(const Pose &from, const Pose &to, ReedsSheppCurve &curve) const;
+
     private:
         const ompl::base::StateSpace *space_;
         SpaceKind kind_{SpaceKind::SE2};

@@ -8,7 +8,6 @@
 #include <string>
 
 #include <ompl/base/goals/GoalState.h>
-#include <ompl/util/Console.h>
 
 namespace
 {
@@ -16,13 +15,8 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerContract : public testing::Test
+    class PlannerContract : public Silent<testing::Test>
     {
-    protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
     };
 
     // What a class of one's own adds to the footprint or to the sweep counts.

@@ -12,7 +12,6 @@
 
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>
-#include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 namespace
@@ -21,13 +20,8 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerGoals : public testing::Test
+    class PlannerGoals : public Silent<testing::Test>
     {
-    protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
     };
 
     constexpr Pose HERE{-8.0, -5.0, 0.0};

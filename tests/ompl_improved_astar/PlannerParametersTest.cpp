@@ -12,7 +12,6 @@
 #include <type_traits>
 #include <variant>
 
-#include <ompl/util/Console.h>
 #include <ompl/util/Exception.h>
 
 namespace
@@ -23,14 +22,9 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerParametersByName : public testing::Test
+    class PlannerParametersByName : public Silent<testing::Test>
     {
     protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
-
         PlannerParametersByName()
         {
             problem.planner->setParameters({});

@@ -9,8 +9,6 @@
 #include <optional>
 #include <string>
 
-#include <ompl/util/Console.h>
-
 namespace
 {
     using namespace parking_test;
@@ -61,13 +59,8 @@ namespace
         return std::nullopt;
     }
 
-    class RandomProblems : public testing::TestWithParam<int>
+    class RandomProblems : public Silent<testing::TestWithParam<int>>
     {
-    protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
     };
 
     TEST_P(RandomProblems, PathsAreFreeExactAndDrivable)

@@ -13,7 +13,6 @@
 #include <ompl/base/objectives/StateCostIntegralObjective.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
-#include <ompl/util/Console.h>
 
 namespace
 {
@@ -21,14 +20,9 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerReporting : public testing::Test
+    class PlannerReporting : public Silent<testing::Test>
     {
     protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
-
         static std::string progress(const og::ImprovedAStar &planner, const std::string &name)
         {
             const auto &properties = planner.getPlannerProgressProperties();

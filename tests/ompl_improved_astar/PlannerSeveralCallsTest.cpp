@@ -9,7 +9,6 @@
 
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/goals/GoalState.h>
-#include <ompl/util/Console.h>
 
 namespace
 {
@@ -17,13 +16,8 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerSeveralCalls : public testing::Test
+    class PlannerSeveralCalls : public Silent<testing::Test>
     {
-    protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
     };
 
     bool isClearOfPost(const Pose &pose)

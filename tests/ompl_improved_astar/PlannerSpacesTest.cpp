@@ -11,7 +11,6 @@
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
-#include <ompl/util/Console.h>
 #include <ompl/util/Exception.h>
 
 namespace
@@ -21,14 +20,9 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerSpaces : public testing::Test
+    class PlannerSpaces : public Silent<testing::Test>
     {
     protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
-
         static std::string refusal(og::ImprovedAStar &planner)
         {
             try

@@ -12,8 +12,6 @@
 #include <set>
 #include <string>
 
-#include <ompl/util/Console.h>
-
 namespace
 {
     using namespace parking_test;
@@ -22,14 +20,9 @@ namespace
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    class PlannerSwitches : public testing::Test
+    class PlannerSwitches : public Silent<testing::Test>
     {
     protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
-
         /** Plans into the slot, or wherever else, with some parameters changed. */
         static PlanningProblem planned(Space kind, const Site &site, const Pose &start, const Pose &goal,
                                        const std::map<std::string, std::string> &parameters)

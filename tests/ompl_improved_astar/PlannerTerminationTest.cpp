@@ -11,21 +11,14 @@
 #include <string>
 #include <utility>
 
-#include <ompl/util/Console.h>
-
 namespace
 {
     using namespace parking_test;
     using parking::Pose;
 
-    class PlannerTermination : public testing::Test
+    class PlannerTermination : public Silent<testing::Test>
     {
     protected:
-        void SetUp() override
-        {
-            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-        }
-
         /** What the planner has done so far, in units of a tenth of a microsecond to a microsecond each. */
         static std::uint64_t workOf(const og::ImprovedAStar &planner)
         {

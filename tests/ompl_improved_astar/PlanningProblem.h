@@ -28,6 +28,7 @@
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Console.h>
 
 namespace parking_test
 {
@@ -39,6 +40,17 @@ namespace parking_test
     {
         return parking::ompl_compatibility::infeasible<ob::PlannerStatus>(0);
     }
+
+    /** \brief A fixture during whose tests OMPL prints nothing. */
+    template <class Test>
+    class Silent : public Test
+    {
+    protected:
+        void SetUp() override
+        {
+            ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+        }
+    };
 
     enum class Space
     {

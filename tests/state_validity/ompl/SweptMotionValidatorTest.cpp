@@ -227,8 +227,7 @@ TEST(SweptMotionValidator, AcceptsWhatKeepsItsDistance)
     }
 }
 
-/** A car may park a tenth of a millimetre from a wall: it drives up to it and away from it, by whatever is proven free.
- */
+/** A car may park a tenth of a millimetre from a wall: it drives up to it and away from it, on what is proven free. */
 TEST(SweptMotionValidator, MotionsMayBeginAndEndWhereTheBodyAllButTouches)
 {
     constexpr double RADIUS = 3.0056;

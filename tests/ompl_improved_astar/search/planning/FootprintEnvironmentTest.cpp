@@ -319,8 +319,7 @@ TEST(StateSpaceEnvironment, posesOfMotionsAreAskedForUntilTheTimeIsUpAndHardlyLo
     int asked = 0;
     si->setStateValidityChecker([&asked](const ompl::base::State *) { return ++asked > 0; });
     si->setup();
-    const CurveSpace curves(*space);
-    StateSpaceEnvironment environment(si, curves, 0.1, {}, false);
+    StateSpaceEnvironment environment(si, 0.1, {}, false);
     for (int i = 0; i < 100; ++i)
         ASSERT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
     EXPECT_EQ(asked, 100);
