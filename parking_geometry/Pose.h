@@ -13,7 +13,12 @@ namespace parking
     /** \brief An angle brought into [-pi, pi]. \param angle radians, finite. */
     inline double wrapAngle(double angle)
     {
-        return std::remainder(angle, 2.0 * PI);
+        // The same as the remainder, which takes longer: within three half turns the difference is exact.
+        if (angle > PI && angle < 3.0 * PI)
+            return angle - 2.0 * PI;
+        if (angle < -PI && angle > -3.0 * PI)
+            return angle + 2.0 * PI;
+        return angle >= -PI && angle <= PI ? angle : std::remainder(angle, 2.0 * PI);
     }
 
     /** \brief A pose of the car in the plane: the midpoint of its rear axle and its heading.

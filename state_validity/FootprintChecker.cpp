@@ -85,6 +85,22 @@ namespace parking
         return bodyAt(local, centreOffset_, halfLength_, halfWidth_);
     }
 
+    /** Moves the box as the car moves along an arc.
+
+        \param chord signed metres between the ends of the arc
+        \param cosine, sine of half of the signed turn: to the chord's direction, and on to the new heading */
+    void FootprintChecker::drive(OrientedBox &box, double chord, double cosine, double sine) const
+    {
+        const double middleX = box.cosine * cosine - box.sine * sine;
+        const double middleY = box.sine * cosine + box.cosine * sine;
+        const double axleX = box.x - box.cosine * centreOffset_ + chord * middleX;
+        const double axleY = box.y - box.sine * centreOffset_ + chord * middleY;
+        box.cosine = middleX * cosine - middleY * sine;
+        box.sine = middleY * cosine + middleX * sine;
+        box.x = axleX + box.cosine * centreOffset_;
+        box.y = axleY + box.sine * centreOffset_;
+    }
+
     /** For a body within CONTACT_BAND of contact. */
     bool FootprintChecker::touches(const OrientedBox &box) const
     {
@@ -213,10 +229,15 @@ namespace parking
 
     bool FootprintChecker::keeps(const Pose &pose, double clearance, CheckCounts &counts) const
     {
+        if (isFinite(pose))
+            return keeps(boxAt(obstacles_.toLocal(pose)), clearance, counts);
         ++counts.states;
-        if (!isFinite(pose))
-            return false;
-        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
+        return false;
+    }
+
+    bool FootprintChecker::keeps(const OrientedBox &box, double clearance, CheckCounts &counts) const
+    {
+        ++counts.states;
         if (field_.lowerBound(box.x, box.y) - circumradius_ >= clearance)
         {
             ++counts.byField;
@@ -242,6 +263,32 @@ namespace parking
         ++counts.byEdges;
         // clearance() tells no more than its reach.
         return clearance <= CLEARANCE_REACH && edges_.isSeparate(box, clearance + ROUNDING) && !isInsideObstacle(box);
+    }
+
+    std::size_t FootprintChecker::countNearer(const Pose &from, const Arc &arc, const ArcSamples &samples,
+                                              double clearance, std::size_t most, CheckCounts &counts) const
+    {
+        if (samples.count == 0)
+            return 0;
+        const Pose first = advance(from, arc.curvature, std::copysign(samples.first, arc.length));
+        if (!isFinite(first) || !std::isfinite(samples.apart))
+        {
+            counts.states += samples.count;
+            return samples.count;
+        }
+        OrientedBox box = boxAt(obstacles_.toLocal(first));
+        const double apart = std::copysign(samples.apart, arc.length), half = 0.5 * arc.curvature * apart;
+        const double cosine = std::cos(half), sine = std::sin(half);
+        const double chord = std::abs(half) < 1e-6 ? apart : apart * sine / half;
+        std::size_t nearer = 0;
+        for (std::size_t i = 0;;)
+        {
+            if (!keeps(box, clearance, counts))
+                ++nearer;
+            if (++i == samples.count || nearer > most)
+                return nearer;
+            drive(box, chord, cosine, sine);
+        }
     }
 
     double FootprintChecker::exactClearance(const Pose &pose) const
@@ -300,6 +347,13 @@ namespace parking
         return start;
     }
 
+    FootprintChecker::SweepStart FootprintChecker::clearSweepStart(const Pose &from, double tolerance,
+                                                                   CheckCounts &counts) const
+    {
+        ++counts.states;
+        return {boxAt(obstacles_.toLocal(from)), tolerance, tolerance, -1.0};
+    }
+
     double FootprintChecker::freeLength(const SweepStart &start, double curvature, double length,
                                         CheckCounts &counts) const
     {
@@ -352,17 +406,8 @@ namespace parking
             driven += stride;
             if (!(driven < wanted))
                 return wanted;
-            // Half of the turn to the chord's direction, the other half to the new heading.
-            const double way = direction * (half < 1e-6 ? stride : stride * sine / half);
-            const double turned = curvature * direction < 0.0 ? -sine : sine;
-            const double middleX = box.cosine * cosine - box.sine * turned;
-            const double middleY = box.sine * cosine + box.cosine * turned;
-            const double axleX = box.x - box.cosine * centreOffset_ + way * middleX;
-            const double axleY = box.y - box.sine * centreOffset_ + way * middleY;
-            box.cosine = middleX * cosine - middleY * turned;
-            box.sine = middleY * cosine + middleX * turned;
-            box.x = axleX + box.cosine * centreOffset_;
-            box.y = axleY + box.sine * centreOffset_;
+            drive(box, direction * (half < 1e-6 ? stride : stride * sine / half), cosine,
+                  curvature * direction < 0.0 ? -sine : sine);
         }
     }
 }  // namespace parking

@@ -2,12 +2,14 @@
 
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
+#include "parking_geometry/curves/Path.h"
 #include "state_validity/ContactTest.h"
 #include "state_validity/DistanceField.h"
 #include "state_validity/EdgeIndex.h"
 #include "state_validity/ObstacleSet.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -101,6 +103,20 @@ namespace parking
         /** \brief Is clearance() at least so many metres? Cheaper than asking how large it is. */
         bool keeps(const Pose &pose, double clearance, CheckCounts &counts) const;
 
+        /** \brief Poses along an arc, each as far from the one before. */
+        struct ArcSamples
+        {
+            double first;       ///< metres driven up to the first of them, not negative
+            double apart;       ///< metres from one to the next
+            std::size_t count;  ///< of them
+        };
+
+        /** \brief How many of the poses along an arc do not keep a clearance; see keeps().
+
+            \param most more than so many need not be counted */
+        std::size_t countNearer(const Pose &from, const Arc &arc, const ArcSamples &samples, double clearance,
+                                std::size_t most, CheckCounts &counts) const;
+
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
            reports: dear where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;
@@ -139,6 +155,9 @@ namespace parking
         /** \brief Prepares a pose. \param tolerance as for freeLength() */
         SweepStart sweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
 
+        /** \brief Prepares a pose at which the body, enlarged by the tolerance, is known to touch nothing. */
+        SweepStart clearSweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
+
         /** \brief freeLength() from a prepared pose: the same result, without looking at the pose again. */
         double freeLength(const SweepStart &start, double curvature, double length, CheckCounts &counts) const;
 
@@ -153,6 +172,8 @@ namespace parking
 
     private:
         OrientedBox boxAt(const Pose &local) const;
+        void drive(OrientedBox &box, double chord, double cosine, double sine) const;
+        bool keeps(const OrientedBox &box, double clearance, CheckCounts &counts) const;
         double roomRound(const OrientedBox &box, double least, double enough) const;
         bool isInsideObstacle(const OrientedBox &box) const;
         bool touches(const OrientedBox &box) const;

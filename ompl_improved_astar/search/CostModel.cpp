@@ -34,17 +34,13 @@ namespace parking::search
         if (clear >= length)
             return cost;
         const double rest = length - clear, samples = std::ceil(rest / SAMPLES_APART);
-        const double perSample = clearanceCost * rest / samples;
-        double nearer = 0.0;
-        for (double i = 0.5; i < samples && cost + perSample * nearer <= most; i += 1.0)
-        {
-            const double at = clear + rest * i / samples;
-            const Pose pose = advance(from, segment.curvature, std::copysign(at, segment.length));
-            if (!environment.keeps(pose, preferredClearance))
-                nearer += 1.0;
-        }
+        const double apart = rest / samples, perSample = clearanceCost * apart;
+        const double affordable = std::clamp((most - cost) / perSample, 0.0, samples);
+        const std::size_t nearer = environment.countNearer(
+            from, {segment.curvature, segment.length}, clear + 0.5 * apart, apart, static_cast<std::size_t>(samples),
+            preferredClearance, static_cast<std::size_t>(affordable));
         // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
-        return cost + perSample * std::max(clear > 0.0 ? 1.0 : 0.0, nearer);
+        return cost + perSample * std::max(clear > 0.0 ? 1.0 : 0.0, static_cast<double>(nearer));
     }
 
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve)

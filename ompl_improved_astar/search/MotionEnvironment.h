@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -75,13 +76,44 @@ namespace parking::search
         }
 
         /** \brief How far the car can drive along arcs from one pose and surely keep so many metres from all obstacles.
-            What is clear to its end is free: freeLength() is not asked about it.
+            What is clear is free: freeLength() is not asked about it.
 
             \param clear takes a length between 0 and that of the arc for each; 0 where it is not known */
         virtual void clearLengths(const Pose & /*from*/, const Arc * /*arcs*/, std::size_t count, double /*clearance*/,
                                   double *clear)
         {
             std::fill(clear, clear + count, 0.0);
+        }
+
+        /** \brief freeLengths() of arcs from one pose of which clearLengths() has told how far they are clear, and free
+            therefore: that part need not be looked at again.
+
+            \param clear what clearLengths() said of each arc */
+        virtual void freeLengthsBeyond(const Pose &from, const Arc *arcs, std::size_t count, const double *clear,
+                                       double *free)
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                free[i] = clear[i] >= std::abs(arcs[i].length)
+                              ? std::abs(arcs[i].length)
+                              : std::max(clear[i], freeLength(from, arcs[i].curvature, arcs[i].length));
+        }
+
+        /** \brief How many of some poses along an arc, each as far from the one before, do not keep a clearance?
+
+            \param first metres driven up to the first of them, not negative
+            \param apart metres from one to the next
+            \param most more than so many need not be counted */
+        virtual std::size_t countNearer(const Pose &from, const Arc &arc, double first, double apart,
+                                        std::size_t samples, double clearance, std::size_t most)
+        {
+            std::size_t nearer = 0;
+            for (std::size_t i = 0; i < samples && nearer <= most; ++i)
+            {
+                const double driven = first + apart * static_cast<double>(i);
+                if (!keeps(advance(from, arc.curvature, std::copysign(driven, arc.length)), clearance))
+                    ++nearer;
+            }
+            return nearer;
         }
 
         /** \brief Where the rear axle may be, whatever the obstacles: everywhere, unless a world says otherwise. */

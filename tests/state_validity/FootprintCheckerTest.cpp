@@ -95,6 +95,48 @@ TEST(FootprintChecker, ClearanceOnGridsIsALowerBound)
     }
 }
 
+TEST(FootprintChecker, CountsPosesOnAnArcAsOneByOne)
+{
+    const Vehicle vehicle;
+    int none = 0, some = 0, all = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed);
+        const FootprintChecker checker(world.obstacles, vehicle);
+        Random random(seed);
+        for (int i = 0; i < 500; ++i)
+        {
+            const Pose from = world.anywhere(random);
+            const Arc arc{random.chance(0.3) ? 0.0 : random.between(-0.3, 0.3), random.magnitude(0.5, 9.0)};
+            const FootprintChecker::ArcSamples samples{random.between(0.0, 0.5), random.between(0.05, 0.4),
+                                                       static_cast<std::size_t>(random.between(0.0, 20.0))};
+            const double clearance = random.between(0.0, 0.5);
+            CheckCounts counts;
+            std::size_t nearer = 0;
+            for (std::size_t k = 0; k < samples.count; ++k)
+            {
+                const double driven = samples.first + samples.apart * static_cast<double>(k);
+                nearer +=
+                    checker.keeps(advance(from, arc.curvature, std::copysign(driven, arc.length)), clearance, counts)
+                        ? 0
+                        : 1;
+            }
+            ASSERT_EQ(checker.countNearer(from, arc, samples, clearance, samples.count, counts), nearer);
+            // More than was asked for need not be counted, but it must be told from less.
+            const std::size_t most = samples.count / 3;
+            ASSERT_EQ(checker.countNearer(from, arc, samples, clearance, most, counts), std::min(nearer, most + 1));
+            ++(nearer == 0 ? none : nearer < samples.count ? some : all);
+        }
+    }
+    EXPECT_GT(none, 300);
+    EXPECT_GT(some, 300);
+    EXPECT_GT(all, 300);
+    const FootprintChecker checker(box(), vehicle);
+    CheckCounts counts;
+    EXPECT_EQ(checker.countNearer({NOT_A_NUMBER, 0.0, 0.0}, {0.0, 1.0}, {0.1, 0.1, 7}, 0.1, 7, counts), 7u);
+    EXPECT_EQ(checker.countNearer({0.0, 0.0, 0.0}, {0.0, 1.0}, {0.1, INFINITE, 7}, 0.1, 7, counts), 7u);
+}
+
 /** The lower bound of a circle that covers part of the body is tight for an obstacle on the diagonal. An obstacle that
    pokes into the body by a thousandth of the radius must be seen: with a radius or an error bound 1 % smaller it is
    not. */

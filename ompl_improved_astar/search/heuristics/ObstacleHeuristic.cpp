@@ -31,6 +31,14 @@ namespace parking::search
         {
             return 1u << direction;
         }
+
+        /** Calls visit(direction) for each direction of a set. */
+        template <class Visit>
+        void forEach(unsigned int directions, const Visit &visit)
+        {
+            for (; directions != 0; directions &= directions - 1)
+                visit(static_cast<unsigned int>(__builtin_ctz(directions)));
+        }
     }  // namespace
 
     void ObstacleHeuristic::begin(const HeuristicQuery &query)
@@ -80,16 +88,12 @@ namespace parking::search
         towardColumn_ = towardRow_ = 0;
     }
 
-    bool ObstacleHeuristic::isOpen(CellState &state, std::int32_t column, std::int32_t row)
+    void ObstacleHeuristic::findPassage(CellState &state, std::int32_t column, std::int32_t row)
     {
-        if (state.passage == Occupancy::Unknown)
-        {
-            const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
-            const double half = 0.5 * resolution_;
-            state.passage = mayHoldDisc(disc_.radius, x, y, half, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
-            state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, x, y, half, REFINEMENTS);
-        }
-        return state.passage == Occupancy::Free;
+        const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
+        const double half = 0.5 * resolution_;
+        state.passage = mayHoldDisc(disc_.radius, x, y, half, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
+        state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, x, y, half, REFINEMENTS);
     }
 
     bool ObstacleHeuristic::mayHoldDisc(double radius, double x, double y, double halfSide, int refinements)
@@ -181,10 +185,9 @@ namespace parking::search
             state.settled = true;
             ++settled_;
             const Neighbours neighbours(states_, settled.column, settled.row);
-            const unsigned int directions = directionsFrom(settled, neighbours, state.arrivals);
-            for (unsigned int direction = 0; direction < DIRECTIONS; ++direction)
-                if ((directions & bitOf(direction)) != 0)
-                    step(settled, neighbours, state.g, direction);
+            const std::uint32_t g = state.g;
+            forEach(directionsFrom(settled, neighbours, state.arrivals),
+                    [&](unsigned int direction) { step(settled, neighbours, g, direction); });
             return true;
         }
         return false;
@@ -212,10 +215,8 @@ namespace parking::search
             return beside->dear ? Beside::Dear : Beside::Cheap;
         };
         unsigned int directions = arrivals;
-        for (unsigned int arrival = 0; arrival < DIRECTIONS; ++arrival)
+        const auto goOn = [&](unsigned int arrival)
         {
-            if ((arrivals & bitOf(arrival)) == 0)
-                continue;
             const bool diagonal = arrival % 2 != 0;
             for (const int side : {-1, 1})
             {
@@ -229,7 +230,8 @@ namespace parking::search
                 if (beside == Beside::Dear && !diagonal)
                     directions |= bitOf(turned(arrival, 2 * side));
             }
-        }
+        };
+        forEach(arrivals, goOn);
         return directions;
     }
 

@@ -129,7 +129,14 @@ namespace parking::search
             return state.g != UNREACHED;
         }
 
-        bool isOpen(CellState &state, std::int32_t column, std::int32_t row);
+        bool isOpen(CellState &state, std::int32_t column, std::int32_t row)
+        {
+            if (state.passage == Occupancy::Unknown)
+                findPassage(state, column, row);
+            return state.passage == Occupancy::Free;
+        }
+
+        void findPassage(CellState &state, std::int32_t column, std::int32_t row);
         bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         std::uint32_t estimate(std::int32_t column, std::int32_t row) const;
         void push(std::uint32_t g, std::int32_t column, std::int32_t row);

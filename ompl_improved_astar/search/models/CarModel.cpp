@@ -122,18 +122,7 @@ namespace parking::search
             return;
         }
         environment_->clearLengths(from, motions_.data(), count, parameters_->cost.preferredClearance, clear_.data());
-        // What keeps the preferred clearance to its end is free, too.
-        nearing_.clear();
-        for (std::size_t i = 0; i < count; ++i)
-            if (clear_[i] < std::abs(motions_[i].length))
-                nearing_.push_back(motions_[i]);
-        freeOfNearing_.resize(nearing_.size());
-        environment_->freeLengths(from, nearing_.data(), nearing_.size(), freeOfNearing_.data());
-        for (std::size_t i = 0, k = 0; i < count; ++i)
-        {
-            const double whole = std::abs(motions_[i].length);
-            free_[i] = clear_[i] < whole ? std::max(clear_[i], freeOfNearing_[k++]) : whole;
-        }
+        environment_->freeLengthsBeyond(from, motions_.data(), count, clear_.data(), free_.data());
     }
 
     void CarModel::expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,

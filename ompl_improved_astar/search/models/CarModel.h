@@ -72,8 +72,6 @@ namespace parking::search
         std::array<std::vector<Known>, 2> known_;  // of the motions of each expanded node
         std::vector<Arc> motions_;                 // of the node that is expanded
         std::vector<double> free_, clear_;
-        std::vector<Arc> nearing_;  // those of the motions that come nearer to obstacles than preferred
-        std::vector<double> freeOfNearing_;
         std::vector<ReedsSheppCurve> candidates_;
         std::vector<PricedCurve> order_;
         std::vector<PathPiece> pieces_;

@@ -87,7 +87,12 @@ namespace parking::search
                 environment.clearLengths(start, &piece, 1, cost.preferredClearance, &clear);
                 const auto isFree = [&]
                 {
-                    return isPieceFree(environment, start, piece, end, first);
+                    if (clear <= 0.0)
+                        return isPieceFree(environment, start, piece, end, first);
+                    // Of what is clear at its beginning the rest is left.
+                    const Pose at = advance(start, piece.curvature, std::copysign(clear, piece.length));
+                    const Arc rest{piece.curvature, std::copysign(std::abs(piece.length) - clear, piece.length)};
+                    return isPieceFree(environment, at, rest, end, first);
                 };
                 // What keeps the preferred clearance to its end is free, too. Of the rest few samples show that most
                 // are dear; but where nothing is too dear, or nothing known to be clear, sampling is the longer way to

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace parking
 {
@@ -92,9 +93,41 @@ namespace parking
         }
     }
 
+    void FootprintEnvironment::freeLengthsBeyond(const Pose &from, const Arc *arcs, std::size_t count,
+                                                 const double *clear, double *free)
+    {
+        std::optional<FootprintChecker::SweepStart> start;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const auto &[curvature, length] = arcs[i];
+            const double whole = std::abs(length);
+            if (clear[i] >= whole)
+                free[i] = whole;
+            else if (clear[i] > 0.0)
+            {
+                const Pose pose = advance(from, curvature, std::copysign(clear[i], length));
+                const Arc rest{curvature, std::copysign(whole - clear[i], length)};
+                sweep(checker_.clearSweepStart(pose, tolerance_, counts_), pose, &rest, 1, &free[i]);
+                free[i] = free[i] < std::abs(rest.length) ? clear[i] + free[i] : whole;
+            }
+            else
+            {
+                if (!start)
+                    start = checker_.sweepStart(from, tolerance_, counts_);
+                sweep(*start, from, &arcs[i], 1, &free[i]);
+            }
+        }
+    }
+
     bool FootprintEnvironment::keeps(const Pose &pose, double clearance)
     {
         return checker_.keeps(pose, clearance, counts_);
+    }
+
+    std::size_t FootprintEnvironment::countNearer(const Pose &from, const Arc &arc, double first, double apart,
+                                                  std::size_t samples, double clearance, std::size_t most)
+    {
+        return checker_.countNearer(from, arc, {first, apart, samples}, clearance, most, counts_);
     }
 
     void FootprintEnvironment::clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,

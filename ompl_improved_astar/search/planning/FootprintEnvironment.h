@@ -27,6 +27,10 @@ namespace parking
         double freeLength(const Pose &from, double curvature, double length) override;
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override;
         bool keeps(const Pose &pose, double clearance) override;
+        void freeLengthsBeyond(const Pose &from, const Arc *arcs, std::size_t count, const double *clear,
+                               double *free) override;
+        std::size_t countNearer(const Pose &from, const Arc &arc, double first, double apart, std::size_t samples,
+                                double clearance, std::size_t most) override;
         void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                           double *clear) override;
         Box bounds() const override

@@ -165,6 +165,48 @@ TEST(FootprintEnvironment, whatIsClearToItsEndIsFree)
     EXPECT_GT(withinTolerance, 3);
 }
 
+TEST(FootprintEnvironment, whatIsClearNeedNoLookToBeFreeAndTheRestIsFreeAsFarAsBefore)
+{
+    const Vehicle vehicle;
+    int whole = 0, partly = 0, notAtAll = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        const World world = seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed);
+        const FootprintChecker checker(world.obstacles, vehicle);
+        // Bounds that matter cut some motions short, too.
+        const Box &all = world.obstacles.bounds();
+        const Box bounds =
+            seed % 3 == 0 ? Box{all.min + Eigen::Vector2d(4.0, 3.0), all.max - Eigen::Vector2d(2.0, 5.0)} : all;
+        FootprintEnvironment environment(checker, bounds, TOLERANCE);
+        Random random(seed);
+        for (int i = 0; i < 1500; ++i)
+        {
+            const Pose from = world.anywhere(random);
+            if (!environment.isFree(from))
+                continue;
+            const double clearance = i % 8 == 0 ? TOLERANCE : random.between(0.005, 0.3);
+            std::vector<Arc> arcs;
+            for (int k = 0; k < 6; ++k)
+                arcs.push_back({random.chance(0.3) ? 0.0 : random.between(-0.25, 0.25), random.magnitude(0.05, 8.0)});
+            std::vector<double> clear(arcs.size()), free(arcs.size()), expected(arcs.size());
+            environment.clearLengths(from, arcs.data(), arcs.size(), clearance, clear.data());
+            environment.freeLengths(from, arcs.data(), arcs.size(), expected.data());
+            environment.freeLengthsBeyond(from, arcs.data(), arcs.size(), clear.data(), free.data());
+            for (std::size_t k = 0; k < arcs.size(); ++k)
+            {
+                const double wanted = std::abs(arcs[k].length);
+                ASSERT_GE(free[k], clear[k]);
+                ASSERT_NEAR(free[k], expected[k], 1e-7) << "clear " << clear[k] << " of " << wanted;
+                ASSERT_EQ(free[k] == wanted, expected[k] == wanted);
+                ++(clear[k] >= wanted ? whole : clear[k] > 0.0 ? partly : notAtAll);
+            }
+        }
+    }
+    EXPECT_GT(whole, 1000);
+    EXPECT_GT(partly, 1000);
+    EXPECT_GT(notAtAll, 1000);
+}
+
 /** In maps whose cells are a metre wide: were the room told with the error of a cell, discs would go where they do not
     fit, and lead the search there. */
 TEST(FootprintEnvironment, discsPassGapsOfMapsWithWideCellsWhereTheyFitButForAFractionOfACell)
