@@ -67,6 +67,9 @@ namespace parking
         /** Cuts off what lies outside of the box; false when nothing is left. */
         bool clip(Edge &edge, const Box &box)
         {
+            // As most edges do: then nothing is divided.
+            if (box.contains(edge.from.x(), edge.from.y()) && box.contains(edge.to.x(), edge.to.y()))
+                return true;
             const Eigen::Vector2d from = edge.from, along = edge.to - edge.from;
             double begin = 0.0, end = 1.0;
             for (int axis = 0; axis < 2; ++axis)
@@ -173,29 +176,28 @@ namespace parking
         cellRows_ = static_cast<std::size_t>(static_cast<double>(rows_) / CELL_OF_BUCKETS) + 1;
         buckets_ = std::vector<std::atomic<List *>>(columns_ * rows_);
         cells_ = std::vector<std::atomic<Cell *>>(cellColumns_ * cellRows_);
-        for (const Edge &edge : edges)
-            if ((edge.to - edge.from).squaredNorm() > 0.0)
-                edges_.push_back(edge);
-
         // Counting sort of the edges by the cells that their boxes overlap. Long diagonal edges are few.
         const auto forEachCell = [&](const Edge &edge, auto &&visit)
         {
+            if (!((edge.to - edge.from).squaredNorm() > 0.0))
+                return;
             const Eigen::Vector2d low = (edge.from.cwiseMin(edge.to) - origin_) / cellSize_;
             const Eigen::Vector2d high = (edge.from.cwiseMax(edge.to) - origin_) / cellSize_;
-            for (std::size_t row = clampTo(low.y(), cellRows_); row <= clampTo(high.y(), cellRows_); ++row)
-                for (std::size_t column = clampTo(low.x(), cellColumns_); column <= clampTo(high.x(), cellColumns_);
-                     ++column)
+            const std::size_t left = clampTo(low.x(), cellColumns_), right = clampTo(high.x(), cellColumns_);
+            const std::size_t top = clampTo(high.y(), cellRows_);
+            for (std::size_t row = clampTo(low.y(), cellRows_); row <= top; ++row)
+                for (std::size_t column = left; column <= right; ++column)
                     visit(row * cellColumns_ + column);
         };
         first_.assign(cells_.size() + 1, 0);
-        for (const Edge &edge : edges_)
+        for (const Edge &edge : edges)
             forEachCell(edge, [&](std::size_t cell) { ++first_[cell + 1]; });
         for (std::size_t cell = 1; cell < first_.size(); ++cell)
             first_[cell] += first_[cell - 1];
         ofCells_.resize(first_.back());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < edges_.size(); ++i)
-            forEachCell(edges_[i], [&](std::size_t cell) { ofCells_[next[cell]++] = i; });
+        for (const Edge &edge : edges)
+            forEachCell(edge, [&](std::size_t cell) { ofCells_[next[cell]++] = edge; });
     }
 
     EdgeIndex::~EdgeIndex()
@@ -238,48 +240,46 @@ namespace parking
         if (row + 1 == cellRows_)
             box.max.y() = INFINITE;
 
-        struct Piece
-        {
-            Edge edge;
-            Eigen::Vector2d normal;
-        };
+        // Edges by their place along the curve, the place in the higher half of a key and the edge in the lower one.
         const std::size_t index = row * cellColumns_ + column;
-        std::vector<Piece> pieces;
-        pieces.reserve(first_[index + 1] - first_[index]);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // place along the curve, piece
-        order.reserve(pieces.capacity());
-        for (std::size_t k = first_[index]; k < first_[index + 1]; ++k)
+        const Edge *const edges = ofCells_.data() + first_[index];
+        const std::size_t count = first_[index + 1] - first_[index];
+        std::vector<std::uint64_t> order;
+        order.reserve(count);
+        for (std::size_t k = 0; k < count; ++k)
         {
-            const Edge &whole = edges_[ofCells_[k]];
-            Edge edge = whole;
-            if (!clip(edge, box))
+            Edge piece = edges[k];
+            if (!clip(piece, box))
                 continue;
-            const Eigen::Vector2d along = (whole.to - whole.from).normalized();
-            const Eigen::Vector2d middle = (0.5 * (edge.from + edge.to) - low) / cellSize_;
-            order.emplace_back(zOrder(middle.x(), middle.y()), static_cast<std::uint32_t>(pieces.size()));
-            pieces.push_back({edge, {-along.y(), along.x()}});
+            const Eigen::Vector2d middle = (0.5 * (piece.from + piece.to) - low) / cellSize_;
+            order.push_back(static_cast<std::uint64_t>(zOrder(middle.x(), middle.y())) << 32 | k);
         }
-        std::sort(order.begin(), order.end());
+        if (order.size() > BLOCK_SIZE)
+            std::sort(order.begin(), order.end());
 
         auto cell = std::make_unique<Cell>();
-        cell->blocks.resize((pieces.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
+        cell->blocks.resize((order.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
         cell->boxes.reserve(cell->blocks.size());
         for (std::size_t k = 0; k < cell->blocks.size(); ++k)
         {
             Block &block = cell->blocks[k];
-            block.edges = std::min(BLOCK_SIZE, pieces.size() - k * BLOCK_SIZE);
+            block.edges = std::min(BLOCK_SIZE, order.size() - k * BLOCK_SIZE);
             Eigen::Vector2d least(INFINITE, INFINITE), most(-INFINITE, -INFINITE);
-            for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
+            for (std::size_t i = 0; i < block.edges; ++i)
             {
-                const Piece &piece = pieces[order[k * BLOCK_SIZE + std::min(i, block.edges - 1)].second];
-                const Eigen::Vector2d &a = piece.edge.from, &b = piece.edge.to;
-                const auto at = static_cast<Eigen::Index>(i);
-                block.ax[at] = a.x();
-                block.ay[at] = a.y();
-                block.bx[at] = b.x();
-                block.by[at] = b.y();
-                block.nx[at] = piece.normal.x();
-                block.ny[at] = piece.normal.y();
+                Edge piece = edges[order[k * BLOCK_SIZE + i] & 0xffffffffu];
+                const Eigen::Vector2d along = (piece.to - piece.from).normalized();
+                clip(piece, box);
+                const Eigen::Vector2d &a = piece.from, &b = piece.to;
+                // Also to where it is repeated.
+                const auto at = static_cast<Eigen::Index>(i), last = static_cast<Eigen::Index>(block.edges - 1);
+                const Eigen::Index copies = at < last ? 1 : static_cast<Eigen::Index>(BLOCK_SIZE) - at;
+                block.ax.segment(at, copies) = a.x();
+                block.ay.segment(at, copies) = a.y();
+                block.bx.segment(at, copies) = b.x();
+                block.by.segment(at, copies) = b.y();
+                block.nx.segment(at, copies) = -along.y();
+                block.ny.segment(at, copies) = along.x();
                 least = least.cwiseMin(a.cwiseMin(b));
                 most = most.cwiseMax(a.cwiseMax(b));
             }
@@ -295,15 +295,30 @@ namespace parking
         const double x = origin_.x() + static_cast<double>(column) * bucketSize_ + half;
         const double y = origin_.y() + static_cast<double>(row) * bucketSize_ + half;
         const double farthest = reach_ + half * std::sqrt(2.0);
-        auto list = std::make_unique<List>();
+        std::vector<const Cell *> cells;
+        cells.reserve(16);
+        std::size_t boxes = 0;
         for (std::size_t r = clampTo((y - around - origin_.y()) / cellSize_, cellRows_);
              r <= clampTo((y + around - origin_.y()) / cellSize_, cellRows_); ++r)
             for (std::size_t c = clampTo((x - around - origin_.x()) / cellSize_, cellColumns_);
                  c <= clampTo((x + around - origin_.x()) / cellSize_, cellColumns_); ++c)
-                for (const BlockInBox &each :
-                     once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }).boxes)
-                    if (squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest)
-                        list->push_back(each);
+            {
+                cells.push_back(&once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }));
+                boxes += cells.back()->boxes.size();
+            }
+        // Whether a box is near enough is as good as chance: a branch would cost more than writing down all of them.
+        std::vector<const BlockInBox *> found(boxes + 1);
+        std::size_t count = 0;
+        for (const Cell *cell : cells)
+            for (const BlockInBox &each : cell->boxes)
+            {
+                found[count] = &each;
+                count += squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest;
+            }
+        auto list = std::make_unique<List>();
+        list->reserve(count);
+        for (std::size_t k = 0; k < count; ++k)
+            list->push_back(*found[k]);
         return list;
     }
 
@@ -454,7 +469,7 @@ namespace parking
             const std::size_t cell = row * cellColumns_ + column;
             for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k)
             {
-                const Edge &edge = edges_[ofCells_[k]];
+                const Edge &edge = ofCells_[k];
                 const double square =
                     squaredDistanceToSegment(box.x, box.y, edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y());
                 const double ignored = smallest + circumradius;

@@ -92,12 +92,12 @@ namespace parking
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;
-        std::vector<Edge> edges_;
-        /** Edges by the cells that their boxes overlap, in one array: cell k has ofCells_[first_[k]...]. */
+        /** Edges by the cells that their boxes overlap, in one array: cell k has ofCells_[first_[k]...]. They are
+           copies, side by side: what cuts a cell would otherwise wait for memory all over the map. */
         std::size_t cellColumns_, cellRows_;
         double cellSize_;
         std::vector<std::size_t> first_;
-        std::vector<std::size_t> ofCells_;
+        std::vector<Edge> ofCells_;
         mutable std::vector<std::atomic<Cell *>> cells_;
         mutable std::vector<std::atomic<List *>> buckets_;
     };
