@@ -51,7 +51,7 @@ namespace parking::search
     {
         const SearchTuning &tuning = parameters_.tuning;
         if (!parameters_.detours || !traits_.joinsAfar || hasTarget_ || hasSolution() ||
-            guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.dear))
+            guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.detours))
             return false;
         if (detoursTaken() > 0)
             return statistics_.expanded >= detoursSince_ + detoursTaken() * tuning.nextDetour;
@@ -77,9 +77,10 @@ namespace parking::search
             detours_.push_back(std::make_unique<Detour>());
         const Guides &guides = this->guides(confined_);
         const double inscribed = parameters_.inscribedRadius;
+        const DetourDisc &disc = tuning.detours[number];
         Detour &detour = *detours_[number];
         detour.way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
-                         {inscribed, tuning.wideDisc * inscribed, tuning.dear[number]}, tuning.mostDetourCells);
+                         {inscribed, disc.wide * inscribed, disc.dear}, tuning.mostDetourCells);
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);

@@ -5,6 +5,13 @@
 
 namespace parking::search
 {
+    /** \brief A disc by whose way a detour leads. */
+    struct DetourDisc
+    {
+        double wide;  ///< its radius, in inscribed radii
+        double dear;  ///< a metre where it does not fit, but the inscribed disc does, counts as so many
+    };
+
     /** \brief The constants that the search was tuned with, none of which changes what is found free.
 
         Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another
@@ -47,10 +54,10 @@ namespace parking::search
         std::uint64_t leastExpansions{80};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{30};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
-        double wideDisc{2.5};                 ///< in inscribed radii: of a disc that keeps to where a car can turn
-        double dear[2]{60.0, 600.0};          ///< what a metre where it does not fit costs the first and the second
-        std::uint64_t nextDetour{300};        ///< expansions with the first before there is the second
-        std::uint64_t extraTurns{4};          ///< of a queue that comes nearer than it ever was
+        DetourDisc detours[2]{{2.5, 60.0}, {1.6, 600.0}};  ///< one after the other: the first keeps to where a car can
+                                                           ///< turn, the second to where it can drive
+        std::uint64_t nextDetour{300};                     ///< expansions with the first before there is the second
+        std::uint64_t extraTurns{4};                       ///< of a queue that comes nearer than it ever was
         double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t stalledDetours{50};       ///< expansions with detours before the world is explored, too,

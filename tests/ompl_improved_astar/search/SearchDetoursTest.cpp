@@ -21,14 +21,13 @@ namespace
     {
         double half{40.0};  // metres: of its length, with the passage at its end
         double depth{4.0};  // metres: from its middle to the aisle
+        double aisle{5.5};  // metres: its width
+        double lane{3.0};   // metres from the row: where the car stands in the aisle
 
         Eigen::Vector2d halfWorld() const
         {
-            return {half, depth + AISLE};
+            return {half, depth + aisle};
         }
-
-        static constexpr double AISLE = 5.5;
-        static constexpr double LANE = 3.0;  // metres from the row: where the car stands in the aisle
     };
 
     /** The gaps are wide enough for the car, the aisles too narrow to turn into one of them: the disc's way leads
@@ -37,7 +36,7 @@ namespace
     CarProblem rowOfCars(const Row &row, double startX = -10.0)
     {
         const Eigen::Vector2d half = row.halfWorld();
-        const double lane = row.depth + Row::LANE;
+        const double lane = row.depth + row.lane;
         CarProblem problem{DiscCarWorld({-half, half}), {{startX, -lane, 0.0}}, {{-10.0, lane, PI}}};
         for (double x = -half.x(); x < half.x() - 7.0; x += 4.0)
             problem.world.boxes.push_back({{x, -row.depth}, {x + 1.95, row.depth}});
@@ -133,6 +132,26 @@ TEST(SearchDetours, aSecondOneKeepsOutOfWhatTheFirstDoesNot)
         withOne += searched(rowOfCars(longRow, startX), true, longRow.halfWorld(), onlyOne).expanded;
     }
     EXPECT_GT(withOne, 5 * withBoth);
+}
+
+// Where a disc with room to turn does not fit into the aisle either, it knows nothing better than the gaps: the way
+// through them is as dear and shorter.
+TEST(SearchDetours, theSecondOneFindsAislesThatAreNarrowToo)
+{
+    SearchParameters bothWide = carParameters();
+    bothWide.tuning.detours[1].wide = bothWide.tuning.detours[0].wide;
+    const Row row{80.0, 4.0, 4.2, 2.1};
+    std::uint64_t with = 0, withoutSecond = 0;
+    for (const double startX : PLACES)
+    {
+        SCOPED_TRACE(startX);
+        const Counts both = searched(rowOfCars(row, startX), true, row.halfWorld());
+        EXPECT_TRUE(both.solved);
+        EXPECT_LT(both.expanded, 1000u);
+        with += both.expanded;
+        withoutSecond += searched(rowOfCars(row, startX), true, row.halfWorld(), bothWide).expanded;
+    }
+    EXPECT_GT(withoutSecond, 5 * with);
 }
 
 // Nothing of them is to be noticed before the search is stuck.
