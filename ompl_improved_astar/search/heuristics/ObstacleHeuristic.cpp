@@ -86,6 +86,8 @@ namespace parking::search
         // The grid is centred where the questions will be.
         origin_ = toward;
         towardColumn_ = towardRow_ = 0;
+        dearRoundAim_.isKnown = false;
+        dearRoundAim_.fromElsewhere = 0;
     }
 
     void ObstacleHeuristic::findPassage(CellState &state, std::int32_t column, std::int32_t row)
@@ -136,7 +138,71 @@ namespace parking::search
     {
         const auto dx = static_cast<std::uint32_t>(std::abs(column - towardColumn_));
         const auto dy = static_cast<std::uint32_t>(std::abs(row - towardRow_));
-        return STRAIGHT * std::max(dx, dy) + (DIAGONAL - STRAIGHT) * std::min(dx, dy);
+        const std::uint32_t length = STRAIGHT * std::max(dx, dy) + (DIAGONAL - STRAIGHT) * std::min(dx, dy);
+        if (dearRoundAim_.fromElsewhere == 0)
+            return length;
+        constexpr auto REACH = static_cast<std::uint32_t>(DearRoundAim::REACH);
+        if (dx > REACH || dy > REACH)
+            return length + dearRoundAim_.fromElsewhere;
+        return length + dearRoundAim_.from[DearRoundAim::place(column - towardColumn_, row - towardRow_)];
+    }
+
+    /** Where the place that is made for is dear, all ways to it end dear. Without knowing it, the search would look at
+        all that is no farther away than what this costs. */
+    void ObstacleHeuristic::findDearRoundAim()
+    {
+        DearRoundAim &dear = dearRoundAim_;
+        dear.isKnown = true;
+        dear.fromElsewhere = 0;
+        if (dearer_.straight == 0)
+            return;
+        // Dijkstra's algorithm from there, with what dear cells cost on top of their lengths, up to the first cell that
+        // is not dear, or has neighbours that are not looked at: from what is left it costs at least as much.
+        dear.from.fill(UNREACHED);
+        struct Place
+        {
+            std::uint32_t cost;
+            std::int32_t columns, rows;
+        };
+        const auto isDearer = [](const Place &a, const Place &b)
+        {
+            return a.cost > b.cost;
+        };
+        std::vector<Place> open{{0, 0, 0}};
+        dear.from[DearRoundAim::place(0, 0)] = 0;
+        while (!open.empty())
+        {
+            std::pop_heap(open.begin(), open.end(), isDearer);
+            const Place place = open.back();
+            open.pop_back();
+            if (place.cost > dear.from[DearRoundAim::place(place.columns, place.rows)])
+                continue;
+            dear.fromElsewhere = place.cost;
+            const std::int32_t column = towardColumn_ + place.columns, row = towardRow_ + place.rows;
+            const bool isInside = std::max(std::abs(place.columns), std::abs(place.rows)) < DearRoundAim::REACH &&
+                                  TiledGrid<CellState>::contains(column - 1, row - 1) &&
+                                  TiledGrid<CellState>::contains(column + 1, row + 1);
+            if (!isInside)
+                break;
+            CellState &state = states_.at(column, row);
+            if (!isOpen(state, column, row))
+                continue;
+            if (!state.dear)
+                break;
+            for (unsigned int direction = 0; direction < DIRECTIONS; ++direction)
+            {
+                const Place next{place.cost + (direction % 2 != 0 ? dearer_.diagonal : dearer_.straight),
+                                 place.columns + COLUMNS[direction], place.rows + ROWS[direction]};
+                std::uint32_t &known = dear.from[DearRoundAim::place(next.columns, next.rows)];
+                if (next.cost >= known)
+                    continue;
+                known = next.cost;
+                open.push_back(next);
+                std::push_heap(open.begin(), open.end(), isDearer);
+            }
+        }
+        for (std::uint32_t &cost : dear.from)
+            cost = std::min(cost, dear.fromElsewhere);
     }
 
     void ObstacleHeuristic::push(std::uint32_t g, std::int32_t column, std::int32_t row)
@@ -150,6 +216,7 @@ namespace parking::search
         // so that what is settled from now on is settled with the length of its shortest way as well.
         towardColumn_ = column;
         towardRow_ = row;
+        findDearRoundAim();
         open_.renewAll(
             [this](const Entry &entry, std::uint32_t &priority)
             {
@@ -325,6 +392,8 @@ namespace parking::search
         if (!TiledGrid<CellState>::contains(u, v))
             return 0.0;
         const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+        if (!dearRoundAim_.isKnown)
+            findDearRoundAim();
         CellState &asked = states_.at(column, row);
         if (!asked.settled && !isReached(asked) && !isOpen(asked, column, row))
             asked.settled = true;

@@ -7,6 +7,8 @@
 #include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -139,6 +141,7 @@ namespace parking::search
         void findPassage(CellState &state, std::int32_t column, std::int32_t row);
         bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         std::uint32_t estimate(std::int32_t column, std::int32_t row) const;
+        void findDearRoundAim();
         void push(std::uint32_t g, std::int32_t column, std::int32_t row);
         void aimAt(std::int32_t column, std::int32_t row);
         bool settleNext(Entry &settled);
@@ -166,6 +169,23 @@ namespace parking::search
         std::uint64_t mostCells_{0};
         Eigen::Vector2d origin_{0.0, 0.0};
         std::int32_t towardColumn_{0}, towardRow_{0};  // the cell that is made for
+        /** What is dear about the last cells of all ways to the cell that is made for: a lower bound of what is paid
+            for that from the cells round it on, and from all others. */
+        struct DearRoundAim
+        {
+            static constexpr std::int32_t REACH = 40;  // cells to either side
+            static constexpr std::int32_t SIDE = 2 * REACH + 1;
+
+            /** The number of the cell so many columns and rows away. */
+            static constexpr std::size_t place(std::int32_t columns, std::int32_t rows)
+            {
+                return static_cast<std::size_t>((rows + REACH) * SIDE + columns + REACH);
+            }
+
+            bool isKnown{false};
+            std::uint32_t fromElsewhere{0};
+            std::array<std::uint32_t, static_cast<std::size_t>(SIDE) * SIDE> from{};
+        } dearRoundAim_;
         TiledGrid<CellState> states_;
         MonotoneQueue<Entry> open_;
         /** Cells round the one that is asked for, as far as they are known: perhaps there is no way out. */

@@ -280,6 +280,25 @@ TEST(ObstacleHeuristic, settlesOnlyTheAreaThatIsAskedAbout)
     EXPECT_EQ(heuristic.cells(), before);
 }
 
+// Into a dead end too narrow for the wide disc all ways are dear: that is no reason to look round elsewhere.
+TEST(ObstacleHeuristic, aDearPlaceIsMadeForLikeAnyOther)
+{
+    std::uint64_t settled[2];
+    for (const bool isDear : {false, true})
+    {
+        DiscCarWorld world({{-60.0, -60.0}, {60.0, 60.0}});
+        world.boxes = {{{20.0, 1.2}, {30.0, 2.0}}, {{20.0, -2.0}, {30.0, -1.2}}, {{30.0, -2.0}, {30.8, 2.0}}};
+        ObstacleHeuristic heuristic;
+        const StopFunction never;
+        heuristic.reset(world, 0.5, {0.9, isDear ? 2.2 : 0.0, isDear ? 60.0 : 1.0}, {28.0, 0.0}, never);
+        heuristic.addTarget(-30.0, 0.0);
+        EXPECT_GT(heuristic.distance(28.0, 0.0), isDear ? 400.0 : 57.0);
+        EXPECT_LT(heuristic.distance(28.0, 0.0), isDear ? 700.0 : 60.0);
+        settled[isDear ? 1 : 0] = heuristic.cells();
+    }
+    EXPECT_LT(settled[1], 3 * settled[0]);
+}
+
 TEST(ObstacleHeuristic, isDijkstrasDistanceForCellsFarApartAndInPockets)
 {
     // Cells so small that most questions take many of them, asked here and there; rooms with and without a door.
