@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 namespace parking
 {
@@ -208,8 +207,7 @@ namespace parking
             delete cell.load(std::memory_order_relaxed);
     }
 
-    /** What is at this place, made when first asked for. Several threads may make the same; the first to finish wins.
-     */
+    /** What is there, made when first asked for. Several threads may make the same; the first to finish wins. */
     template <class T, class Make>
     const T &EdgeIndex::once(std::atomic<T *> &place, const Make &make)
     {
@@ -241,9 +239,9 @@ namespace parking
             box.max.y() = INFINITE;
 
         // Edges by their place along the curve, the place in the higher half of a key and the edge in the lower one.
-        const std::size_t index = row * cellColumns_ + column;
-        const Edge *const edges = ofCells_.data() + first_[index];
-        const std::size_t count = first_[index + 1] - first_[index];
+        const std::size_t *const first = &first_[row * cellColumns_ + column];
+        const std::size_t count = first[1] - first[0];
+        const Edge *const edges = ofCells_.data() + first[0];
         std::vector<std::uint64_t> order;
         order.reserve(count);
         for (std::size_t k = 0; k < count; ++k)
@@ -254,8 +252,7 @@ namespace parking
             const Eigen::Vector2d middle = (0.5 * (piece.from + piece.to) - low) / cellSize_;
             order.push_back(static_cast<std::uint64_t>(zOrder(middle.x(), middle.y())) << 32 | k);
         }
-        if (order.size() > BLOCK_SIZE)
-            std::sort(order.begin(), order.end());
+        std::sort(order.begin(), order.end());
 
         auto cell = std::make_unique<Cell>();
         cell->blocks.resize((order.size() + BLOCK_SIZE - 1) / BLOCK_SIZE);
@@ -265,23 +262,25 @@ namespace parking
             Block &block = cell->blocks[k];
             block.edges = std::min(BLOCK_SIZE, order.size() - k * BLOCK_SIZE);
             Eigen::Vector2d least(INFINITE, INFINITE), most(-INFINITE, -INFINITE);
-            for (std::size_t i = 0; i < block.edges; ++i)
+            Edge piece{};
+            Eigen::Vector2d along(0.0, 0.0);
+            for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
             {
-                Edge piece = edges[order[k * BLOCK_SIZE + i] & 0xffffffffu];
-                const Eigen::Vector2d along = (piece.to - piece.from).normalized();
-                clip(piece, box);
-                const Eigen::Vector2d &a = piece.from, &b = piece.to;
-                // Also to where it is repeated.
-                const auto at = static_cast<Eigen::Index>(i), last = static_cast<Eigen::Index>(block.edges - 1);
-                const Eigen::Index copies = at < last ? 1 : static_cast<Eigen::Index>(BLOCK_SIZE) - at;
-                block.ax.segment(at, copies) = a.x();
-                block.ay.segment(at, copies) = a.y();
-                block.bx.segment(at, copies) = b.x();
-                block.by.segment(at, copies) = b.y();
-                block.nx.segment(at, copies) = -along.y();
-                block.ny.segment(at, copies) = along.x();
-                least = least.cwiseMin(a.cwiseMin(b));
-                most = most.cwiseMax(a.cwiseMax(b));
+                if (i < block.edges)
+                {
+                    piece = edges[order[k * BLOCK_SIZE + i] & 0xffffffffu];
+                    along = (piece.to - piece.from).normalized();
+                    clip(piece, box);
+                }
+                const auto at = static_cast<Eigen::Index>(i);
+                block.ax[at] = piece.from.x();
+                block.ay[at] = piece.from.y();
+                block.bx[at] = piece.to.x();
+                block.by[at] = piece.to.y();
+                block.nx[at] = -along.y();
+                block.ny[at] = along.x();
+                least = least.cwiseMin(piece.from.cwiseMin(piece.to));
+                most = most.cwiseMax(piece.from.cwiseMax(piece.to));
             }
             const Eigen::Vector2d middle = 0.5 * (least + most), half = 0.5 * (most - least);
             cell->boxes.push_back({middle.x(), middle.y(), half.x() + ROUNDING, half.y() + ROUNDING, &block});
@@ -295,26 +294,24 @@ namespace parking
         const double x = origin_.x() + static_cast<double>(column) * bucketSize_ + half;
         const double y = origin_.y() + static_cast<double>(row) * bucketSize_ + half;
         const double farthest = reach_ + half * std::sqrt(2.0);
-        std::vector<const Cell *> cells;
-        cells.reserve(16);
+        const std::size_t left = clampTo((x - around - origin_.x()) / cellSize_, cellColumns_);
+        const std::size_t right = clampTo((x + around - origin_.x()) / cellSize_, cellColumns_);
+        const std::size_t low = clampTo((y - around - origin_.y()) / cellSize_, cellRows_);
+        const std::size_t high = clampTo((y + around - origin_.y()) / cellSize_, cellRows_);
         std::size_t boxes = 0;
-        for (std::size_t r = clampTo((y - around - origin_.y()) / cellSize_, cellRows_);
-             r <= clampTo((y + around - origin_.y()) / cellSize_, cellRows_); ++r)
-            for (std::size_t c = clampTo((x - around - origin_.x()) / cellSize_, cellColumns_);
-                 c <= clampTo((x + around - origin_.x()) / cellSize_, cellColumns_); ++c)
-            {
-                cells.push_back(&once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }));
-                boxes += cells.back()->boxes.size();
-            }
+        for (std::size_t r = low; r <= high; ++r)
+            for (std::size_t c = left; c <= right; ++c)
+                boxes += once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }).boxes.size();
         // Whether a box is near enough is as good as chance: a branch would cost more than writing down all of them.
         std::vector<const BlockInBox *> found(boxes + 1);
         std::size_t count = 0;
-        for (const Cell *cell : cells)
-            for (const BlockInBox &each : cell->boxes)
-            {
-                found[count] = &each;
-                count += squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest;
-            }
+        for (std::size_t r = low; r <= high; ++r)
+            for (std::size_t c = left; c <= right; ++c)
+                for (const BlockInBox &each : cells_[r * cellColumns_ + c].load(std::memory_order_acquire)->boxes)
+                {
+                    found[count] = &each;
+                    count += squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) <= farthest * farthest;
+                }
         auto list = std::make_unique<List>();
         list->reserve(count);
         for (std::size_t k = 0; k < count; ++k)
@@ -340,11 +337,6 @@ namespace parking
             if (each.gap(box) < smallest)
                 smallest = std::min(smallest, each.block->separation(box));
         return smallest;
-    }
-
-    double EdgeIndex::separation(const OrientedBox &box) const
-    {
-        return separation(box, INFINITE);
     }
 
     bool EdgeIndex::isSeparate(const OrientedBox &box, double least) const

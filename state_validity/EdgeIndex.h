@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -46,7 +47,10 @@ namespace parking
         double separation(const OrientedBox &box, double ignored) const;
 
         /** \brief The same, told apart however large. */
-        double separation(const OrientedBox &box) const;
+        double separation(const OrientedBox &box) const
+        {
+            return separation(box, std::numeric_limits<double>::infinity());
+        }
 
         /** \brief Is separation() at least \e least? */
         bool isSeparate(const OrientedBox &box, double least) const;

@@ -299,3 +299,47 @@ TEST(EdgeIndex, PointDistancesAreThoseOfTheNearestEdge)
     }
     EXPECT_GT(near, 20000);
 }
+
+/** Where cells hold many blocks, others hold none, and edges cross the borders between them and that of the world. */
+TEST(EdgeIndex, NoneOfManyEdgesIsMissed)
+{
+    Random random(16);
+    const Vehicle vehicle;
+    const double halfLength = 0.5 * vehicle.length(), halfWidth = 0.5 * vehicle.width, reach = 1.0;
+    int near = 0;
+    for (const int count : {8, 9, 100, 2000})
+    {
+        std::vector<Edge> edges;
+        std::vector<Polygon> lines;
+        for (int i = 0; i < count; ++i)
+        {
+            const Eigen::Vector2d from(random.between(-21.0, 21.0), std::round(random.between(-12.0, 6.0)));
+            const double length = random.chance(0.1) ? 6.0 : 0.2;
+            const Eigen::Vector2d along(random.between(-length, length), random.between(-length, length));
+            edges.push_back({from, from + (random.chance(0.5) ? Eigen::Vector2d(along.x(), 0.0) : along)});
+            lines.push_back({edges.back().from, edges.back().to});
+            if (random.chance(0.1))
+                edges.push_back({from, from});  // no edge at all
+        }
+        const EdgeIndex index(edges, {{-20.0, -11.0}, {20.0, 11.0}}, std::hypot(halfLength, halfWidth) + reach);
+        const PolygonOracle oracle(lines, {{-1e3, -1e3}, {1e3, 1e3}});
+        for (int i = 0; i < 600; ++i)
+        {
+            const Pose centre{random.between(-20.0, 20.0), random.between(-11.0, 11.0), random.between(-PI, PI)};
+            const Pose pose = compose(centre, {-vehicle.centreOffset(), 0.0, 0.0});
+            const OrientedBox box{centre.x, centre.y, std::cos(pose.yaw), std::sin(pose.yaw), halfLength, halfWidth};
+            const double expected = oracle.clearance(pose, vehicle);
+            const double distance = index.distance(box), separation = index.separation(box);
+            ASSERT_NEAR(index.distanceToAll(box), expected, 1e-9) << count;
+            ASSERT_GE(distance, expected - 1e-9) << count;
+            ASSERT_EQ(index.isSeparate(box, 0.1), separation >= 0.1) << count;
+            if (expected > reach)
+                continue;
+            ++near;
+            ASSERT_NEAR(distance, expected, 1e-9) << count;
+            ASSERT_LE(separation, expected + 1e-9) << count;
+            ASSERT_GE(separation, expected > 0.0 ? std::sqrt(0.5) * expected - 1e-9 : -1e3) << count;
+        }
+    }
+    EXPECT_GT(near, 1000);
+}
