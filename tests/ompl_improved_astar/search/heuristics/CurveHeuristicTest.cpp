@@ -149,6 +149,39 @@ TEST(CurveHeuristic, approximateIsCloseToExactAtEveryScale)
     }
 }
 
+/** Also right between two cells, and where the next number would belong to the other one. */
+TEST(CurveHeuristic, approximateIsThatOfTheNearestCell)
+{
+    const ReedsShepp curves(1.0);
+    CurvesTo heuristic(curves);
+    heuristic.reset(false);
+    heuristic.addTarget({0.0, 0.0, 0.0});
+    Random random(9);
+    const auto about = [&random](double value, double cell)
+    {
+        if (random.chance(0.5))
+            return value;
+        const double border = (std::floor(value / cell) + 0.5) * cell;
+        return random.chance(0.3) ? border : std::nextafter(border, random.chance(0.5) ? 0.0 : 2.0 * border);
+    };
+    for (int i = 0; i < 50000; ++i)
+    {
+        const bool near = i % 2 == 0;
+        const double side = near ? CurveTableCells::NEAR_SIDE : CurveTableCells::FAR_SIDE;
+        const int headings = near ? CurveTableCells::NEAR_HEADINGS : CurveTableCells::FAR_HEADINGS;
+        const double extent = near ? 1.4 : 9.0;
+        Pose pose = random.poseIn(-extent, extent);
+        if (!near && std::max(std::abs(pose.x), std::abs(pose.y)) < 1.7)
+            continue;
+        pose = {about(pose.x, side), about(pose.y, side), wrapAngle(about(pose.yaw, 2.0 * PI / headings))};
+        const long heading = std::lround(pose.yaw / (2.0 * PI) * headings);
+        const Pose centre{std::round(pose.x / side) * side, std::round(pose.y / side) * side,
+                          static_cast<double>((heading + headings) % headings) * 2.0 * PI / headings};
+        ASSERT_EQ(heuristic.estimate(pose), static_cast<float>(curves.distance(centre, {})))
+            << pose.x << " " << pose.y << " " << pose.yaw;
+    }
+}
+
 TEST(CurveHeuristic, approximateGivesTheSameAnswerHoweverOftenAndInWhateverOrder)
 {
     const ReedsShepp curves(3.0);
