@@ -91,12 +91,17 @@ namespace parking::search
 
         /** \name Shortening
             @{ */
-        double knotSpacing{0.5};        ///< of the first shortening
-        double mostKnots{20.0};         ///< but no more than so many on long paths
-        double stillLong{0.15};         ///< a path longer than it looked by this share is shortened once more
-        double otherKnotSpacing{0.48};  ///< then with these knots,
-        double otherKnotOffset{0.15};   ///< the first of them here
-        double widestSpan{12.0};        ///< later shortenings replace parts up to this length
+        double knotSpacing{0.5};           ///< of the first shortening
+        double mostKnots{20.0};            ///< but no more than so many on long paths
+        double stillLong{0.15};            ///< a path longer than it looked by this share is shortened once more
+        double otherKnotSpacing{0.48};     ///< then with these knots,
+        double otherKnotOffset{0.15};      ///< the first of them here
+        double widestSpan{12.0};           ///< later shortenings replace parts up to this length
+        double muchDearer{1.75};           ///< a path that then costs more than this times what it promised
+        std::uint64_t mostShortenings{3};  ///< is shortened so many times more (chosen with seed tuneX1, too),
+        double leastSpacing{0.3};          ///< with spacings from this
+        double spacings{0.3};              ///< up to this much more,
+        double spanOfDearPaths{12.0};      ///< of parts up to this length
         /** @} */
 
         /** \name Improving until stopped

@@ -9,6 +9,21 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+        /** Where a path is cut to be shortened, in units of what the spacing is given in. */
+        struct Knots
+        {
+            double spacing, offset;
+        };
+
+        /** Spacings from \e least to that and \e range, and offsets, that do not repeat for long: the golden ratio's
+            multiples fill the interval. */
+        Knots otherKnots(std::uint64_t number, double least, double range)
+        {
+            const double fraction = std::fmod(0.618033988749895 * static_cast<double>(number), 1.0);
+            const double spacing = least + range * fraction;
+            return {spacing, spacing * std::fmod(7.0 * fraction, 1.0)};
+        }
     }  // namespace
 
     void PathPlanner::begin(MotionEnvironment &environment, const PathPlannerParameters &parameters)
@@ -137,6 +152,13 @@ namespace parking::search
             if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && closeness(best) > 0.0))
                 shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                         tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
+            // A path of many short pieces that is far from what it looked is often held by nothing but its knots.
+            for (std::uint64_t k = 0; k < tuning.mostShortenings && !isBare && cost > tuning.muchDearer * expected; ++k)
+            {
+                const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
+                const double spacing = std::max(knots.spacing, best.length() / tuning.mostKnots);
+                shorten(best, cost, spacing, knots.offset, tuning.spanOfDearPaths * radius, CurveChoice::Cheapest);
+            }
         }
         take(best, cost);
     }
@@ -179,10 +201,8 @@ namespace parking::search
             if (parameters_.shorten)
                 for (std::uint64_t k = 0; k < tuning.shorteningsPerRound && !goodEnough_ && !(stop_ && stop_()); ++k)
                 {
-                    // Spacings and offsets that do not repeat for long: the golden ratio's multiples fill the interval.
-                    const double fraction = std::fmod(0.618033988749895 * static_cast<double>(3 * round_ + k + 1), 1.0);
-                    const double spacing = radius * (0.2 + 0.6 * fraction);
-                    progress = shortenBest(spacing, spacing * std::fmod(7.0 * fraction, 1.0)) || progress;
+                    const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
+                    progress = shortenBest(knots.spacing, knots.offset) || progress;
                 }
             if (searching && !goodEnough_)
             {

@@ -104,6 +104,36 @@ TEST(PathPlanner, shorteningNeverCostsAnything)
     EXPECT_GT(cheaper, 5);
 }
 
+TEST(PathPlanner, onlyPathsFarDearerThanPromisedAreShortenedAgainAndThenNeverCostMore)
+{
+    int again = 0, cheaper = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        PathPlannerParameters parameters = parametersFor(problem);
+        PathPlanner usual, spared;
+        begin(usual, problem, parameters);
+        if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)
+            continue;
+        parameters.search.tuning.mostShortenings = 0;
+        begin(spared, problem, parameters);
+        ASSERT_EQ(spared.solve(afterAsking(3000), nullptr), Outcome::Solved);
+        const double promised = std::max(spared.search().shortestMotion(), spared.search().estimate());
+        EXPECT_EQ(usual.statistics().expanded, spared.statistics().expanded);
+        EXPECT_LE(usual.bestCost(), spared.bestCost());
+        if (spared.bestCost() <= SearchTuning().muchDearer * promised)
+        {
+            EXPECT_EQ(usual.statistics().connections, spared.statistics().connections);
+            EXPECT_EQ(usual.bestCost(), spared.bestCost());
+        }
+        again += usual.statistics().connections > spared.statistics().connections;
+        cheaper += usual.bestCost() < spared.bestCost() - 1e-6;
+    }
+    EXPECT_GT(again, 5);
+    EXPECT_GT(cheaper, 2);
+}
+
 TEST(PathPlanner, aPathThatCostsHardlyMoreThanPromisedIsNotThoughtOver)
 {
     int spared = 0;
