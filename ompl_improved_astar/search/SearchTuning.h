@@ -100,8 +100,7 @@ namespace parking::search
         double muchDearer{1.75};           ///< a path that then costs more than this times what it promised
         std::uint64_t mostShortenings{3};  ///< is shortened so many times more (chosen with seed tuneX1, too),
         double leastSpacing{0.3};          ///< with spacings from this
-        double spacings{0.3};              ///< up to this much more,
-        double spanOfDearPaths{12.0};      ///< of parts up to this length
+        double spacings{0.3};              ///< up to this much more
         /** @} */
 
         /** \name Improving until stopped

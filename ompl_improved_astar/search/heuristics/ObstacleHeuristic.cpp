@@ -158,7 +158,7 @@ namespace parking::search
             return;
         // Dijkstra's algorithm from there, with what dear cells cost on top of their lengths, up to the first cell that
         // is not dear, or has neighbours that are not looked at: from what is left it costs at least as much.
-        dear.from.fill(UNREACHED);
+        dear.from.assign(static_cast<std::size_t>(DearRoundAim::SIDE) * DearRoundAim::SIDE, UNREACHED);
         struct Place
         {
             std::uint32_t cost;

@@ -7,7 +7,6 @@
 #include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -184,7 +183,7 @@ namespace parking::search
 
             bool isKnown{false};
             std::uint32_t fromElsewhere{0};
-            std::array<std::uint32_t, static_cast<std::size_t>(SIDE) * SIDE> from{};
+            std::vector<std::uint32_t> from;  // empty until something is dear
         } dearRoundAim_;
         TiledGrid<CellState> states_;
         MonotoneQueue<Entry> open_;

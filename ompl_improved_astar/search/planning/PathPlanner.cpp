@@ -157,7 +157,7 @@ namespace parking::search
             {
                 const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
                 const double spacing = std::max(knots.spacing, best.length() / tuning.mostKnots);
-                shorten(best, cost, spacing, knots.offset, tuning.spanOfDearPaths * radius, CurveChoice::Cheapest);
+                shorten(best, cost, spacing, knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
         }
         take(best, cost);
