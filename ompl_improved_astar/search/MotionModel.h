@@ -30,6 +30,13 @@ namespace parking::search
         double mobility{0.0};               ///< metres of the longest free motion, when it is known
     };
 
+    /** \brief Where a motion towards a pose ends, unless it gets there. */
+    enum class Until
+    {
+        Contact,   ///< where it is not free any more
+        Closeness  ///< where it does not surely keep the preferred clearance any more; as Contact if there is none
+    };
+
     /** \brief What is peculiar to a model, for the search to go by. */
     struct ModelTraits
     {
@@ -123,11 +130,11 @@ namespace parking::search
                           const Offer &offer) = 0;
 
         /** \brief Moves from a node by the shortest motion that leads, or would lead, to a pose without regard to
-            obstacles, as far as that is free.
+            obstacles, and ends on the way where it is told to.
 
             \param motions the way, one motion after the other, from the root outwards; overwritten. None when nothing
-            of it is free, and for a model that cannot go where it is told to. */
-        virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/,
+            of it can be driven, and for a model that cannot go where it is told to. */
+        virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/, Until /*until*/,
                                  std::vector<Successor> &motions)
         {
             motions.clear();

@@ -226,7 +226,8 @@ namespace parking::search
         if (first)
             own.node(entry.node).mobility = static_cast<float>(expansion_.mobility);
         underWay_ = {own.side(), entry.node, level, first, 0};
-        finishExpansion();
+        if (finishExpansion() && first)
+            lookAhead(own, entry.node, queue);
     }
 
     bool Search::finishExpansion()

@@ -227,7 +227,6 @@ namespace parking::search
         {
             std::array<std::vector<NodeIndex>, 2> nodes;
             unsigned int samples{0};
-            std::vector<Successor> motions;
         };
 
         Frontier &frontier(Side side)
@@ -279,6 +278,11 @@ namespace parking::search
         float estimateOf(Side side, const Pose &pose);
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
 
+        // SearchLookahead.cpp: driving on without looking right and left
+        void lookAhead(Frontier &own, NodeIndex node, std::size_t queue);
+        NodeIndex keepMotions(Frontier &own, NodeIndex from);
+        NodeIndex keep(Frontier &own, Node node);
+
         // SearchDetours.cpp: what is done when the search is stuck
         void noteProgress(const Frontier &own, NodeIndex index);
         static std::size_t detoursOf(const Frontier &own)
@@ -295,7 +299,6 @@ namespace parking::search
         void endDetours();
         void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index);
         void explore();
-        NodeIndex keepExplored(Frontier &own, Node node);
         NodeIndex nearestExplored(Side side, const Pose &pose) const;
         void beginEnclosures();
         void widenEnclosures();
@@ -335,6 +338,7 @@ namespace parking::search
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
         Exploration exploration_;
+        std::vector<Successor> motions_;     // towards a pose, one after the other
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;
         std::size_t enclosureLevel_{0};  // of their cells: each finer than the one before

@@ -192,24 +192,6 @@ namespace parking::search
         return best;
     }
 
-    NodeIndex Search::keepExplored(Frontier &own, Node node)
-    {
-        // Only cells that are empty are left from: else a search without a way would never end.
-        const std::size_t levels = parameters_.adaptiveResolution ? traits_.levels : 1;
-        for (std::size_t level = 0; level < levels; ++level)
-        {
-            const std::uint64_t cell = model_->cell(node.pose, level);
-            if (own.holderOf(cell, level) != NO_NODE)
-                continue;
-            node.level = node.next = static_cast<std::uint8_t>(level);
-            const NodeIndex index = own.place(node, NO_NODE, cell);
-            push(own, level, index);
-            return index;
-        }
-        node.next = static_cast<std::uint8_t>(traits_.levels);
-        return own.append(node);
-    }
-
     void Search::explore()
     {
         // A step of RRT-Connect (J. J. Kuffner and S. M. LaValle, 2000) with a sequence that fills the space evenly and
@@ -232,23 +214,10 @@ namespace parking::search
         NodeIndex index = nearestExplored(side, sample);
         if (index == NO_NODE)
             return;
-        model_->moveTowards(side, own.node(index).pose, sample, exploration_.motions);
-        if (exploration_.motions.empty())
+        model_->moveTowards(side, own.node(index).pose, sample, Until::Contact, motions_);
+        if (motions_.empty())
             return;
-        for (const Successor &successor : exploration_.motions)
-        {
-            Node node;
-            node.pose = successor.pose;
-            node.g = costThrough(own, own.node(index), successor);
-            node.motion = successor.motion;
-            node.parent = index;
-            node.farthest = node.fixed = true;
-            node.cusps = cuspsThrough(own.node(index), successor.motion);
-            if (node.cusps > parameters_.mostCusps)
-                break;
-            node.h = estimateOf(side, node.pose);
-            index = keepExplored(own, node);
-        }
+        index = keepMotions(own, index);
         exploration_.nodes[static_cast<std::size_t>(side)].push_back(index);
         joinAfar(own, index);
         if (const NodeIndex partner = nearestExplored(opposite(side), own.node(index).pose);

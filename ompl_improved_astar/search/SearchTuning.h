@@ -47,6 +47,15 @@ namespace parking::search
         std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
+        /** \name Looking ahead along the disc's way
+
+            Chosen by hand on random queries with the tuning seeds that docs/planner.md names, and on the 62 problems.
+            @{ */
+        double lookahead{3.0};         ///< to the place on the way that is made for,
+        double lookaheadHeading{1.5};  ///< with the heading that the way has from so far before it to so far behind it,
+        double mostLookahead{1.3};     ///< by a curve no longer than this times the straight line; 0: never
+        /** @} */
+
         /** \name Detours, when the search is stuck
 
             Chosen by hand on random queries with the tuning seeds that docs/planner.md names.

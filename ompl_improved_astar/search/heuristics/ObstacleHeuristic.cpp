@@ -450,6 +450,34 @@ namespace parking::search
         return distance(pose.x, pose.y) == std::numeric_limits<double>::infinity() && !stopped_;
     }
 
+    std::optional<ObstacleHeuristic::PlaceOnWay> ObstacleHeuristic::placeOnWay(double x, double y, double ahead,
+                                                                               double around)
+    {
+        const double way = distance(x, y);
+        if (way <= ahead + around || way == std::numeric_limits<double>::infinity())
+            return std::nullopt;
+        Entry cell{static_cast<std::int32_t>(std::floor((x - origin_.x()) / resolution_)),
+                   static_cast<std::int32_t>(std::floor((y - origin_.y()) / resolution_))};
+        unsigned int direction = DIRECTIONS;
+        double driven = 0.0;
+        // Back by the last steps of shortest ways, straight on where there is a choice.
+        const auto driveOn = [&](double length)
+        {
+            for (; driven < length; driven += (direction % 2 != 0 ? DIAGONAL : STRAIGHT) * (resolution_ / STRAIGHT))
+            {
+                const unsigned int arrivals = states_.at(cell.column, cell.row).arrivals;
+                if (arrivals == ALL)
+                    break;  // a target: dear ways count as longer than they are
+                if (direction == DIRECTIONS || (arrivals & bitOf(direction)) == 0)
+                    direction = static_cast<unsigned int>(__builtin_ctz(arrivals));
+                cell = {cell.column - COLUMNS[direction], cell.row - ROWS[direction]};
+            }
+            return Eigen::Vector2d(origin_ + resolution_ * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5));
+        };
+        const Eigen::Vector2d before = driveOn(ahead - around), place = driveOn(ahead), after = driveOn(ahead + around);
+        return after == before ? std::nullopt : std::optional(PlaceOnWay{place, after - before});
+    }
+
     Eigen::Vector2d ObstacleHeuristic::nearestReachable(const Eigen::Vector2d &goal)
     {
         Eigen::Vector2d best = goal;

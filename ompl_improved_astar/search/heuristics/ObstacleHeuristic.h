@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -83,6 +84,19 @@ namespace parking::search
         /** \brief The place nearest to \e goal, as the crow flies, that the disc reaches from the targets: the centre
             of a cell. Costs as much as the area that can be reached, unless \e goal is in it. */
         Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal);
+
+        /** \brief A place on a way of the disc, and where the way is heading there. */
+        struct PlaceOnWay
+        {
+            Eigen::Vector2d place;    ///< the centre of a cell
+            Eigen::Vector2d heading;  ///< of any length but zero
+        };
+
+        /** \brief The place so far along a shortest way from (x, y); none where the way is shorter, or not known.
+
+            \param ahead metres along the way
+            \param around metres along the way to either side over which its heading is taken, at most \e ahead */
+        std::optional<PlaceOnWay> placeOnWay(double x, double y, double ahead, double around);
 
         /** \brief Cells settled. */
         std::uint64_t cells() const override

@@ -172,7 +172,22 @@ namespace parking::search
         }
     }
 
-    void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions)
+    double CarModel::lengthUntil(Until until, const Pose &from, const Arc &motion, double &clear)
+    {
+        clear = -1.0;
+        if (until == Until::Contact || !parameters_->cost.prefersClearance())
+            return environment_->freeLength(from, motion.curvature, motion.length);
+        environment_->clearLengths(from, &motion, 1, parameters_->cost.preferredClearance, &clear);
+        if (clear > 0.0)
+            return clear;
+        // It is not clear from the beginning, or the environment does not know.
+        const PathPiece piece{motion.curvature, motion.length};
+        const double closeness = parameters_->cost.closeness(from, piece, *environment_, clear, 0.0);
+        return closeness > 0.0 ? 0.0 : environment_->freeLength(from, motion.curvature, motion.length);
+    }
+
+    void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, Until until,
+                               std::vector<Successor> &motions)
     {
         motions.clear();
         // On the goal's side the car will drive from there to here.
@@ -183,14 +198,15 @@ namespace parking::search
             const Arc piece = side == Side::Start ? curve.pieces[k]
                                                   : Arc{curve.pieces[curve.count - 1 - k].curvature,
                                                         -curve.pieces[curve.count - 1 - k].length};
-            const double free = environment_->freeLength(pose, piece.curvature, piece.length);
-            const bool isWhole = free >= std::abs(piece.length);
-            if (free >= shortest_)
+            double clear = 0.0;
+            const double length = lengthUntil(until, pose, piece, clear);
+            const bool isWhole = length >= std::abs(piece.length);
+            if (length >= shortest_)
             {
-                const double driven = std::copysign(free, piece.length);
+                const double driven = std::copysign(length, piece.length);
                 const Pose end = advance(pose, piece.curvature, driven);
                 pose = {end.x, end.y, wrapAngle(end.yaw)};
-                motions.push_back({{0.0, piece.curvature, driven, 0.0}, pose, true});
+                motions.push_back({{0.0, piece.curvature, driven, 0.0}, pose, true, clear});
             }
             if (!isWhole)
                 return;

@@ -241,6 +241,39 @@ TEST(ObstacleHeuristic, isDijkstrasDistanceWherePlacesAreDear)
     EXPECT_GT(dearer, 300);
 }
 
+// A place on a shortest way is nearer by what was driven, which is a whole number of steps.
+TEST(ObstacleHeuristic, tellsPlacesOnAShortestWay)
+{
+    int told = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    {
+        DiscCarWorld world = smallWorld(seed);
+        Random random(seed + 300);
+        const double resolution = random.between(0.12, 0.4), radius = random.between(0.2, 0.6);
+        const bool isDear = seed % 2 == 1;
+        const Eigen::Vector2d target = anywhere(random);
+        HeuristicIn heuristic(world, resolution, {radius, isDear ? 2.0 * radius : 0.0, 21.0}, target);
+        heuristic.addTarget(target.x(), target.y());
+        for (int i = 0; i < 100; ++i)
+        {
+            const Eigen::Vector2d p = anywhere(random);
+            const double ahead = random.between(0.0, 6.0), around = random.between(0.0, ahead);
+            const double way = heuristic.distance(p.x(), p.y());
+            const auto found = heuristic.placeOnWay(p.x(), p.y(), ahead, around);
+            const bool isFarEnough = way < INFINITE && way > ahead + around;
+            EXPECT_TRUE(isFarEnough ? found || isDear || around <= 2.0 * resolution : !found);
+            if (!found)
+                continue;
+            ++told;
+            const double rest = heuristic.distance(found->place.x(), found->place.y());
+            EXPECT_LE(rest, way - ahead + 1e-9);
+            EXPECT_TRUE(isDear || rest > way - ahead - 17.0 / 12.0 * resolution - 1e-9);
+            EXPECT_LE(found->heading.norm(), 2.0 * around + 2.9 * resolution);
+        }
+    }
+    EXPECT_GT(told, 500);
+}
+
 TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)
 {
     for (std::uint64_t seed = 0; seed < 10; ++seed)

@@ -1,0 +1,88 @@
+// Driving on along a way of the disc, without an expansion for each step.
+
+#include "ompl_improved_astar/search/Search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double ARRIVED = 1e-6;  // turning radii: what rounding adds up to along a curve
+    }
+
+    void Search::lookAhead(Frontier &own, NodeIndex index, std::size_t queue)
+    {
+        // Only while a way to drive is looked for, and from what has just come farthest by one of the guides.
+        if (own.side() != confined_ || !guides(confined_).roundObstacles || hasTarget_ || hasSolution() || boundIsKept_)
+            return;
+        if (index != (queue == 0 ? own.bestClosed : detours_[queue - 1]->best))
+            return;
+        ObstacleHeuristic &way = queue == 0 ? guides(confined_).obstacles : detours_[queue - 1]->way;
+        const SearchTuning &tuning = parameters_.tuning;
+        const double radius = parameters_.turningRadius;
+        while (!(stop_ && stop_()))
+        {
+            const Pose from = own.node(index).pose;
+            const auto ahead =
+                way.placeOnWay(from.x, from.y, tuning.lookahead * radius, tuning.lookaheadHeading * radius);
+            if (!ahead)
+                return;
+            Pose to{ahead->place.x(), ahead->place.y(), std::atan2(ahead->heading.y(), ahead->heading.x())};
+            const bool inReverse = std::cos(from.yaw) * (to.x - from.x) + std::sin(from.yaw) * (to.y - from.y) < 0.0;
+            if (inReverse)
+                to.yaw = wrapAngle(to.yaw + PI);
+            // Where the heading is too far off, the curve turns round: nothing to be done without looking.
+            const double length = own.side() == Side::Start ? model_->distance(from, to) : model_->distance(to, from);
+            if (length > tuning.mostLookahead * positionDistance(from, to))
+                return;
+            model_->moveTowards(own.side(), from, to, Until::Closeness, motions_);
+            const bool hasCusp =
+                std::any_of(motions_.begin(), motions_.end(),
+                            [&](const Successor &each) { return (each.motion.length < 0.0) != inReverse; });
+            // Where obstacles are near, the way to the contact is no better than any other.
+            if (motions_.empty() || hasCusp || positionDistance(motions_.back().pose, to) > ARRIVED * radius)
+                return;
+            index = keepMotions(own, index);
+        }
+    }
+
+    NodeIndex Search::keepMotions(Frontier &own, NodeIndex index)
+    {
+        for (const Successor &successor : motions_)
+        {
+            Node node;
+            node.pose = successor.pose;
+            node.g = costThrough(own, own.node(index), successor);
+            node.motion = successor.motion;
+            node.parent = index;
+            node.farthest = node.fixed = true;
+            node.cusps = cuspsThrough(own.node(index), successor.motion);
+            if (node.cusps > parameters_.mostCusps)
+                break;
+            node.h = estimateOf(own.side(), node.pose);
+            index = keep(own, node);
+        }
+        return index;
+    }
+
+    NodeIndex Search::keep(Frontier &own, Node node)
+    {
+        // Only cells that are empty are left from: else a search without a way would never end.
+        const std::size_t levels = parameters_.adaptiveResolution ? traits_.levels : 1;
+        for (std::size_t level = 0; level < levels; ++level)
+        {
+            const std::uint64_t cell = model_->cell(node.pose, level);
+            if (own.holderOf(cell, level) != NO_NODE)
+                continue;
+            node.level = node.next = static_cast<std::uint8_t>(level);
+            const NodeIndex index = own.place(node, NO_NODE, cell);
+            push(own, level, index);
+            return index;
+        }
+        node.next = static_cast<std::uint8_t>(traits_.levels);
+        return own.append(node);
+    }
+}  // namespace parking::search
