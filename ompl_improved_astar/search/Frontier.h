@@ -167,7 +167,7 @@ namespace parking::search
 
         NodeIndex bestClosed{NO_NODE};  ///< the closed node that the other side is joined with, or aims at
         double bestClosedCost{0.0};     ///< by which it is the best
-        double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root
+        double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root looked at
         std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
         std::optional<Pose> aim;  ///< what its estimates count to, when it is not the other side's roots
 

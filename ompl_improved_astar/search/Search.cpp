@@ -164,6 +164,7 @@ namespace parking::search
                 return SearchOutcome::Exhausted;
             }
             step(frontier(side));
+            queueInTurn_ = 0;
             if (needsDetour())
                 takeDetour();
             if (mayExplore())
@@ -197,7 +198,7 @@ namespace parking::search
 
     void Search::step(Frontier &own)
     {
-        const std::size_t queue = own.chooseQueue();
+        const std::size_t queue = queueInTurn_ = own.chooseQueue();
         const std::size_t level = own.chooseLevel(queue);
         const OpenList::Entry entry = own.pop(queue, level);
         Node &node = own.node(entry.node);

@@ -218,8 +218,10 @@ namespace parking::search
             ObstacleHeuristic way;
             NodeIndex best{NO_NODE};
             double nearest{std::numeric_limits<double>::infinity()};
+            double fromRoot{0.0};  // metres of the way that the disc has from the root that is nearest
 
-            double estimate(const Node &node, double noWay);
+            /** \param looksOn else the way is guessed where it is not known yet: each look floods a part of the map */
+            double estimate(const Node &node, double noWay, bool looksOn);
         };
 
         /** Exploration: the nodes from which random poses are made for, by side. */
@@ -263,7 +265,8 @@ namespace parking::search
 
         // SearchEstimates.cpp: what nodes are worth
         void prepare();
-        void measureMobility(Frontier &own);
+        /** Metres that its most confined root can move; of many roots no more are looked at once it is \e enough. */
+        double mobility(Frontier &own, double enough);
         void beginGuides(Side side);
         void guideRoundObstacles();
         void aimAtTarget();
@@ -335,6 +338,7 @@ namespace parking::search
         mutable SearchStatistics statistics_;
         Expansion expansion_;  // of the node under way
         UnderWay underWay_;
+        std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
         Exploration exploration_;

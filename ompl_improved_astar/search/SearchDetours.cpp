@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace parking::search
 {
@@ -39,7 +40,7 @@ namespace parking::search
         for (std::size_t i = 0; i < detoursOf(own); ++i)
         {
             Detour &detour = *detours_[i];
-            const double ahead = detour.estimate(node, parameters_.tuning.noWay);
+            const double ahead = detour.estimate(node, parameters_.tuning.noWay, queueInTurn_ == i + 1);
             if (ahead >= detour.nearest)
                 continue;
             detour.nearest = ahead;
@@ -61,9 +62,13 @@ namespace parking::search
                (stuck.isExhausted() || stuck.turns() >= progressAt_ + tuning.stalledExpansions);
     }
 
-    double Search::Detour::estimate(const Node &node, double noWay)
+    double Search::Detour::estimate(const Node &node, double noWay, bool looksOn)
     {
-        const double length = way.distance(node.pose.x, node.pose.y);
+        double length = fromRoot + node.g;  // back to the root, and on from there
+        if (looksOn)
+            length = way.distance(node.pose.x, node.pose.y);
+        else if (const std::optional<double> known = way.knownDistance(node.pose.x, node.pose.y))
+            length = *known;
         return length < INFINITE ? std::max<double>(node.h, length) : noWay * node.h;
     }
 
@@ -84,6 +89,10 @@ namespace parking::search
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);
+        const NodeIndex root =
+            *std::min_element(stuck.roots().begin(), stuck.roots().end(),
+                              [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
+        detour.fromRoot = detour.way.distance(stuck.node(root).pose.x, stuck.node(root).pose.y);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
             if (const Node &node = stuck.node(i);
@@ -157,7 +166,7 @@ namespace parking::search
     {
         Frontier &own = frontier(confined_);
         const Node &node = own.node(index);
-        const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay);
+        const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay, queueInTurn_ == detour + 1);
         own.push(1 + detour, level, priority(own, node, ahead), ahead, index);
     }
 

@@ -15,12 +15,11 @@ namespace parking::search
 
     void Search::prepare()
     {
-        for (Frontier &each : frontiers_)
-            measureMobility(each);
         // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
-        const double startMobility = frontier(Side::Start).rootMobility,
-                     goalMobility = frontier(Side::Goal).rootMobility;
-        confined_ = traits_.joinsAfar && goalMobility <= startMobility + 0.5 * traits_.reach ? Side::Goal : Side::Start;
+        const double startMobility = mobility(frontier(Side::Start), 0.0),
+                     confinedGoal = startMobility + 0.5 * traits_.reach;
+        const bool isGoalConfined = mobility(frontier(Side::Goal), confinedGoal) <= confinedGoal;
+        confined_ = traits_.joinsAfar && isGoalConfined ? Side::Goal : Side::Start;
         if (!parameters_.bidirectional)
             confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;
         for (const Side side : {Side::Start, Side::Goal})
@@ -37,11 +36,12 @@ namespace parking::search
         joinsAgain_ = false;
     }
 
-    void Search::measureMobility(Frontier &own)
+    double Search::mobility(Frontier &own, double enough)
     {
         for (const NodeIndex root : own.roots())
-            if (!own.node(root).queued)
+            if (!own.node(root).queued && own.rootMobility > enough)
                 own.rootMobility = std::min(own.rootMobility, model_->mobility(own.node(root).pose));
+        return own.rootMobility;
     }
 
     void Search::beginGuides(Side side)

@@ -60,8 +60,8 @@ namespace parking::search
 
             Chosen by hand on random queries with the tuning seeds that docs/planner.md names.
             @{ */
-        std::uint64_t leastExpansions{80};    ///< before a search is called stuck,
-        std::uint64_t stalledExpansions{30};  ///< and so many of the more confined side since it came nearer
+        std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
+        std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
         DetourDisc detours[2]{{2.5, 60.0}, {1.6, 600.0}};  ///< one after the other: the first keeps to where a car can
                                                            ///< turn, the second to where it can drive

@@ -86,8 +86,7 @@ namespace parking::search
         // The grid is centred where the questions will be.
         origin_ = toward;
         towardColumn_ = towardRow_ = 0;
-        dearRoundAim_.isKnown = false;
-        dearRoundAim_.fromElsewhere = 0;
+        dearRoundAim_.forget();
     }
 
     void ObstacleHeuristic::findPassage(CellState &state, std::int32_t column, std::int32_t row)
@@ -139,70 +138,28 @@ namespace parking::search
         const auto dx = static_cast<std::uint32_t>(std::abs(column - towardColumn_));
         const auto dy = static_cast<std::uint32_t>(std::abs(row - towardRow_));
         const std::uint32_t length = STRAIGHT * std::max(dx, dy) + (DIAGONAL - STRAIGHT) * std::min(dx, dy);
-        if (dearRoundAim_.fromElsewhere == 0)
-            return length;
-        constexpr auto REACH = static_cast<std::uint32_t>(DearRoundAim::REACH);
-        if (dx > REACH || dy > REACH)
-            return length + dearRoundAim_.fromElsewhere;
-        return length + dearRoundAim_.from[DearRoundAim::place(column - towardColumn_, row - towardRow_)];
+        return length + dearRoundAim_.from(column - towardColumn_, row - towardRow_);
     }
 
-    /** Where the place that is made for is dear, all ways to it end dear. Without knowing it, the search would look at
-        all that is no farther away than what this costs. */
+    Ground ObstacleHeuristic::groundAt(std::int32_t column, std::int32_t row)
+    {
+        CellState &state = states_.at(column, row);
+        if (!isOpen(state, column, row))
+            return Ground::Closed;
+        return state.dear ? Ground::Dear : Ground::Cheap;
+    }
+
     void ObstacleHeuristic::findDearRoundAim()
     {
-        DearRoundAim &dear = dearRoundAim_;
-        dear.isKnown = true;
-        dear.fromElsewhere = 0;
-        if (dearer_.straight == 0)
-            return;
-        // Dijkstra's algorithm from there, with what dear cells cost on top of their lengths, up to the first cell that
-        // is not dear, or has neighbours that are not looked at: from what is left it costs at least as much.
-        dear.from.assign(static_cast<std::size_t>(DearRoundAim::SIDE) * DearRoundAim::SIDE, UNREACHED);
-        struct Place
-        {
-            std::uint32_t cost;
-            std::int32_t columns, rows;
-        };
-        const auto isDearer = [](const Place &a, const Place &b)
-        {
-            return a.cost > b.cost;
-        };
-        std::vector<Place> open{{0, 0, 0}};
-        dear.from[DearRoundAim::place(0, 0)] = 0;
-        while (!open.empty())
-        {
-            std::pop_heap(open.begin(), open.end(), isDearer);
-            const Place place = open.back();
-            open.pop_back();
-            if (place.cost > dear.from[DearRoundAim::place(place.columns, place.rows)])
-                continue;
-            dear.fromElsewhere = place.cost;
-            const std::int32_t column = towardColumn_ + place.columns, row = towardRow_ + place.rows;
-            const bool isInside = std::max(std::abs(place.columns), std::abs(place.rows)) < DearRoundAim::REACH &&
-                                  TiledGrid<CellState>::contains(column - 1, row - 1) &&
-                                  TiledGrid<CellState>::contains(column + 1, row + 1);
-            if (!isInside)
-                break;
-            CellState &state = states_.at(column, row);
-            if (!isOpen(state, column, row))
-                continue;
-            if (!state.dear)
-                break;
-            for (unsigned int direction = 0; direction < DIRECTIONS; ++direction)
-            {
-                const Place next{place.cost + (direction % 2 != 0 ? dearer_.diagonal : dearer_.straight),
-                                 place.columns + COLUMNS[direction], place.rows + ROWS[direction]};
-                std::uint32_t &known = dear.from[DearRoundAim::place(next.columns, next.rows)];
-                if (next.cost >= known)
-                    continue;
-                known = next.cost;
-                open.push_back(next);
-                std::push_heap(open.begin(), open.end(), isDearer);
-            }
-        }
-        for (std::uint32_t &cost : dear.from)
-            cost = std::min(cost, dear.fromElsewhere);
+        dearRoundAim_.find(dearer_,
+                           [this](std::int32_t columns, std::int32_t rows)
+                           {
+                               const std::int32_t column = towardColumn_ + columns, row = towardRow_ + rows;
+                               // Of what the grid does not reach nothing is paid.
+                               const bool isInside = TiledGrid<CellState>::contains(column - 1, row - 1) &&
+                                                     TiledGrid<CellState>::contains(column + 1, row + 1);
+                               return isInside ? groundAt(column, row) : Ground::Cheap;
+                           });
     }
 
     void ObstacleHeuristic::push(std::uint32_t g, std::int32_t column, std::int32_t row)
@@ -266,20 +223,14 @@ namespace parking::search
     {
         if (arrivals == ALL)
             return ALL;
-        enum class Beside
-        {
-            Cheap,
-            Dear,
-            Closed
-        };
         const auto look = [&](unsigned int direction)
         {
             CellState *const beside = neighbours.at(COLUMNS[direction], ROWS[direction]);
             if (beside == nullptr)
-                return Beside::Cheap;
+                return Ground::Cheap;
             if (!isOpen(*beside, cell.column + COLUMNS[direction], cell.row + ROWS[direction]))
-                return Beside::Closed;
-            return beside->dear ? Beside::Dear : Beside::Cheap;
+                return Ground::Closed;
+            return beside->dear ? Ground::Dear : Ground::Cheap;
         };
         unsigned int directions = arrivals;
         const auto goOn = [&](unsigned int arrival)
@@ -290,11 +241,11 @@ namespace parking::search
                 if (diagonal)
                     directions |= bitOf(turned(arrival, side));
                 // Another way, beside the last step, would be as short if it led through no dear or closed place.
-                const Beside beside = look(turned(arrival, diagonal ? 3 * side : 2 * side));
-                if (beside != Beside::Cheap)
+                const Ground beside = look(turned(arrival, diagonal ? 3 * side : 2 * side));
+                if (beside != Ground::Cheap)
                     directions |= bitOf(turned(arrival, diagonal ? 2 * side : side));
                 // And a dear place is entered by the shorter step.
-                if (beside == Beside::Dear && !diagonal)
+                if (beside == Ground::Dear && !diagonal)
                     directions |= bitOf(turned(arrival, 2 * side));
             }
         };
@@ -392,7 +343,7 @@ namespace parking::search
         if (!TiledGrid<CellState>::contains(u, v))
             return 0.0;
         const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-        if (!dearRoundAim_.isKnown)
+        if (!dearRoundAim_.isKnown())
             findDearRoundAim();
         CellState &asked = states_.at(column, row);
         if (!asked.settled && !isReached(asked) && !isOpen(asked, column, row))
@@ -427,6 +378,15 @@ namespace parking::search
         if (!isReached(asked))
             return std::numeric_limits<double>::infinity();
         return static_cast<double>(asked.g) * (resolution_ / STRAIGHT);
+    }
+
+    std::optional<double> ObstacleHeuristic::knownDistance(double x, double y)
+    {
+        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
+        if (!TiledGrid<CellState>::contains(u, v))
+            return std::nullopt;
+        const CellState &state = states_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+        return state.settled ? std::optional(distance(x, y)) : std::nullopt;
     }
 
     double ObstacleHeuristic::estimate(const Pose &pose)

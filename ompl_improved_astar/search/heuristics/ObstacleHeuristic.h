@@ -6,6 +6,7 @@
 #include "ompl_improved_astar/search/containers/MonotoneQueue.h"
 #include "ompl_improved_astar/search/containers/Occupancy.h"
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
+#include "ompl_improved_astar/search/heuristics/DearRoundAim.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -71,6 +72,9 @@ namespace parking::search
         /** \brief Metres from (x, y) to the nearest target; infinite when there is no way, or when the stop function
             said so; 0 when the grid does not reach far enough to tell. */
         double distance(double x, double y);
+
+        /** \brief distance(), if it is known without looking any farther. */
+        std::optional<double> knownDistance(double x, double y);
 
         /** \brief distance(), less a cell for what the grid adds to it; 0 when there is no way. */
         double estimate(const Pose &pose) override;
@@ -154,6 +158,7 @@ namespace parking::search
         void findPassage(CellState &state, std::int32_t column, std::int32_t row);
         bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         std::uint32_t estimate(std::int32_t column, std::int32_t row) const;
+        Ground groundAt(std::int32_t column, std::int32_t row);
         void findDearRoundAim();
         void push(std::uint32_t g, std::int32_t column, std::int32_t row);
         void aimAt(std::int32_t column, std::int32_t row);
@@ -175,30 +180,11 @@ namespace parking::search
         const StopFunction *stop_{nullptr};
         double resolution_{1.0};
         Disc disc_;
-        struct
-        {
-            std::uint32_t straight, diagonal;
-        } dearer_{0, 0};  // by so much than elsewhere is a step to a dear place
+        Step dearer_{0, 0};  // by so much than elsewhere is a step to a dear place
         std::uint64_t mostCells_{0};
         Eigen::Vector2d origin_{0.0, 0.0};
         std::int32_t towardColumn_{0}, towardRow_{0};  // the cell that is made for
-        /** What is dear about the last cells of all ways to the cell that is made for: a lower bound of what is paid
-            for that from the cells round it on, and from all others. */
-        struct DearRoundAim
-        {
-            static constexpr std::int32_t REACH = 40;  // cells to either side
-            static constexpr std::int32_t SIDE = 2 * REACH + 1;
-
-            /** The number of the cell so many columns and rows away. */
-            static constexpr std::size_t place(std::int32_t columns, std::int32_t rows)
-            {
-                return static_cast<std::size_t>((rows + REACH) * SIDE + columns + REACH);
-            }
-
-            bool isKnown{false};
-            std::uint32_t fromElsewhere{0};
-            std::vector<std::uint32_t> from;  // empty until something is dear
-        } dearRoundAim_;
+        DearRoundAim dearRoundAim_;
         TiledGrid<CellState> states_;
         MonotoneQueue<Entry> open_;
         /** Cells round the one that is asked for, as far as they are known: perhaps there is no way out. */

@@ -37,6 +37,7 @@ namespace parking_test
         bool tellsRoom{true};
         std::uint64_t questions{0};
         std::uint64_t pathsAsked{0};
+        std::uint64_t roomsAsked{0};
 
         /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
         double distanceFrom(double x, double y) const
@@ -95,6 +96,7 @@ namespace parking_test
 
         double roomAt(double x, double y) override
         {
+            ++roomsAsked;
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
         }
 

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/heuristics/SmallWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -86,26 +87,6 @@ namespace
         std::map<Place, double> settled_;
     };
 
-    /** A world whose outside is closed to discs of at least 1.5 cells. */
-    DiscCarWorld smallWorld(std::uint64_t seed)
-    {
-        Random random(seed);
-        DiscCarWorld world({{-6.0, -6.0}, {6.0, 6.0}});
-        for (int i = 0; i < 8; ++i)
-        {
-            const double x = random.between(-6.0, 6.0), y = random.between(-6.0, 6.0);
-            const double w = random.between(0.05, 1.5), h = random.between(0.05, 1.5);
-            world.boxes.push_back({{x - w, y - h}, {x + w, y + h}});
-        }
-        return world;
-    }
-
-    Eigen::Vector2d anywhere(Random &random)
-    {
-        const double x = random.between(-6.0, 6.0);
-        return {x, random.between(-6.0, 6.0)};
-    }
-
     void expectSame(double actual, double expected)
     {
         if (expected == INFINITE)
@@ -177,18 +158,6 @@ namespace
         }
         return length;
     }
-
-    /** \brief The heuristic, set up as it is made. */
-    class HeuristicIn : public ObstacleHeuristic
-    {
-    public:
-        HeuristicIn(DiscCarWorld &world, double resolution, const Disc &disc, const Eigen::Vector2d &toward)
-        {
-            reset(world, resolution, disc, toward, stop);
-        }
-
-        StopFunction stop;
-    };
 }  // namespace
 
 TEST(ObstacleHeuristic, isDijkstrasDistance)
@@ -239,39 +208,6 @@ TEST(ObstacleHeuristic, isDijkstrasDistanceWherePlacesAreDear)
         }
     }
     EXPECT_GT(dearer, 300);
-}
-
-// A place on a shortest way is nearer by what was driven, which is a whole number of steps.
-TEST(ObstacleHeuristic, tellsPlacesOnAShortestWay)
-{
-    int told = 0;
-    for (std::uint64_t seed = 0; seed < 30; ++seed)
-    {
-        DiscCarWorld world = smallWorld(seed);
-        Random random(seed + 300);
-        const double resolution = random.between(0.12, 0.4), radius = random.between(0.2, 0.6);
-        const bool isDear = seed % 2 == 1;
-        const Eigen::Vector2d target = anywhere(random);
-        HeuristicIn heuristic(world, resolution, {radius, isDear ? 2.0 * radius : 0.0, 21.0}, target);
-        heuristic.addTarget(target.x(), target.y());
-        for (int i = 0; i < 100; ++i)
-        {
-            const Eigen::Vector2d p = anywhere(random);
-            const double ahead = random.between(0.0, 6.0), around = random.between(0.0, ahead);
-            const double way = heuristic.distance(p.x(), p.y());
-            const auto found = heuristic.placeOnWay(p.x(), p.y(), ahead, around);
-            const bool isFarEnough = way < INFINITE && way > ahead + around;
-            EXPECT_TRUE(isFarEnough ? found || isDear || around <= 2.0 * resolution : !found);
-            if (!found)
-                continue;
-            ++told;
-            const double rest = heuristic.distance(found->place.x(), found->place.y());
-            EXPECT_LE(rest, way - ahead + 1e-9);
-            EXPECT_TRUE(isDear || rest > way - ahead - 17.0 / 12.0 * resolution - 1e-9);
-            EXPECT_LE(found->heading.norm(), 2.0 * around + 2.9 * resolution);
-        }
-    }
-    EXPECT_GT(told, 500);
 }
 
 TEST(ObstacleHeuristic, resumedLazilyIsTheSameAsAskedInAnyOtherOrder)

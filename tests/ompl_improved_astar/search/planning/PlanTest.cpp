@@ -124,7 +124,7 @@ TEST(Plan, findsTheNearestOfManyGoalsWithLittleMoreThanOne)
     problem.world.questions = 0;
     const PlanResult all = plan(problem.world, requestFor(problem));
     ASSERT_EQ(all.outcome, PlanOutcome::Solved);
-    EXPECT_LE(problem.world.questions, 3 * most);
+    EXPECT_LE(problem.world.questions, 2 * most);
     EXPECT_LE(all.cost, 1.15 * shortest) << "the nearest is " << nearest << ", found was " << all.goal;
     EXPECT_TRUE(isSamePose(all.path.end(), slots[all.goal], 1e-6));
     RecordProperty("one", static_cast<int>(most));
