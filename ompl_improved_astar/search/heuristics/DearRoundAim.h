@@ -19,9 +19,9 @@ namespace parking::search
     /** \brief What a cell is to a disc that is to go there. */
     enum class Ground
     {
-        Cheap,
-        Dear,
-        Closed
+        Cheap,  ///< it may be there at the price of the way alone
+        Dear,   ///< it may be there at a higher price
+        Closed  ///< it does not fit there
     };
 
     /** \brief What is dear about the last cells of all ways to an aim: a lower bound of what is paid for that from the
