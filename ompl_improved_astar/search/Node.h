@@ -61,8 +61,8 @@ namespace parking::search
         std::uint8_t level{0};      ///< the coarsest level on which its cell was free
         std::uint8_t next{0};       ///< the level on which it is expanded next
         bool queued{false};         ///< of roots: has been put into the open list
-        bool fixed{false};          ///< others were reached from here before it is expanded: must stay as it is
-        bool farthest{false};       ///< the motion ended for want of reach, not because a shorter step was wanted
+        bool fixed{false};     ///< others may have been reached from here before it is expanded: must stay as it is
+        bool farthest{false};  ///< the motion ended for want of reach, not because a shorter step was wanted
 
         /** \brief Has it been expanded, on one level at least? */
         bool isExpanded() const

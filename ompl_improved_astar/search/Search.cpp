@@ -58,6 +58,9 @@ namespace parking::search
         bestPath_ = {};
         improved_ = false;
         underWay_.node = NO_NODE;
+        ahead_.node = NO_NODE;
+        queueInTurn_ = 0;
+        turnEnds_ = false;
         full_ = false;
         loadingTime_ = 0.0;
         statistics_ = {};
@@ -70,6 +73,7 @@ namespace parking::search
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
         prepared_ = false;
+        ahead_.node = NO_NODE;
         hasLateRoots_ = joinsAgain_ = statistics_.expanded > 0;
         if (!traits_.joinsAfar)
             return;
@@ -151,8 +155,9 @@ namespace parking::search
             }
             if (parameters_.eagerObstacles && !loaded_ && !load())
                 return SearchOutcome::Stopped;
-            if (!finishExpansion() || (stop_ && stop_()))
+            if (!finishExpansion() || !finishLookahead() || (stop_ && stop_()))
                 return SearchOutcome::Stopped;
+            endTurn();
             if (!prepared_)
                 prepare();
             Side side = confined_;
@@ -163,14 +168,21 @@ namespace parking::search
                                                          : Exhaustion::SearchedOut;
                 return SearchOutcome::Exhausted;
             }
+            turnEnds_ = true;
             step(frontier(side));
-            queueInTurn_ = 0;
-            if (needsDetour())
-                takeDetour();
-            if (mayExplore())
-                explore();
-            widenEnclosures();
         }
+    }
+
+    void Search::endTurn()
+    {
+        queueInTurn_ = 0;
+        if (!std::exchange(turnEnds_, false) || !prepared_)
+            return;
+        if (needsDetour())
+            takeDetour();
+        if (mayExplore())
+            explore();
+        widenEnclosures();
     }
 
     void Search::close(Frontier &own, const OpenList::Entry &entry)
@@ -227,8 +239,10 @@ namespace parking::search
         if (first)
             own.node(entry.node).mobility = static_cast<float>(expansion_.mobility);
         underWay_ = {own.side(), entry.node, level, first, 0};
-        if (finishExpansion() && first)
-            lookAhead(own, entry.node, queue);
+        if (first)
+            beginLookahead(own, entry.node, queue);
+        if (finishExpansion())
+            finishLookahead();
     }
 
     bool Search::finishExpansion()
@@ -247,8 +261,11 @@ namespace parking::search
             joinAround(own, index);
         if (underWay_.first && environment_->wasInterrupted())
         {
+            // Its motions hang on it already.
+            own.node(index).fixed = true;
             own.node(index).next = own.node(index).level;
             push(own, underWay_.level, index);
+            ahead_.node = NO_NODE;
             return true;
         }
         if (parameters_.adaptiveResolution && underWay_.level + 1 < traits_.levels)

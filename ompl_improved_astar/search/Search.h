@@ -212,13 +212,21 @@ namespace parking::search
             std::size_t next{0};
         };
 
+        /** Looking ahead, which goes on from this node by the guide of this queue; none without a node. */
+        struct Lookahead
+        {
+            NodeIndex node{NO_NODE};
+            std::size_t queue{0};
+        };
+
         /** The way of another disc than the inscribed one, and what has come farthest by it. */
         struct Detour
         {
             ObstacleHeuristic way;
             NodeIndex best{NO_NODE};
             double nearest{std::numeric_limits<double>::infinity()};
-            double fromRoot{0.0};  // metres of the way that the disc has from the root that is nearest
+            Pose root;
+            double fromRoot{0.0};  // metres of the disc's way from that root; infinite: none yet, 0: too far to know
 
             /** \param looksOn else the way is guessed where it is not known yet: each look floods a part of the map */
             double estimate(const Node &node, double noWay, bool looksOn);
@@ -251,6 +259,7 @@ namespace parking::search
         bool chooseSide(Side &side);
         void step(Frontier &own);
         bool finishExpansion();
+        void endTurn();
         double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, const OpenList::Entry &entry);
@@ -282,7 +291,9 @@ namespace parking::search
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
 
         // SearchLookahead.cpp: driving on without looking right and left
-        void lookAhead(Frontier &own, NodeIndex node, std::size_t queue);
+        void beginLookahead(const Frontier &own, NodeIndex node, std::size_t queue);
+        bool finishLookahead();
+        NodeIndex nextAhead();
         NodeIndex keepMotions(Frontier &own, NodeIndex from);
         NodeIndex keep(Frontier &own, Node node);
 
@@ -338,6 +349,8 @@ namespace parking::search
         mutable SearchStatistics statistics_;
         Expansion expansion_;  // of the node under way
         UnderWay underWay_;
+        Lookahead ahead_;
+        bool turnEnds_{false};                          // what follows an expansion is yet to be done
         std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken

@@ -64,7 +64,9 @@ namespace parking::search
 
     double Search::Detour::estimate(const Node &node, double noWay, bool looksOn)
     {
-        double length = fromRoot + node.g;  // back to the root, and on from there
+        double length = fromRoot > 0.0 ? fromRoot + node.g : 0.0;  // back to the root, and on from there
+        if (looksOn && fromRoot == INFINITE)
+            fromRoot = way.distance(root.x, root.y);  // perhaps the time was up
         if (looksOn)
             length = way.distance(node.pose.x, node.pose.y);
         else if (const std::optional<double> known = way.knownDistance(node.pose.x, node.pose.y))
@@ -89,10 +91,11 @@ namespace parking::search
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);
-        const NodeIndex root =
+        const NodeIndex nearest =
             *std::min_element(stuck.roots().begin(), stuck.roots().end(),
                               [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
-        detour.fromRoot = detour.way.distance(stuck.node(root).pose.x, stuck.node(root).pose.y);
+        detour.root = stuck.node(nearest).pose;
+        detour.fromRoot = detour.way.distance(detour.root.x, detour.root.y);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
             if (const Node &node = stuck.node(i);

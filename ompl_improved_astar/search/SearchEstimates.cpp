@@ -110,7 +110,7 @@ namespace parking::search
         // Nodes are joined when they are expanded: those that are so far have never met the new ones.
         const std::size_t met = joinsAgain_ ? own.nodes().size() : 0;
         for (NodeIndex i = 0; i < met; ++i)
-            if (Node &node = own.node(i); node.isExpanded() && !node.fixed)
+            if (Node &node = own.node(i); node.isExpanded())
             {
                 node.next = node.level;
                 push(own, node.level, i);

@@ -8,45 +8,58 @@
 
 namespace parking::search
 {
-    namespace
-    {
-        constexpr double ARRIVED = 1e-6;  // turning radii: what rounding adds up to along a curve
-    }
-
-    void Search::lookAhead(Frontier &own, NodeIndex index, std::size_t queue)
+    void Search::beginLookahead(const Frontier &own, NodeIndex node, std::size_t queue)
     {
         // Only while a way to drive is looked for, and from what has just come farthest by one of the guides.
-        if (own.side() != confined_ || !guides(confined_).roundObstacles || hasTarget_ || hasSolution() || boundIsKept_)
-            return;
-        if (index != (queue == 0 ? own.bestClosed : detours_[queue - 1]->best))
-            return;
-        ObstacleHeuristic &way = queue == 0 ? guides(confined_).obstacles : detours_[queue - 1]->way;
+        if (parameters_.lookAhead && own.side() == confined_ && guides(confined_).roundObstacles && !hasTarget_ &&
+            !hasSolution() && !boundIsKept_ && node == (queue == 0 ? own.bestClosed : detours_[queue - 1]->best))
+            ahead_ = {node, queue};
+    }
+
+    bool Search::finishLookahead()
+    {
+        while (ahead_.node != NO_NODE)
+        {
+            const NodeIndex next = improved_ ? NO_NODE : nextAhead();
+            if (next == NO_NODE && environment_->wasInterrupted())
+                return false;
+            ahead_.node = next;
+            if (next != NO_NODE && stop_ && stop_())
+                return false;
+        }
+        return true;
+    }
+
+    /** The end of one more curve from the node that has been reached; NO_NODE when there is none. */
+    NodeIndex Search::nextAhead()
+    {
+        Frontier &own = frontier(confined_);
+        ObstacleHeuristic &way = ahead_.queue == 0 ? guides(confined_).obstacles : detours_[ahead_.queue - 1]->way;
         const SearchTuning &tuning = parameters_.tuning;
         const double radius = parameters_.turningRadius;
-        while (!(stop_ && stop_()))
-        {
-            const Pose from = own.node(index).pose;
-            const auto ahead =
-                way.placeOnWay(from.x, from.y, tuning.lookahead * radius, tuning.lookaheadHeading * radius);
-            if (!ahead)
-                return;
-            Pose to{ahead->place.x(), ahead->place.y(), std::atan2(ahead->heading.y(), ahead->heading.x())};
-            const bool inReverse = std::cos(from.yaw) * (to.x - from.x) + std::sin(from.yaw) * (to.y - from.y) < 0.0;
-            if (inReverse)
-                to.yaw = wrapAngle(to.yaw + PI);
-            // Where the heading is too far off, the curve turns round: nothing to be done without looking.
-            const double length = own.side() == Side::Start ? model_->distance(from, to) : model_->distance(to, from);
-            if (length > tuning.mostLookahead * positionDistance(from, to))
-                return;
-            model_->moveTowards(own.side(), from, to, Until::Closeness, motions_);
-            const bool hasCusp =
-                std::any_of(motions_.begin(), motions_.end(),
-                            [&](const Successor &each) { return (each.motion.length < 0.0) != inReverse; });
-            // Where obstacles are near, the way to the contact is no better than any other.
-            if (motions_.empty() || hasCusp || positionDistance(motions_.back().pose, to) > ARRIVED * radius)
-                return;
-            index = keepMotions(own, index);
-        }
+        const Pose from = own.node(ahead_.node).pose;
+        const auto place = way.placeOnWay(from.x, from.y, tuning.lookahead * radius, tuning.lookaheadHeading * radius);
+        if (!place)
+            return NO_NODE;
+        Pose to{place->place.x(), place->place.y(), std::atan2(place->heading.y(), place->heading.x())};
+        const bool inReverse = std::cos(from.yaw) * (to.x - from.x) + std::sin(from.yaw) * (to.y - from.y) < 0.0;
+        if (inReverse)
+            to.yaw = wrapAngle(to.yaw + PI);
+        // Where the heading is too far off, the curve turns round: nothing to be done without looking.
+        const double length = own.side() == Side::Start ? model_->distance(from, to) : model_->distance(to, from);
+        if (length > tuning.mostLookahead * positionDistance(from, to))
+            return NO_NODE;
+        model_->moveTowards(own.side(), from, to, Until::Closeness, motions_);
+        const bool hasCusp =
+            std::any_of(motions_.begin(), motions_.end(),
+                        [&](const Successor &each) { return (each.motion.length < 0.0) != inReverse; });
+        // Where obstacles are near, the way to the contact is no better than any other. Pieces too short to be driven
+        // are left out.
+        if (motions_.empty() || hasCusp ||
+            positionDistance(motions_.back().pose, to) > 3.0 * tuning.shortestMotion * radius)
+            return NO_NODE;
+        const NodeIndex last = keepMotions(own, ahead_.node);
+        return last != ahead_.node ? last : NO_NODE;
     }
 
     NodeIndex Search::keepMotions(Frontier &own, NodeIndex index)
@@ -82,7 +95,7 @@ namespace parking::search
             push(own, level, index);
             return index;
         }
-        node.next = static_cast<std::uint8_t>(traits_.levels);
+        node.level = node.next = static_cast<std::uint8_t>(traits_.levels);
         return own.append(node);
     }
 }  // namespace parking::search

@@ -43,7 +43,7 @@ namespace parking::search
             @{ */
         double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
         double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
-        double coarsestCell{2.0};            ///< but at most so many times heuristicCell (chosen with seed tune10a)
+        double coarsestCell{2.5};            ///< but at most so many times heuristicCell (see docs/planner.md)
         std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
@@ -53,7 +53,7 @@ namespace parking::search
             @{ */
         double lookahead{3.0};         ///< to the place on the way that is made for,
         double lookaheadHeading{1.5};  ///< with the heading that the way has from so far before it to so far behind it,
-        double mostLookahead{1.3};     ///< by a curve no longer than this times the straight line; 0: never
+        double mostLookahead{1.3};     ///< by a curve no longer than this times the straight line
         /** @} */
 
         /** \name Detours, when the search is stuck

@@ -85,6 +85,7 @@ namespace
                                                           {"heading_bins", "72"},
                                                           {"heuristic_weight_far", "2.5"},
                                                           {"heuristic_weight_near", "2.5"},
+                                                          {"look_ahead", "1"},
                                                           {"motion_model", "car"},
                                                           {"near_goal_distance", "5"},
                                                           {"obstacle_heuristic", "1"},
@@ -233,7 +234,7 @@ namespace
         set = {};
         set.bidirectional = set.adaptiveResolution = set.shortening = false;
         set.searchFrom = "start";
-        set.detours = false;
+        set.lookAhead = set.detours = false;
         expected["hybrid_astar"] = set;
 
         EXPECT_EQ(parking::parameterSetNames().size(), expected.size());

@@ -364,6 +364,19 @@ namespace
         EXPECT_LT(plan("1").expanded, plan("0").expanded);
     }
 
+    TEST_F(PlannerSwitches, LookingAheadSavesExpansionsOnLongWays)
+    {
+        // Three lanes, joined at alternate ends.
+        const Site site{{box(0.0, 8.9, 70.0, 9.1), box(10.0, 17.9, 80.0, 18.1)}, {{0.0, 0.0}, {80.0, 27.0}}};
+        const auto expanded = [&](const char *value)
+        {
+            return planned(Space::ReedsShepp, site, {6.0, 4.5, 0.0}, {70.0, 22.5, 0.0}, {{"look_ahead", value}})
+                .planner->statistics()
+                .expanded;
+        };
+        EXPECT_LT(2 * expanded("1"), expanded("0"));
+    }
+
     TEST_F(PlannerSwitches, WeightsTradeWorkForLength)
     {
         const auto plan = [](const char *weight)

@@ -46,6 +46,14 @@ namespace parking::search
             return (*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
         }
 
+        /** \brief The cell, if its tile has been touched; must be contained. */
+        const T *find(std::int32_t column, std::int32_t row) const
+        {
+            const auto c = static_cast<std::uint32_t>(column + REACH), r = static_cast<std::uint32_t>(row + REACH);
+            const std::uint32_t entry = directory_[r / TILE * DIRECTORY + c / TILE];
+            return entry == 0 ? nullptr : &(*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
+        }
+
         /** \brief What lies round a cell. */
         class Neighbours
         {

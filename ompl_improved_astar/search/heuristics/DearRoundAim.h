@@ -10,7 +10,7 @@
 namespace parking::search
 {
     /** \brief What a step from a cell to one of its eight neighbours costs. */
-    struct Step
+    struct StepCost
     {
         std::uint32_t straight;  ///< to one that shares a side
         std::uint32_t diagonal;  ///< to one that shares a corner
@@ -52,7 +52,7 @@ namespace parking::search
             \param dearer so much a step to a dear cell costs on top
             \param look tells the Ground of the cell so many columns and rows from the aim */
         template <class Look>
-        void find(const Step &dearer, const Look &look)
+        void find(const StepCost &dearer, const Look &look)
         {
             isKnown_ = true;
             fromElsewhere_ = 0;
@@ -110,7 +110,7 @@ namespace parking::search
             return static_cast<std::size_t>((rows + REACH) * SIDE + columns + REACH);
         }
 
-        void goOn(const Place &at, const Step &dearer)
+        void goOn(const Place &at, const StepCost &dearer)
         {
             for (std::int32_t rows = -1; rows <= 1; ++rows)
                 for (std::int32_t columns = -1; columns <= 1; ++columns)

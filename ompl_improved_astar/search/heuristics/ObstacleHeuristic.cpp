@@ -141,9 +141,8 @@ namespace parking::search
         return length + dearRoundAim_.from(column - towardColumn_, row - towardRow_);
     }
 
-    Ground ObstacleHeuristic::groundAt(std::int32_t column, std::int32_t row)
+    Ground ObstacleHeuristic::groundOf(CellState &state, std::int32_t column, std::int32_t row)
     {
-        CellState &state = states_.at(column, row);
         if (!isOpen(state, column, row))
             return Ground::Closed;
         return state.dear ? Ground::Dear : Ground::Cheap;
@@ -158,7 +157,7 @@ namespace parking::search
                                // Of what the grid does not reach nothing is paid.
                                const bool isInside = TiledGrid<CellState>::contains(column - 1, row - 1) &&
                                                      TiledGrid<CellState>::contains(column + 1, row + 1);
-                               return isInside ? groundAt(column, row) : Ground::Cheap;
+                               return isInside ? groundOf(states_.at(column, row), column, row) : Ground::Cheap;
                            });
     }
 
@@ -226,11 +225,8 @@ namespace parking::search
         const auto look = [&](unsigned int direction)
         {
             CellState *const beside = neighbours.at(COLUMNS[direction], ROWS[direction]);
-            if (beside == nullptr)
-                return Ground::Cheap;
-            if (!isOpen(*beside, cell.column + COLUMNS[direction], cell.row + ROWS[direction]))
-                return Ground::Closed;
-            return beside->dear ? Ground::Dear : Ground::Cheap;
+            return beside != nullptr ? groundOf(*beside, cell.column + COLUMNS[direction], cell.row + ROWS[direction])
+                                     : Ground::Cheap;
         };
         unsigned int directions = arrivals;
         const auto goOn = [&](unsigned int arrival)
@@ -385,8 +381,8 @@ namespace parking::search
         const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
         if (!TiledGrid<CellState>::contains(u, v))
             return std::nullopt;
-        const CellState &state = states_.at(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
-        return state.settled ? std::optional(distance(x, y)) : std::nullopt;
+        const CellState *const state = states_.find(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+        return state != nullptr && state->settled ? std::optional(distance(x, y)) : std::nullopt;
     }
 
     double ObstacleHeuristic::estimate(const Pose &pose)

@@ -158,7 +158,7 @@ namespace parking::search
         void findPassage(CellState &state, std::int32_t column, std::int32_t row);
         bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
         std::uint32_t estimate(std::int32_t column, std::int32_t row) const;
-        Ground groundAt(std::int32_t column, std::int32_t row);
+        Ground groundOf(CellState &state, std::int32_t column, std::int32_t row);
         void findDearRoundAim();
         void push(std::uint32_t g, std::int32_t column, std::int32_t row);
         void aimAt(std::int32_t column, std::int32_t row);
@@ -180,7 +180,7 @@ namespace parking::search
         const StopFunction *stop_{nullptr};
         double resolution_{1.0};
         Disc disc_;
-        Step dearer_{0, 0};  // by so much than elsewhere is a step to a dear place
+        StepCost dearer_{0, 0};  // by so much than elsewhere is a step to a dear place
         std::uint64_t mostCells_{0};
         Eigen::Vector2d origin_{0.0, 0.0};
         std::int32_t towardColumn_{0}, towardRow_{0};  // the cell that is made for

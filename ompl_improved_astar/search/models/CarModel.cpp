@@ -180,10 +180,14 @@ namespace parking::search
         environment_->clearLengths(from, &motion, 1, parameters_->cost.preferredClearance, &clear);
         if (clear > 0.0)
             return clear;
-        // It is not clear from the beginning, or the environment does not know.
-        const PathPiece piece{motion.curvature, motion.length};
-        const double closeness = parameters_->cost.closeness(from, piece, *environment_, clear, 0.0);
-        return closeness > 0.0 ? 0.0 : environment_->freeLength(from, motion.curvature, motion.length);
+        // It is not clear from the beginning, or the environment cannot tell how far.
+        if (!environment_->keeps(from, parameters_->cost.preferredClearance))
+            return 0.0;
+        const double free = environment_->freeLength(from, motion.curvature, motion.length);
+        const PathPiece driven{motion.curvature, std::copysign(free, motion.length)};
+        CostModel preference = parameters_->cost;
+        preference.clearanceWeight = 0.0;
+        return preference.closeness(from, driven, *environment_, clear, 0.0) > 0.0 ? 0.0 : free;
     }
 
     void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, Until until,

@@ -183,7 +183,7 @@ namespace parking
                                           {
                                               fromStartOnly(set);
                                               set.adaptiveResolution = false;
-                                              set.detours = false;
+                                              set.lookAhead = set.detours = false;
                                               set.shortening = false;
                                           }}};
     }  // namespace
@@ -218,6 +218,8 @@ namespace parking
              "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
              "guide the search round obstacles (car model)"},
+            {"look_ahead", &P::lookAhead, yesOrNo(), "",
+             "drive on along the way round obstacles while there is room, without looking at each step (car model)"},
             {"detours", &P::detours, yesOrNo(), "",
              "when the search is stuck: try ways through wider gaps, explore, and look for a proof that there is no "
              "way (car "

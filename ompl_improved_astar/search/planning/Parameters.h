@@ -30,6 +30,7 @@ namespace parking
         double nearGoalDistance{5.0};         ///< near_goal_distance: metres, where w changes
         double tieBreak{1e-3};                ///< tie_break: p, added to w
         bool obstacleHeuristic{true};         ///< obstacle_heuristic: guide round obstacles
+        bool lookAhead{true};                 ///< look_ahead: drive on along the way round obstacles
         bool detours{true};                   ///< detours: try other ways when stuck
         std::string obstacleLoading{"lazy"};  ///< obstacle_loading: lazy or eager
         bool adaptiveResolution{true};        ///< adaptive_resolution: refine where needed

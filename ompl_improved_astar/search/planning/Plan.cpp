@@ -54,6 +54,7 @@ namespace parking::search
         search.adaptiveResolution = parameters.adaptiveResolution;
         search.analyticExpansion = parameters.analyticExpansion;
         search.obstacleHeuristic = parameters.obstacleHeuristic;
+        search.lookAhead = parameters.lookAhead;
         search.detours = parameters.detours;
         search.maxMemory = std::size_t{parameters.maxMemoryMb} << 20;
         search.eagerObstacles = parameters.obstacleLoading == "eager";

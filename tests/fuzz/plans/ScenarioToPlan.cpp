@@ -46,7 +46,10 @@ namespace parking_test::fuzz
                 parameters.anytime = numbers.flag();
             }
             if ((mask & 16U) != 0)
+            {
                 parameters.preferredClearance = numbers.between(0.0, 1.0);
+                parameters.lookAhead = numbers.flag();
+            }
             return parameters;
         }
     }  // namespace

@@ -114,15 +114,19 @@ TEST(SearchDetours, leadOutOfATrap)
     }
 }
 
-// Of a wide world the disc of the detour asks about the rooms on its way; with the ways of all that was open before
-// they were 44,541.
-TEST(SearchDetours, lookAboutOnTheirWayOnly)
+// Of a wide world the disc of the detour asks about the rooms on its way: of these 31,000, with the ways of all that
+// was open before 44,500. By its way, too, the car drives on without an expansion for each step.
+TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
 {
-    const Row row{40.0, 4.0, 60.0};
+    const Row row{40.0, 4.0, 60.0}, longRow{300.0};
     const Counts with = searched(rowOfCars(row, 5.0), true, row.halfWorld());
     EXPECT_TRUE(with.solved);
     EXPECT_GT(with.expanded, carParameters().tuning.leastExpansions);
-    EXPECT_LT(with.roomsAsked, 36000u);
+    EXPECT_LT(with.roomsAsked, 38000u);
+    SearchParameters parameters = carParameters();
+    parameters.lookAhead = false;
+    EXPECT_GT(4 * searched(rowOfCars(longRow), true, longRow.halfWorld(), parameters).expanded,
+              5 * searched(rowOfCars(longRow), true, longRow.halfWorld()).expanded);
 }
 
 // What is dear to the first is far less than the way round the end of a long row.

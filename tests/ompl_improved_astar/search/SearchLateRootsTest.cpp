@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 using namespace parking;
 using namespace parking::search;
@@ -73,6 +75,87 @@ TEST(SearchLateRoots, goalsAddedWhenThereIsNothingLeftAreReached)
                 EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {later}, TURNING_RADIUS), "");
             }
     EXPECT_GT(solved, 8);
+}
+
+// What was reached by looking ahead is expanded by then, too, and has to be joined like the rest.
+TEST(SearchLateRoots, goalsBesideWhatWasReachedByLookingAheadAreReached)
+{
+    // The first goal is in a cage at the end of a corridor.
+    CarProblem problem{DiscCarWorld({{0.0, 0.0}, {80.0, 12.0}}), {{6.0, 6.0, 0.0}}, {{70.0, 6.0, 0.0}}};
+    problem.world.boxes = {
+        {{66.0, 3.0}, {66.5, 9.0}}, {{75.5, 3.0}, {76.0, 9.0}}, {{66.0, 3.0}, {76.0, 3.5}}, {{66.0, 8.5}, {76.0, 9.0}}};
+    problem.world.tellsRoom = false;
+    SearchParameters parameters = carParameters();
+    parameters.bidirectional = parameters.searchFromGoal = parameters.adaptiveResolution = parameters.detours = false;
+    parameters.bounds = problem.world.inside;
+    Search search;
+    problem.begin(search, parameters);
+    ASSERT_EQ(search.run(afterAsking()), SearchOutcome::Exhausted);
+    const auto &nodes = std::as_const(search).frontier(Side::Start).nodes();
+    ASSERT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const Node &node) { return node.fixed; }));
+    const Pose later{40.0, 2.0, 0.0};
+    search.addGoal(later);
+    ASSERT_EQ(search.run(afterAsking()), SearchOutcome::Improved);
+    EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {later}, TURNING_RADIUS), "");
+}
+
+namespace
+{
+    /** A world in which the time is up now and then. */
+    class HurriedWorld : public DiscCarWorld
+    {
+    public:
+        using DiscCarWorld::DiscCarWorld;
+
+        double freeLength(const Pose &from, double curvature, double length) override
+        {
+            isUp_ = isUp_ || ++asked_ % 17 == 0;
+            return isUp_ ? 0.0 : DiscCarWorld::freeLength(from, curvature, length);
+        }
+
+        bool wasInterrupted() const override
+        {
+            return isUp_;
+        }
+
+        void goOn()
+        {
+            isUp_ = false;
+        }
+
+    private:
+        bool isUp_{false};
+        int asked_{0};
+    };
+}  // namespace
+
+// A node whose expansion was interrupted has children already: it must not give its place to a cheaper one.
+TEST(SearchLateRoots, interruptedNodesKeepTheirChildren)
+{
+    std::uint64_t seen = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        const CarProblem problem = randomProblem(seed, 14);
+        HurriedWorld world(problem.world.inside, problem.world.boxes);
+        Search search;
+        search.begin(world, carParameters());
+        search.addStart(problem.starts.front());
+        search.addGoal(problem.goals.front());
+        while (search.run([&] { return world.wasInterrupted(); }) == SearchOutcome::Stopped && search.expanded() < 400)
+            world.goOn();
+        for (const Side side : {Side::Start, Side::Goal})
+            for (const Node &node : std::as_const(search).frontier(side).nodes())
+            {
+                if (node.parent == NO_NODE)
+                    continue;
+                const Node &parent = std::as_const(search).frontier(side).node(node.parent);
+                ASSERT_TRUE(
+                    isSamePose(node.pose, advance(parent.pose, node.motion.curvature, node.motion.length), 1e-9));
+                ++seen;
+            }
+    }
+    EXPECT_GT(seen, 5000u);
 }
 
 TEST(SearchLateRoots, changedHeuristicsDoNotLoseOpenNodes)

@@ -54,6 +54,9 @@ TEST(TiledGrid, matchesAMapAndForgetsOnClear)
                 row = random.chance(0.5) ? Grid::REACH - 1 : -Grid::REACH;
             }
             const auto known = oracle.find({column, row});
+            const auto *const found = std::as_const(grid).find(column, row);
+            ASSERT_TRUE(known == oracle.end() ? found == nullptr || found->value == 17
+                                              : found != nullptr && found->value == known->second);
             ASSERT_EQ(grid.at(column, row).value, known == oracle.end() ? 17 : known->second);
             const int value = static_cast<int>(random.index(1000));
             grid.at(column, row).value = value;

@@ -21,7 +21,7 @@ namespace
 // A place on a shortest way is nearer by what was driven, which is a whole number of steps.
 TEST(ObstacleHeuristic, tellsPlacesOnAShortestWay)
 {
-    int told = 0;
+    int told = 0, towards = 0;
     for (std::uint64_t seed = 0; seed < 30; ++seed)
     {
         SCOPED_TRACE(seed);
@@ -47,10 +47,13 @@ TEST(ObstacleHeuristic, tellsPlacesOnAShortestWay)
             EXPECT_LE(rest, way - ahead + 1e-9);
             EXPECT_TRUE(isDear || rest > way - ahead - 17.0 / 12.0 * resolution - 1e-9);
             EXPECT_GT(found->heading.norm(), 0.0);
+            const Eigen::Vector2d on = found->place + 0.5 * found->heading, back = found->place - 0.5 * found->heading;
+            towards += heuristic.distance(on.x(), on.y()) < heuristic.distance(back.x(), back.y());
             EXPECT_LE(found->heading.norm(), 2.0 * around + 2.9 * resolution);
         }
     }
     EXPECT_GT(told, 500);
+    EXPECT_GT(towards, 3 * told / 4) << "the chord of a bend may end beside the way";
 }
 
 TEST(ObstacleHeuristic, tellsWhatIsKnownWithoutLookingOn)
