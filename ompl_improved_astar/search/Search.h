@@ -290,6 +290,12 @@ namespace parking::search
         float estimateOf(Side side, const Pose &pose);
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
 
+        /** Length of the shortest motion from a node of that side outwards, obstacles or not. */
+        double lengthFrom(Side side, const Pose &node, const Pose &to) const
+        {
+            return side == Side::Start ? model_->distance(node, to) : model_->distance(to, node);
+        }
+
         // SearchLookahead.cpp: driving on without looking right and left
         void beginLookahead(const Frontier &own, NodeIndex node, std::size_t queue);
         bool finishLookahead();

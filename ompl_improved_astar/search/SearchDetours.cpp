@@ -65,10 +65,12 @@ namespace parking::search
     double Search::Detour::estimate(const Node &node, double noWay, bool looksOn)
     {
         double length = fromRoot > 0.0 ? fromRoot + node.g : 0.0;  // back to the root, and on from there
-        if (looksOn && fromRoot == INFINITE)
-            fromRoot = way.distance(root.x, root.y);  // perhaps the time was up
         if (looksOn)
+        {
+            if (fromRoot == INFINITE)
+                fromRoot = way.distance(root.x, root.y);  // perhaps the time was up
             length = way.distance(node.pose.x, node.pose.y);
+        }
         else if (const std::optional<double> known = way.knownDistance(node.pose.x, node.pose.y))
             length = *known;
         return length < INFINITE ? std::max<double>(node.h, length) : noWay * node.h;
@@ -191,7 +193,7 @@ namespace parking::search
                 const Pose &node = frontier(side).node(index).pose;
                 if (positionDistance(node, pose) >= nearest)
                     continue;
-                const double length = side == Side::Start ? model_->distance(node, pose) : model_->distance(pose, node);
+                const double length = lengthFrom(side, node, pose);
                 if (length < nearest)
                 {
                     nearest = length;

@@ -46,8 +46,7 @@ namespace parking::search
         if (inReverse)
             to.yaw = wrapAngle(to.yaw + PI);
         // Where the heading is too far off, the curve turns round: nothing to be done without looking.
-        const double length = own.side() == Side::Start ? model_->distance(from, to) : model_->distance(to, from);
-        if (length > tuning.mostLookahead * positionDistance(from, to))
+        if (lengthFrom(own.side(), from, to) > tuning.mostLookahead * positionDistance(from, to))
             return NO_NODE;
         model_->moveTowards(own.side(), from, to, Until::Closeness, motions_);
         const bool hasCusp =

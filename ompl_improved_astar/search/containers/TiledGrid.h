@@ -39,19 +39,17 @@ namespace parking::search
         /** \brief The cell, which starts as T(). Must be contained. The reference holds until clear(). */
         T &at(std::int32_t column, std::int32_t row)
         {
-            const auto c = static_cast<std::uint32_t>(column + REACH), r = static_cast<std::uint32_t>(row + REACH);
-            std::uint32_t &entry = directory_[r / TILE * DIRECTORY + c / TILE];
+            std::uint32_t &entry = directory_[tileOf(column, row)];
             if (entry == 0)
-                entry = makeTile(r / TILE * DIRECTORY + c / TILE);
-            return (*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
+                entry = makeTile(tileOf(column, row));
+            return (*tiles_[entry - 1])[placeInTile(column, row)];
         }
 
         /** \brief The cell, if its tile has been touched; must be contained. */
         const T *find(std::int32_t column, std::int32_t row) const
         {
-            const auto c = static_cast<std::uint32_t>(column + REACH), r = static_cast<std::uint32_t>(row + REACH);
-            const std::uint32_t entry = directory_[r / TILE * DIRECTORY + c / TILE];
-            return entry == 0 ? nullptr : &(*tiles_[entry - 1])[r % TILE * TILE + c % TILE];
+            const std::uint32_t entry = directory_[tileOf(column, row)];
+            return entry == 0 ? nullptr : &(*tiles_[entry - 1])[placeInTile(column, row)];
         }
 
         /** \brief What lies round a cell. */
@@ -103,6 +101,18 @@ namespace parking::search
 
     private:
         using Tile = std::array<T, static_cast<std::size_t>(TILE) * TILE>;
+
+        static std::uint32_t tileOf(std::int32_t column, std::int32_t row)
+        {
+            return static_cast<std::uint32_t>(row + REACH) / TILE * DIRECTORY +
+                   static_cast<std::uint32_t>(column + REACH) / TILE;
+        }
+
+        static std::uint32_t placeInTile(std::int32_t column, std::int32_t row)
+        {
+            return static_cast<std::uint32_t>(row + REACH) % TILE * TILE +
+                   static_cast<std::uint32_t>(column + REACH) % TILE;
+        }
 
         std::uint32_t makeTile(std::uint32_t place)
         {

@@ -91,10 +91,11 @@ namespace parking::search
 
     void ObstacleHeuristic::findPassage(CellState &state, std::int32_t column, std::int32_t row)
     {
-        const double x = origin_.x() + (column + 0.5) * resolution_, y = origin_.y() + (row + 0.5) * resolution_;
+        const Eigen::Vector2d at = centreOf({column, row});
         const double half = 0.5 * resolution_;
-        state.passage = mayHoldDisc(disc_.radius, x, y, half, REFINEMENTS) ? Occupancy::Free : Occupancy::Blocked;
-        state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, x, y, half, REFINEMENTS);
+        const bool fits = mayHoldDisc(disc_.radius, at.x(), at.y(), half, REFINEMENTS);
+        state.passage = fits ? Occupancy::Free : Occupancy::Blocked;
+        state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, at.x(), at.y(), half, REFINEMENTS);
     }
 
     bool ObstacleHeuristic::mayHoldDisc(double radius, double x, double y, double halfSide, int refinements)
@@ -184,17 +185,16 @@ namespace parking::search
 
     void ObstacleHeuristic::addTarget(double x, double y)
     {
-        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
-        if (!TiledGrid<CellState>::contains(u, v))
+        const std::optional<Entry> cell = cellAt(x, y);
+        if (!cell)
         {
             leftGrid_ = true;
             return;
         }
-        const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-        CellState &state = states_.at(column, row);
+        CellState &state = states_.at(cell->column, cell->row);
         state.g = 0;
         state.arrivals = ALL;
-        push(0, column, row);
+        push(0, cell->column, cell->row);
     }
 
     bool ObstacleHeuristic::settleNext(Entry &settled)
@@ -335,10 +335,10 @@ namespace parking::search
     double ObstacleHeuristic::distance(double x, double y)
     {
         stopped_ = false;
-        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
-        if (!TiledGrid<CellState>::contains(u, v))
+        const std::optional<Entry> cell = cellAt(x, y);
+        if (!cell)
             return 0.0;
-        const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+        const auto [column, row] = *cell;
         if (!dearRoundAim_.isKnown())
             findDearRoundAim();
         CellState &asked = states_.at(column, row);
@@ -371,18 +371,20 @@ namespace parking::search
         }
         if (!pocket_.cells.empty())
             endPocket(false);
-        if (!isReached(asked))
-            return std::numeric_limits<double>::infinity();
-        return static_cast<double>(asked.g) * (resolution_ / STRAIGHT);
+        return lengthOf(asked);
     }
 
-    std::optional<double> ObstacleHeuristic::knownDistance(double x, double y)
+    double ObstacleHeuristic::lengthOf(const CellState &settled) const
     {
-        const double u = std::floor((x - origin_.x()) / resolution_), v = std::floor((y - origin_.y()) / resolution_);
-        if (!TiledGrid<CellState>::contains(u, v))
-            return std::nullopt;
-        const CellState *const state = states_.find(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
-        return state != nullptr && state->settled ? std::optional(distance(x, y)) : std::nullopt;
+        return isReached(settled) ? static_cast<double>(settled.g) * (resolution_ / STRAIGHT)
+                                  : std::numeric_limits<double>::infinity();
+    }
+
+    std::optional<double> ObstacleHeuristic::knownDistance(double x, double y) const
+    {
+        const std::optional<Entry> cell = cellAt(x, y);
+        const CellState *const state = cell ? states_.find(cell->column, cell->row) : nullptr;
+        return state != nullptr && state->settled ? std::optional(lengthOf(*state)) : std::nullopt;
     }
 
     double ObstacleHeuristic::estimate(const Pose &pose)
@@ -410,10 +412,10 @@ namespace parking::search
                                                                                double around)
     {
         const double way = distance(x, y);
-        if (way <= ahead + around || way == std::numeric_limits<double>::infinity())
+        const std::optional<Entry> from = cellAt(x, y);
+        if (!from || way <= ahead + around || way == std::numeric_limits<double>::infinity())
             return std::nullopt;
-        Entry cell{static_cast<std::int32_t>(std::floor((x - origin_.x()) / resolution_)),
-                   static_cast<std::int32_t>(std::floor((y - origin_.y()) / resolution_))};
+        Entry cell = *from;
         unsigned int direction = DIRECTIONS;
         double driven = 0.0;
         // Back by the last steps of shortest ways, straight on where there is a choice.
@@ -428,7 +430,7 @@ namespace parking::search
                     direction = static_cast<unsigned int>(__builtin_ctz(arrivals));
                 cell = {cell.column - COLUMNS[direction], cell.row - ROWS[direction]};
             }
-            return Eigen::Vector2d(origin_ + resolution_ * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5));
+            return centreOf(cell);
         };
         const Eigen::Vector2d before = driveOn(ahead - around), place = driveOn(ahead), after = driveOn(ahead + around);
         return after == before ? std::nullopt : std::optional(PlaceOnWay{place, after - before});
@@ -441,7 +443,7 @@ namespace parking::search
         Entry entry;
         while (nearest > HALF_DIAGONAL * resolution_ && settled_ < mostCells_ && settleNext(entry))
         {
-            const Eigen::Vector2d centre = origin_ + resolution_ * Eigen::Vector2d(entry.column + 0.5, entry.row + 0.5);
+            const Eigen::Vector2d centre = centreOf(entry);
             const double away = (centre - goal).norm();
             if (away < nearest)
             {

@@ -8,6 +8,7 @@
 #include "ompl_improved_astar/search/containers/TiledGrid.h"
 #include "ompl_improved_astar/search/heuristics/DearRoundAim.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -74,7 +75,7 @@ namespace parking::search
         double distance(double x, double y);
 
         /** \brief distance(), if it is known without looking any farther. */
-        std::optional<double> knownDistance(double x, double y);
+        std::optional<double> knownDistance(double x, double y) const;
 
         /** \brief distance(), less a cell for what the grid adds to it; 0 when there is no way. */
         double estimate(const Pose &pose) override;
@@ -143,10 +144,28 @@ namespace parking::search
             std::int32_t column, row;
         };
 
+        /** The cell of a place; none beyond the reach of the grid. */
+        std::optional<Entry> cellAt(double x, double y) const
+        {
+            const double u = std::floor((x - origin_.x()) / resolution_);
+            const double v = std::floor((y - origin_.y()) / resolution_);
+            if (!TiledGrid<CellState>::contains(u, v))
+                return std::nullopt;
+            return Entry{static_cast<std::int32_t>(u), static_cast<std::int32_t>(v)};
+        }
+
+        Eigen::Vector2d centreOf(const Entry &cell) const
+        {
+            return origin_ + resolution_ * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5);
+        }
+
         static bool isReached(const CellState &state)
         {
             return state.g != UNREACHED;
         }
+
+        /** Metres to the nearest target from a cell that is settled; infinite when there is no way. */
+        double lengthOf(const CellState &settled) const;
 
         bool isOpen(CellState &state, std::int32_t column, std::int32_t row)
         {
