@@ -112,6 +112,14 @@ namespace parking::search
         double spacings{0.3};              ///< up to this much more
         /** @} */
 
+        /** \name Leading what was found past obstacles that it comes too near to
+
+            Chosen by hand on random queries with seeds tuneM2 to tuneM6.
+            @{ */
+        double roomToSpare{1.12};    ///< factor on the preferred clearance, which is sampled along paths
+        std::size_t posesBeside{6};  ///< that are tried for each part
+        /** @} */
+
         /** \name Improving until stopped
             @{ */
         std::uint64_t expansionsPerRound{200};  ///< before the weights change

@@ -146,6 +146,34 @@ namespace parking
         return result;
     }
 
+    Path Path::first(double driven) const
+    {
+        Path result{start, {}};
+        for (const PathPiece &piece : pieces)
+        {
+            if (!(driven > 0.0))
+                break;
+            PathPiece begun = piece;
+            begun.length = piece.direction() * std::min(driven, piece.driven());
+            result.append(begun);
+            driven -= piece.driven();
+        }
+        return result;
+    }
+
+    Pose Path::at(double driven) const
+    {
+        Pose pose = start;
+        for (const PathPiece &piece : pieces)
+        {
+            if (!(driven > 0.0))
+                break;
+            pose = advance(pose, piece, std::min(driven, piece.driven()));
+            driven -= piece.driven();
+        }
+        return pose;
+    }
+
     std::vector<Stretch> Path::stretches() const
     {
         std::vector<Stretch> result;

@@ -145,6 +145,13 @@ namespace parking
             way there is cut. */
         Path rest(double driven) const;
 
+        /** \brief The first \e driven metres (0 to length()) of the path: what rest() leaves out. A turn on the spot at
+            their very end is left to the rest. */
+        Path first(double driven) const;
+
+        /** \brief The pose after \e driven metres (0 to length()): where rest() starts. */
+        Pose at(double driven) const;
+
         /** \brief The stretches in order. A turn on the spot belongs to the stretch that it precedes; one at the very
             end belongs to the last stretch. Pieces that do nothing are passed over. Empty for a path that never
             drives. */

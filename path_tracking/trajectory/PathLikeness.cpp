@@ -19,7 +19,7 @@ namespace parking
             const double lengthA = a.length(), lengthB = b.length();
             const double steps = std::max(FEWEST_STEPS, std::ceil(std::max(lengthA, lengthB) / LONGEST_STEP));
             for (double k = 0.0; k <= steps; ++k)
-                if (positionDistance(a.rest(lengthA * k / steps).start, b.rest(lengthB * k / steps).start) > distance)
+                if (positionDistance(a.at(lengthA * k / steps), b.at(lengthB * k / steps)) > distance)
                     return false;
             return true;
         }

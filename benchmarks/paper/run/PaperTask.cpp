@@ -65,7 +65,7 @@ namespace parking
             const double length = path.length(), parts = std::max(1.0, std::ceil(length / spacing));
             for (double part = 0.0; part <= parts; part += 1.0)
             {
-                const Pose pose = part < parts ? path.rest(length * part / parts).start : path.end();
+                const Pose pose = part < parts ? path.at(length * part / parts) : path.end();
                 points.emplace_back(pose.x, pose.y);
             }
             return points;

@@ -1,5 +1,7 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/PathWidener.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -69,6 +71,21 @@ namespace parking::search
             return false;
         path = std::move(shorter);
         cost = less;
+        return true;
+    }
+
+    bool PathPlanner::widen(Path &path, double &cost)
+    {
+        if (!search_.cost().prefersClearance())
+            return false;
+        PathWidener widener(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
+        Path wider = path;
+        const bool isWider = widener.pass(wider, stop_);
+        shortenerConnections_ += widener.connections();
+        if (!isWider || wider.cusps() > std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps))
+            return false;
+        path = std::move(wider);
+        cost = pathCost(search_.cost(), path, *environment_);
         return true;
     }
 
@@ -142,10 +159,10 @@ namespace parking::search
             thinkAgain(search_.bestPath().length() / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
+        const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
         // A bare curve is shortened no more.
         if (parameters_.shorten && !(isShort && isShortest))
         {
-            const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             const bool isShorter = shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE,
                                            CurveChoice::Cheapest);
             // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
@@ -160,6 +177,9 @@ namespace parking::search
                 shorten(best, cost, spacing, knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
         }
+        if (parameters_.shorten && widen(best, cost))
+            shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest), tuning.otherKnotOffset * radius,
+                    tuning.widestSpan * radius, CurveChoice::Cheapest);
         take(best, cost);
     }
 

@@ -113,6 +113,7 @@ namespace parking::search
         void takeFirst();
         void thinkAgain(double excess);
         bool shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
+        bool widen(Path &path, double &cost);
         bool shortenBest(double spacing, double offset);
         bool isShortestPossible(const Path &path, double cost) const;
         Outcome improve();

@@ -258,6 +258,34 @@ TEST(Path, TheRestEndsWhereThePathDoes)
     EXPECT_TRUE(corner.rest(3.0).pieces.empty());
 }
 
+TEST(Path, TheFirstMetresEndWhereTheRestBegins)
+{
+    RandomParking random(29);
+    for (int i = 0; i < 300; ++i)
+    {
+        const Path path = anyPath(random);
+        const double length = path.length(), driven = random.between(0.0, length);
+        const Path first = path.first(driven), rest = path.rest(driven);
+        EXPECT_NEAR(first.length(), driven, 1e-9);
+        EXPECT_LT(gap(first.start, path.start), 1e-12);
+        EXPECT_LT(gap(path.at(driven), rest.start), 1e-12);
+        EXPECT_LT(positionDistance(path.first(length).end(), path.end()), 1e-9);  // but for turns at the end
+        EXPECT_TRUE(path.first(0.0).pieces.empty());
+        EXPECT_LT(gap(path.at(0.0), path.start), 1e-12);
+        // Both together are the path again.
+        Path whole = first;
+        whole.extend(rest);
+        EXPECT_NEAR(whole.length(), length, 1e-9);
+        EXPECT_LT(gap(whole.end(), path.end()), 1e-9);
+    }
+    // A turn at the very end is left to the rest.
+    const Path corner{{}, {{0.0, 2.0}, PathPiece::turnOnTheSpot(1.0), {0.0, 1.0}}};
+    EXPECT_EQ(corner.first(2.0).pieces.size(), 1U);
+    EXPECT_LT(gap(corner.at(2.0), {2.0, 0.0, 0.0}), 1e-12);
+    EXPECT_EQ(corner.first(2.5).pieces.size(), 3U);
+    EXPECT_LT(gap(corner.at(2.5), corner.rest(2.5).start), 1e-12);
+}
+
 TEST(Path, AppendingMergesArcsAndDropsWhatDoesNothing)
 {
     Path path;

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/SearchTuning.h"
+#include "parking_geometry/curves/Path.h"
+#include "parking_geometry/curves/ReedsShepp.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Leads a drivable path past obstacles that it comes nearer to than preferred.
+
+        Shortening replaces parts of a path by curves between poses of the path, so that it never gets farther from an
+        obstacle than these. Here the pose that is nearest to an obstacle, of each part that is too near, is put aside
+        and turned until it keeps the preferred clearance, and the path is led through it by two curves of bounded
+        curvature where that is cheaper. The path stays free and drivable, keeps its ends, and gets one more cusp at
+       most. Parts at these stay as they are: a car that stands too near to something cannot be led past it.
+       Deterministic. */
+    class PathWidener
+    {
+    public:
+        /** \brief What is referred to must outlive it.
+
+            \param cost by which paths become cheaper; it prefers a clearance */
+        PathWidener(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost,
+                    const SearchTuning &tuning)
+          : environment_(environment),
+            curves_(curves),
+            cost_(cost),
+            strict_(cost),
+            tuning_(tuning)
+        {
+            strict_.preferredClearance *= tuning.roomToSpare;
+        }
+
+        /** \brief One pass along the path.
+
+            \return whether any part of it was replaced, each by what costs less where a little more room than preferred
+            is asked for: clearances are sampled */
+        bool pass(Path &path, const StopFunction &stop);
+
+        /** \brief Pairs of poses between which curves were tried in all passes so far. */
+        std::uint64_t connections() const
+        {
+            return connectionCount_;
+        }
+
+    private:
+        /** What is driven nearer than preferred: metres along the path. */
+        struct ClosePart
+        {
+            double begin, end;
+        };
+
+        /** A path without some part in its middle, and what that cost with the joins at its ends. */
+        struct Gap
+        {
+            Path before, after;
+            double cost;
+        };
+
+        /** The path, and once it is led through some pose in a gap how many metres it is along it to there. */
+        struct Lead
+        {
+            Path path;
+            double cost;
+            double reach{0.0};
+            std::size_t mostCusps;
+        };
+
+        /** A curve to or from that pose, and what it costs with the join at its other end. */
+        struct Leg
+        {
+            double cost;
+            ReedsSheppCurve curve;
+        };
+
+        std::vector<ClosePart> closeParts(const Path &path);
+        std::optional<double> nearestPlace(const Path &path, const ClosePart &part);
+        std::vector<Pose> posesBeside(const Pose &pose);
+        Gap cutOut(const Path &path, double begin, double end);
+        std::optional<Leg> shortest(const Pose &from, const Pose &to, const PathPiece *before, const PathPiece *after,
+                                    double bound);
+        void lead(const Gap &gap, const Pose &through, Lead &best);
+
+        MotionEnvironment &environment_;
+        const ReedsShepp &curves_;
+        CostModel cost_;
+        CostModel strict_;  // what keeps a little more than preferred at the samples keeps it between them
+        SearchTuning tuning_;
+        std::vector<ReedsSheppCurve> candidates_;
+        std::uint64_t connectionCount_{0};
+    };
+}  // namespace parking::search
