@@ -191,10 +191,7 @@ namespace parking::planning
             return isLast ? isOver() : isLate();
         };
         search::PlanResult result = search::plan(environment, request);
-        statistics_.expanded += result.statistics.expanded;
-        statistics_.generated += result.statistics.generated;
-        statistics_.connections += result.statistics.connections;
-        statistics_.heuristicCells += result.statistics.heuristicCells;
+        statistics_ += result.statistics;
         return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
     }
 

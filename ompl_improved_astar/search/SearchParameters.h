@@ -67,5 +67,17 @@ namespace parking::search
         std::uint64_t heuristicCells{0};       ///< cells expanded by the obstacle-aware heuristic
         std::uint64_t openListOperations{0};   ///< entries pushed to, and popped from, the open lists
         std::uint64_t openListComparisons{0};  ///< of their entries with each other, for that
+
+        /** \brief Adds what another search did. */
+        SearchStatistics &operator+=(const SearchStatistics &other)
+        {
+            expanded += other.expanded;
+            generated += other.generated;
+            connections += other.connections;
+            heuristicCells += other.heuristicCells;
+            openListOperations += other.openListOperations;
+            openListComparisons += other.openListComparisons;
+            return *this;
+        }
     };
 }  // namespace parking::search

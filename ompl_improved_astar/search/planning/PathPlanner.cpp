@@ -39,6 +39,7 @@ namespace parking::search
         bestPath_ = {};
         bestCost_ = INFINITE;
         shortenerConnections_ = 0;
+        hasRoomySearch_ = false;
         goodEnough_ = false;
         round_ = 0;
         weights_ = parameters.search.weights;
@@ -59,33 +60,24 @@ namespace parking::search
     bool PathPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest,
                               CurveChoice choice)
     {
-        PathShortener shortener(*environment_, *search_.model().curves(), search_.cost());
+        return shorten(search_.cost(), path, cost, spacing, offset, widest, choice);
+    }
+
+    bool PathPlanner::shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset,
+                              double widest, CurveChoice choice)
+    {
+        PathShortener shortener(*environment_, *search_.model().curves(), model);
         Path shorter = path;
         const bool isShorter = shortener.pass(shorter, spacing, offset, widest, choice, stop_);
         shortenerConnections_ += shortener.connections();
         if (!isShorter)
             return false;
         // Clearance is sampled, so that the cost of the whole is not quite the sum of its parts'.
-        const double less = pathCost(search_.cost(), shorter, *environment_);
+        const double less = pathCost(model, shorter, *environment_);
         if (!(less < cost))
             return false;
         path = std::move(shorter);
         cost = less;
-        return true;
-    }
-
-    bool PathPlanner::widen(Path &path, double &cost)
-    {
-        if (!search_.cost().prefersClearance())
-            return false;
-        PathWidener widener(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
-        Path wider = path;
-        const bool isWider = widener.pass(wider, stop_);
-        shortenerConnections_ += widener.connections();
-        if (!isWider || wider.cusps() > std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps))
-            return false;
-        path = std::move(wider);
-        cost = pathCost(search_.cost(), path, *environment_);
         return true;
     }
 
@@ -159,10 +151,10 @@ namespace parking::search
             thinkAgain(search_.bestPath().length() / expected - 1.0);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
-        const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
         // A bare curve is shortened no more.
         if (parameters_.shorten && !(isShort && isShortest))
         {
+            const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             const bool isShorter = shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE,
                                            CurveChoice::Cheapest);
             // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
@@ -177,10 +169,93 @@ namespace parking::search
                 shorten(best, cost, spacing, knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
         }
-        if (parameters_.shorten && widen(best, cost))
-            shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest), tuning.otherKnotOffset * radius,
-                    tuning.widestSpan * radius, CurveChoice::Cheapest);
+        if (parameters_.shorten && search_.cost().prefersClearance())
+            findRoom(best, cost);
         take(best, cost);
+    }
+
+    bool PathPlanner::widen(Path &path, double &cost)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        PathWidener widener(*environment_, *search_.model().curves(), search_.cost(), tuning);
+        Path wider = path;
+        const bool isWider = widener.pass(wider, stop_);
+        shortenerConnections_ += widener.connections();
+        if (!isWider)
+            return !widener.isTooNear();
+        // Between its samples a path may be nearer than its cost tells, so that what keeps the room may look dearer.
+        const double most = cost * (parameters_.anytime ? 1.0 : tuning.dearerForRoom);
+        const auto takeIfCheap = [&](const Path &other)
+        {
+            const double costOfOther = pathCost(search_.cost(), other, *environment_);
+            if (costOfOther > most)
+                return false;
+            path = other;
+            cost = costOfOther;
+            return true;
+        };
+        if (!takeIfCheap(wider))
+            return false;
+        const double radius = parameters_.search.turningRadius;
+        double strict = pathCost(widener.strictCost(), wider, *environment_);
+        if (shorten(widener.strictCost(), wider, strict,
+                    std::max(tuning.otherKnotSpacing * radius, wider.length() / tuning.mostKnots),
+                    tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest))
+            takeIfCheap(wider);
+        return !widener.isTooNear();
+    }
+
+    bool PathPlanner::canLeaveWithRoom(const Pose &pose)
+    {
+        const double clearance = search_.cost().preferredClearance, radius = parameters_.search.turningRadius;
+        const Arc arcs[2]{{0.0, radius}, {0.0, -radius}};
+        double clear[2]{0.0, 0.0};
+        if (environment_->keeps(pose, clearance))
+            environment_->clearLengths(pose, arcs, 2, clearance, clear);
+        return clear[0] > 0.0 || clear[1] > 0.0;
+    }
+
+    void PathPlanner::findRoom(Path &best, double &cost)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        const auto isTimeUp = [this]
+        {
+            return stop_ && stop_();
+        };
+        if (isTimeUp() || widen(best, cost) || search_.isFull() || !canLeaveWithRoom(best.start) ||
+            !canLeaveWithRoom(best.end()) || isTimeUp())
+            return;
+        // Where both ends have room there may be a way that has it everywhere. A search for such a way finds it sooner
+        // than one that may come nearer.
+        SearchParameters parameters = parameters_.search;
+        parameters.eagerObstacles = false;
+        parameters.maxMemory -= std::min(parameters.maxMemory, search_.memory());
+        roomy_.emplace(*environment_, search_.cost().preferredClearance);
+        if (!roomySearch_)
+            roomySearch_ = std::make_unique<Search>();
+        roomySearch_->begin(*roomy_, parameters);
+        hasRoomySearch_ = true;
+        roomySearch_->setCostBound(cost);
+        roomySearch_->addStart(best.start);
+        roomySearch_->addGoal(best.end());
+        const std::uint64_t most = std::clamp(search_.expanded(), tuning.leastForRoom, tuning.mostForRoom);
+        const StopFunction enough = [this, most, isTimeUp]
+        {
+            return roomySearch_->expanded() >= most || isTimeUp();
+        };
+        if (roomySearch_->run(enough) != SearchOutcome::Improved)
+            return;
+        Path other = roomySearch_->bestPath();
+        double costOfOther = pathCost(search_.cost(), other, *environment_);
+        const double radius = parameters_.search.turningRadius;
+        shorten(other, costOfOther, std::max(tuning.knotSpacing * radius, other.length() / tuning.mostKnots), 0.0,
+                INFINITE, CurveChoice::Cheapest);
+        widen(other, costOfOther);
+        if (costOfOther < cost)
+        {
+            best = std::move(other);
+            cost = costOfOther;
+        }
     }
 
     void PathPlanner::thinkAgain(double excess)
@@ -290,6 +365,8 @@ namespace parking::search
     SearchStatistics PathPlanner::statistics() const
     {
         SearchStatistics sum = search_.statistics();
+        if (hasRoomySearch_)
+            sum += roomySearch_->statistics();
         sum.connections += shortenerConnections_;
         return sum;
     }

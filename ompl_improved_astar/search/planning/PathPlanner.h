@@ -2,11 +2,13 @@
 
 #include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
+#include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
 
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace parking::search
@@ -102,7 +104,7 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
         std::uint64_t expanded() const
         {
-            return search_.expanded();
+            return search_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0);
         }
 
         /** \brief What search and shortening did in this query. */
@@ -113,8 +115,13 @@ namespace parking::search
         void takeFirst();
         void thinkAgain(double excess);
         bool shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
-        bool widen(Path &path, double &cost);
+        bool shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset, double widest,
+                     CurveChoice choice);
         bool shortenBest(double spacing, double offset);
+        /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
+        bool widen(Path &path, double &cost);
+        bool canLeaveWithRoom(const Pose &pose);
+        void findRoom(Path &best, double &cost);
         bool isShortestPossible(const Path &path, double cost) const;
         Outcome improve();
 
@@ -122,6 +129,9 @@ namespace parking::search
         PathPlannerParameters parameters_;
         Search search_;
         std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
+        std::optional<RoomyEnvironment> roomy_;
+        std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
+        bool hasRoomySearch_{false};           // in this query
         std::vector<Pose> starts_;
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};

@@ -11,11 +11,14 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double SAMPLES_APART = 0.25;  // metres, where the environment does not know what is clear
-        constexpr double FINE_APART = 0.1;      // metres, in search of the pose nearest to an obstacle
-        constexpr double SAME_PART = 0.5;       // metres: parts nearer to each other are one
-        constexpr double LEAST_GAIN = 1e-4;     // metres of cost: smaller gains are not worth a new path
-        constexpr double LEVER = 2.0;           // metres: a turn moves the ends of the body by about as much per radian
+        constexpr double HARDLY_LESS = 0.98;    // of the preferred clearance is as good
+        constexpr double LONG_STRIDE = 0.25;    // metres, where the car gets near to nothing in between
+        constexpr double SHORT_STRIDE = 0.05;   // metres, elsewhere
+        constexpr double FARTHEST_POINT = 1.5;  // turning radii from the rear axle to the body's, or not much more
+        constexpr std::size_t POSES_BETWEEN_STOPS = 4;
+        constexpr double SAME_PART = 0.5;    // metres: parts nearer to each other are one
+        constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
+        constexpr double LEVER = 2.0;        // metres: a turn moves the ends of the body by about as much per radian
         // To the side and by a turn, in preferred clearances.
         constexpr std::array<double, 9> ASIDE{-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0};
         // How far from that pose the path is left, and reached again, at least: in widths of the bend by which a car
@@ -23,38 +26,46 @@ namespace parking::search
         constexpr std::array<double, 3> REACHES{1.5, 3.0, 6.0};
     }  // namespace
 
-    std::vector<PathWidener::ClosePart> PathWidener::closeParts(const Path &path)
+    std::vector<PathWidener::ClosePart> PathWidener::closeParts(const Path &path, double from, const StopFunction &stop)
     {
         std::vector<ClosePart> parts;
-        const auto add = [&parts](double begin, double end)
-        {
-            if (!parts.empty() && begin - parts.back().end < SAME_PART)
-                parts.back().end = end;
-            else
-                parts.push_back({begin, end});
-        };
+        const double enough = HARDLY_LESS * cost_.preferredClearance;
         Pose pose = path.start;
         double driven = 0.0;
+        std::size_t asked = 0;
         for (const PathPiece &piece : path.pieces)
         {
             const Arc arc{piece.curvature, piece.length};
             const double length = piece.driven();
-            double clear = 0.0;
-            environment_.clearLengths(pose, &arc, 1, cost_.preferredClearance, &clear);
-            if (clear < length)
+            double clear = length;
+            if (driven + length > from)
+                environment_.clearLengths(pose, &arc, 1, cost_.preferredClearance, &clear);
+            // No point of the body moves much farther than this per metre: where there is room, strides are long.
+            const double speed = 1.0 + FARTHEST_POINT * std::abs(piece.curvature) * curves_.turningRadius();
+            for (double at = std::max(clear, from - driven); clear < length;)
             {
-                const double rest = length - clear, samples = std::ceil(rest / SAMPLES_APART), apart = rest / samples;
-                for (double i = 0.0; i < samples; i += 1.0)
+                // Some checkers take long to tell clearances.
+                if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
+                    return parts;
+                const Pose there = advance(pose, piece, at);
+                const bool isClose = !environment_.keeps(there, enough);
+                if (isClose)
                 {
-                    // Where the environment knows how far it is clear, it is nearer beyond.
-                    const double at = clear + i * apart;
-                    const Pose middle = advance(pose, piece, at + 0.5 * apart);
-                    if ((i == 0.0 && clear > 0.0) || !environment_.keeps(middle, cost_.preferredClearance))
-                        add(driven + at, driven + at + apart);
+                    const double place = driven + at, clearance = environment_.clearance(there);
+                    if (parts.empty() || place - parts.back().end > SAME_PART)
+                        parts.push_back({place, place, place, clearance});
+                    ClosePart &part = parts.back();
+                    part.end = place;
+                    if (clearance < part.clearance)
+                    {
+                        part.nearest = place;
+                        part.clearance = clearance;
+                    }
                 }
-                // At a cusp the car may be nearest of all.
-                if (!environment_.keeps(advance(pose, piece), cost_.preferredClearance))
-                    add(driven + length - std::min(length, 0.5 * FINE_APART), driven + length + 0.5 * FINE_APART);
+                if (at >= length)
+                    break;
+                const bool isFar = !isClose && environment_.keeps(there, enough + speed * LONG_STRIDE);
+                at = std::min(length, at + (isFar ? LONG_STRIDE : SHORT_STRIDE));
             }
             driven += length;
             pose = advance(pose, piece);
@@ -62,25 +73,7 @@ namespace parking::search
         return parts;
     }
 
-    std::optional<double> PathWidener::nearestPlace(const Path &path, const ClosePart &part)
-    {
-        double least = cost_.preferredClearance;
-        std::optional<double> nearest;
-        const double samples = std::ceil((part.end - part.begin) / FINE_APART);
-        for (double i = 0.0; i <= samples; i += 1.0)
-        {
-            const double place = part.begin + (part.end - part.begin) * i / samples;
-            const double clearance = environment_.clearance(path.at(place));
-            if (clearance < least)
-            {
-                least = clearance;
-                nearest = place;
-            }
-        }
-        return nearest;
-    }
-
-    std::vector<Pose> PathWidener::posesBeside(const Pose &pose)
+    std::vector<Pose> PathWidener::posesBeside(const Pose &pose, const StopFunction &stop)
     {
         // From the smallest change on.
         static const auto changes = []
@@ -95,15 +88,18 @@ namespace parking::search
             return all;
         }();
         std::vector<Pose> result;
+        std::size_t asked = 0;
         for (const auto &[aside, turn] : changes)
         {
+            if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
+                return {};
             const double side = aside * cost_.preferredClearance;
             const Pose beside{pose.x - side * std::sin(pose.yaw), pose.y + side * std::cos(pose.yaw),
                               pose.yaw + turn * cost_.preferredClearance / LEVER};
+            if (result.size() >= tuning_.posesBeside)
+                break;
             if (environment_.keeps(beside, strict_.preferredClearance) && environment_.isPassable(beside))
                 result.push_back(beside);
-            if (result.size() == tuning_.posesBeside)
-                break;
         }
         return result;
     }
@@ -142,7 +138,7 @@ namespace parking::search
         return best;
     }
 
-    void PathWidener::lead(const Gap &gap, const Pose &through, Lead &best)
+    void PathWidener::lead(const Gap &gap, const Pose &through, const Limits &limits, std::vector<Lead> &leads)
     {
         const double bound = gap.cost - LEAST_GAIN;
         const Pose from = gap.before.pieces.empty() ? gap.before.start : gap.before.end(), to = gap.after.start;
@@ -161,7 +157,7 @@ namespace parking::search
         for (std::size_t k = 0; k < onward->curve.count; ++k)
             led.append(onward->curve.pieces[k]);
         led.extend(gap.after);
-        if (led.cusps() > best.mostCusps)
+        if (led.cusps() > limits.mostCusps)
             return;
         const double join = strict_.join(there->curve.pieces[there->curve.count - 1], onward->curve.pieces[0]);
         std::vector<PricedCurve> one{{there->cost, &there->curve}}, other{{onward->cost + join, &onward->curve}};
@@ -175,8 +171,44 @@ namespace parking::search
             return;
         // Closeness is sampled: the cost of the whole is not quite the sum of its parts'.
         const double cost = pathCost(strict_, led, environment_);
-        if (cost < best.cost - LEAST_GAIN && environment_.acceptPath(led))
-            best = {std::move(led), cost, reach, best.mostCusps};
+        if (cost < limits.mostCost)
+            leads.push_back({std::move(led), cost, reach});
+    }
+
+    bool PathWidener::leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
+                                const StopFunction &stop)
+    {
+        const std::vector<Pose> poses = posesBeside(path.at(part.nearest), stop);
+        if (poses.empty())
+            return false;
+        const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance), whole = path.length();
+        const Limits limits{pathCost(strict_, path, environment_) - LEAST_GAIN, mostCusps};
+        std::vector<Lead> leads;
+        for (const double bends : REACHES)
+        {
+            const double begin = std::min(part.begin, part.nearest - bends * bend);
+            const double end = std::max(part.end, part.nearest + bends * bend);
+            const Gap gap = cutOut(path, std::max(0.0, begin), std::min(whole, end));
+            for (const Pose &through : poses)
+            {
+                if (stop && stop())
+                    return false;
+                lead(gap, through, limits, leads);
+            }
+        }
+        std::stable_sort(leads.begin(), leads.end(), [](const Lead &a, const Lead &b) { return a.cost < b.cost; });
+        for (Lead &each : leads)
+        {
+            if (stop && stop())
+                return false;
+            if (environment_.acceptPath(each.path))
+            {
+                path = std::move(each.path);
+                reach = each.reach;
+                return true;
+            }
+        }
+        return false;
     }
 
     bool PathWidener::pass(Path &path, const StopFunction &stop)
@@ -184,42 +216,27 @@ namespace parking::search
         bool improved = false;
         double done = 0.0;  // metres along the path
         const std::size_t mostCusps = path.cusps() + 1;
-        const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance);
-        std::vector<ClosePart> parts = closeParts(path);
-        for (std::size_t k = 0; k < parts.size(); ++k)
+        std::vector<ClosePart> parts = closeParts(path, 0.0, stop);
+        isTooNear_ = false;
+        for (std::size_t k = 0; k < parts.size() && !(stop && stop());)
         {
-            const ClosePart part = parts[k];
-            const double whole = path.length();
-            if (part.end <= done || part.begin <= 0.0 || part.end >= whole)
-                continue;
-            const std::optional<double> place = nearestPlace(path, part);
-            if (!place)
-                continue;
-            const std::vector<Pose> poses = posesBeside(path.at(*place));
-            if (poses.empty())
-                continue;
-            Lead best{path, pathCost(strict_, path, environment_), 0.0, mostCusps};
-            for (const double bends : REACHES)
+            const ClosePart part = parts[k++];
+            double reach = 0.0;
+            const bool isAtAnEnd = part.begin <= 0.0 || part.end >= path.length();
+            if (isAtAnEnd || !leadAside(path, part, mostCusps, reach, stop))
             {
-                const double begin = std::min(part.begin, *place - bends * bend);
-                const double end = std::max(part.end, *place + bends * bend);
-                const Gap gap = cutOut(path, std::max(0.0, begin), std::min(whole, end));
-                for (const Pose &through : poses)
-                {
-                    if (stop && stop())
-                        return improved;
-                    lead(gap, through, best);
-                }
-            }
-            if (best.reach == 0.0)
+                isTooNear_ = true;
                 continue;
-            path = std::move(best.path);
+            }
             improved = true;
             // What comes of it may still be near to something, and is looked at from there on.
-            done = std::max(done + SAMPLES_APART, best.reach);
-            parts = closeParts(path);
-            k = static_cast<std::size_t>(-1);
+            done = std::max(done + SAME_PART, reach);
+            parts = closeParts(path, done, stop);
+            k = 0;
         }
+        // A way to a pose aside may be near to something, too.
+        if (improved && !isTooNear_)
+            isTooNear_ = !closeParts(path, 0.0, stop).empty();
         return improved;
     }
 }  // namespace parking::search

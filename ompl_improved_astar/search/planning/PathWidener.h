@@ -38,11 +38,24 @@ namespace parking::search
             strict_.preferredClearance *= tuning.roomToSpare;
         }
 
+        /** \brief By what paths become cheaper: the cost with a little more room than preferred, since what keeps that
+           at the samples keeps what is preferred between them. */
+        const CostModel &strictCost() const
+        {
+            return strict_;
+        }
+
         /** \brief One pass along the path.
 
-            \return whether any part of it was replaced, each by what costs less where a little more room than preferred
-            is asked for: clearances are sampled */
+            \return whether any part of it was replaced, each by what costs less by strictCost() */
         bool pass(Path &path, const StopFunction &stop);
+
+        /** \brief Did the last pass leave a part that is nearer to an obstacle than preferred, by more than a fiftieth?
+         */
+        bool isTooNear() const
+        {
+            return isTooNear_;
+        }
 
         /** \brief Pairs of poses between which curves were tried in all passes so far. */
         std::uint64_t connections() const
@@ -55,6 +68,8 @@ namespace parking::search
         struct ClosePart
         {
             double begin, end;
+            double nearest;    ///< where the car is nearest to an obstacle,
+            double clearance;  ///< and how near
         };
 
         /** A path without some part in its middle, and what that cost with the joins at its ends. */
@@ -64,12 +79,18 @@ namespace parking::search
             double cost;
         };
 
-        /** The path, and once it is led through some pose in a gap how many metres it is along it to there. */
+        /** The path led through some pose in a gap. */
         struct Lead
         {
             Path path;
             double cost;
-            double reach{0.0};
+            double reach;  ///< metres along it to that pose
+        };
+
+        /** What a path must not exceed. */
+        struct Limits
+        {
+            double mostCost;
             std::size_t mostCusps;
         };
 
@@ -80,20 +101,22 @@ namespace parking::search
             ReedsSheppCurve curve;
         };
 
-        std::vector<ClosePart> closeParts(const Path &path);
-        std::optional<double> nearestPlace(const Path &path, const ClosePart &part);
-        std::vector<Pose> posesBeside(const Pose &pose);
+        std::vector<ClosePart> closeParts(const Path &path, double from, const StopFunction &stop);
+        std::vector<Pose> posesBeside(const Pose &pose, const StopFunction &stop);
         Gap cutOut(const Path &path, double begin, double end);
         std::optional<Leg> shortest(const Pose &from, const Pose &to, const PathPiece *before, const PathPiece *after,
                                     double bound);
-        void lead(const Gap &gap, const Pose &through, Lead &best);
+        void lead(const Gap &gap, const Pose &through, const Limits &limits, std::vector<Lead> &leads);
+        bool leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
+                       const StopFunction &stop);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;
         CostModel cost_;
-        CostModel strict_;  // what keeps a little more than preferred at the samples keeps it between them
+        CostModel strict_;
         SearchTuning tuning_;
         std::vector<ReedsSheppCurve> candidates_;
         std::uint64_t connectionCount_{0};
+        bool isTooNear_{false};
     };
 }  // namespace parking::search
