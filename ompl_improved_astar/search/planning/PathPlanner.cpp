@@ -222,7 +222,10 @@ namespace parking::search
         {
             return stop_ && stop_();
         };
-        if (isTimeUp() || widen(best, cost) || search_.isFull() || !canLeaveWithRoom(best.start) ||
+        if (isTimeUp() || widen(best, cost))
+            return;
+        const double radius = parameters_.search.turningRadius;
+        if (best.length() > tuning.longestForRoom * radius || search_.isFull() || !canLeaveWithRoom(best.start) ||
             !canLeaveWithRoom(best.end()) || isTimeUp())
             return;
         // Where both ends have room there may be a way that has it everywhere. A search for such a way finds it sooner
@@ -247,7 +250,6 @@ namespace parking::search
             return;
         Path other = roomySearch_->bestPath();
         double costOfOther = pathCost(search_.cost(), other, *environment_);
-        const double radius = parameters_.search.turningRadius;
         shorten(other, costOfOther, std::max(tuning.knotSpacing * radius, other.length() / tuning.mostKnots), 0.0,
                 INFINITE, CurveChoice::Cheapest);
         widen(other, costOfOther);

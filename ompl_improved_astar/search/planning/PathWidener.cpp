@@ -12,7 +12,8 @@ namespace parking::search
     namespace
     {
         constexpr double HARDLY_LESS = 0.98;    // of the preferred clearance is as good
-        constexpr double LONG_STRIDE = 0.25;    // metres, where the car gets near to nothing in between
+        constexpr double LONG_STRIDE = 1.0;     // metres, where the car gets near to nothing in between,
+        constexpr double MIDDLE_STRIDE = 0.25;  // or not so far
         constexpr double SHORT_STRIDE = 0.05;   // metres, elsewhere
         constexpr double FARTHEST_POINT = 1.5;  // turning radii from the rear axle to the body's, or not much more
         constexpr std::size_t POSES_BETWEEN_STOPS = 4;
@@ -48,8 +49,12 @@ namespace parking::search
                 if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
                     return parts;
                 const Pose there = advance(pose, piece, at);
-                const bool isClose = !environment_.keeps(there, enough);
-                if (isClose)
+                double stride = SHORT_STRIDE;
+                if (environment_.keeps(there, enough + speed * LONG_STRIDE))
+                    stride = LONG_STRIDE;
+                else if (environment_.keeps(there, enough + speed * MIDDLE_STRIDE))
+                    stride = MIDDLE_STRIDE;
+                else if (!environment_.keeps(there, enough))
                 {
                     const double place = driven + at, clearance = environment_.clearance(there);
                     if (parts.empty() || place - parts.back().end > SAME_PART)
@@ -64,8 +69,7 @@ namespace parking::search
                 }
                 if (at >= length)
                     break;
-                const bool isFar = !isClose && environment_.keeps(there, enough + speed * LONG_STRIDE);
-                at = std::min(length, at + (isFar ? LONG_STRIDE : SHORT_STRIDE));
+                at = std::min(length, at + stride);
             }
             driven += length;
             pose = advance(pose, piece);
