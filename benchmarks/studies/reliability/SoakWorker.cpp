@@ -211,7 +211,7 @@ namespace parking
         Scenario changed = world_;
         changed.start = {now.x, now.y, wrapAngle(now.yaw)};
         changed.goals = {then};
-        const Pose at = path.rest(0.75 * path.length()).start;
+        const Pose at = path.at(0.75 * path.length());
         changed.polygons.push_back(parking_test::rectangle(random_.between(0.2, 1.5), random_.between(0.2, 1.5),
                                                            {at.x, at.y, random_.between(-PI, PI)}));
         const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);

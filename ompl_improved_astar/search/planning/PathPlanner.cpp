@@ -57,12 +57,6 @@ namespace parking::search
         return true;
     }
 
-    bool PathPlanner::shorten(Path &path, double &cost, double spacing, double offset, double widest,
-                              CurveChoice choice)
-    {
-        return shorten(search_.cost(), path, cost, spacing, offset, widest, choice);
-    }
-
     bool PathPlanner::shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset,
                               double widest, CurveChoice choice)
     {
@@ -81,13 +75,27 @@ namespace parking::search
         return true;
     }
 
+    bool PathPlanner::shortenWhole(Path &path, double &cost, double coarsest)
+    {
+        const double spacing = parameters_.search.tuning.knotSpacing * parameters_.search.turningRadius;
+        return shorten(search_.cost(), path, cost, std::max(spacing, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
+    }
+
+    bool PathPlanner::shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        const double radius = parameters_.search.turningRadius;
+        return shorten(model, path, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
+                       tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
+    }
+
     bool PathPlanner::shortenBest(double spacing, double offset)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         Path path = bestPath_;
         double cost = bestCost_;
         const double widest = tuning.widestSpan * parameters_.search.turningRadius;
-        return shorten(path, cost, spacing, offset, widest, CurveChoice::All) && take(path, cost);
+        return shorten(search_.cost(), path, cost, spacing, offset, widest, CurveChoice::All) && take(path, cost);
     }
 
     bool PathPlanner::isShortestPossible(const Path &path, double cost) const
@@ -155,18 +163,17 @@ namespace parking::search
         if (parameters_.shorten && !(isShort && isShortest))
         {
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
-            const bool isShorter = shorten(best, cost, std::max(tuning.knotSpacing * radius, coarsest), 0.0, INFINITE,
-                                           CurveChoice::Cheapest);
+            const bool isShorter = shortenWhole(best, cost, coarsest);
             // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
             if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && closeness(best) > 0.0))
-                shorten(best, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
-                        tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
+                shortenByOtherKnots(search_.cost(), best, cost, coarsest);
             // A path of many short pieces that is far from what it looked is often held by nothing but its knots.
             for (std::uint64_t k = 0; k < tuning.mostShortenings && !isBare && cost > tuning.muchDearer * expected; ++k)
             {
                 const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
                 const double spacing = std::max(knots.spacing, best.length() / tuning.mostKnots);
-                shorten(best, cost, spacing, knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
+                shorten(search_.cost(), best, cost, spacing, knots.offset, tuning.widestSpan * radius,
+                        CurveChoice::Cheapest);
             }
         }
         if (parameters_.shorten && search_.cost().prefersClearance())
@@ -196,11 +203,8 @@ namespace parking::search
         };
         if (!takeIfCheap(wider))
             return false;
-        const double radius = parameters_.search.turningRadius;
         double strict = pathCost(widener.strictCost(), wider, *environment_);
-        if (shorten(widener.strictCost(), wider, strict,
-                    std::max(tuning.otherKnotSpacing * radius, wider.length() / tuning.mostKnots),
-                    tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest))
+        if (shortenByOtherKnots(widener.strictCost(), wider, strict, wider.length() / tuning.mostKnots))
             takeIfCheap(wider);
         return !widener.isTooNear();
     }
@@ -218,15 +222,10 @@ namespace parking::search
     void PathPlanner::findRoom(Path &best, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        const auto isTimeUp = [this]
-        {
-            return stop_ && stop_();
-        };
         if (isTimeUp() || widen(best, cost))
             return;
-        const double radius = parameters_.search.turningRadius;
-        if (best.length() > tuning.longestForRoom * radius || search_.isFull() || !canLeaveWithRoom(best.start) ||
-            !canLeaveWithRoom(best.end()) || isTimeUp())
+        if (best.length() > tuning.longestForRoom * parameters_.search.turningRadius || search_.isFull() ||
+            !canLeaveWithRoom(best.start) || !canLeaveWithRoom(best.end()) || isTimeUp())
             return;
         // Where both ends have room there may be a way that has it everywhere. A search for such a way finds it sooner
         // than one that may come nearer.
@@ -242,7 +241,7 @@ namespace parking::search
         roomySearch_->addStart(best.start);
         roomySearch_->addGoal(best.end());
         const std::uint64_t most = std::clamp(search_.expanded(), tuning.leastForRoom, tuning.mostForRoom);
-        const StopFunction enough = [this, most, isTimeUp]
+        const StopFunction enough = [this, most]
         {
             return roomySearch_->expanded() >= most || isTimeUp();
         };
@@ -250,8 +249,7 @@ namespace parking::search
             return;
         Path other = roomySearch_->bestPath();
         double costOfOther = pathCost(search_.cost(), other, *environment_);
-        shorten(other, costOfOther, std::max(tuning.knotSpacing * radius, other.length() / tuning.mostKnots), 0.0,
-                INFINITE, CurveChoice::Cheapest);
+        shortenWhole(other, costOfOther, other.length() / tuning.mostKnots);
         widen(other, costOfOther);
         if (costOfOther < cost)
         {
@@ -276,7 +274,7 @@ namespace parking::search
         const std::uint64_t end = spent + tuning.leastAfterthought + static_cast<std::uint64_t>(more);
         const StopFunction enough = [this, end]
         {
-            return search_.expanded() >= end || (stop_ && stop_());
+            return search_.expanded() >= end || isTimeUp();
         };
         while (search_.run(enough) == SearchOutcome::Improved)
         {
@@ -292,11 +290,11 @@ namespace parking::search
         {
             if (goodEnough_)
                 return Outcome::Solved;
-            if (stop_ && stop_())
+            if (isTimeUp())
                 return Outcome::Stopped;
             bool progress = false;
             if (parameters_.shorten)
-                for (std::uint64_t k = 0; k < tuning.shorteningsPerRound && !goodEnough_ && !(stop_ && stop_()); ++k)
+                for (std::uint64_t k = 0; k < tuning.shorteningsPerRound && !goodEnough_ && !isTimeUp(); ++k)
                 {
                     const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
                     progress = shortenBest(knots.spacing, knots.offset) || progress;
@@ -313,7 +311,7 @@ namespace parking::search
                 const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
                 const StopFunction enough = [&]
                 {
-                    return search_.expanded() >= end || (stop_ && stop_());
+                    return search_.expanded() >= end || isTimeUp();
                 };
                 SearchOutcome outcome;
                 while ((outcome = search_.run(enough)) == SearchOutcome::Improved && !goodEnough_)

@@ -111,12 +111,18 @@ namespace parking::search
         SearchStatistics statistics() const;
 
     private:
+        bool isTimeUp() const
+        {
+            return stop_ && stop_();
+        }
+
         bool take(const Path &path, double cost);
         void takeFirst();
         void thinkAgain(double excess);
-        bool shorten(Path &path, double &cost, double spacing, double offset, double widest, CurveChoice choice);
         bool shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset, double widest,
                      CurveChoice choice);
+        bool shortenWhole(Path &path, double &cost, double coarsest);
+        bool shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest);
         bool shortenBest(double spacing, double offset);
         /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
         bool widen(Path &path, double &cost);

@@ -95,13 +95,13 @@ namespace parking::search
         std::size_t asked = 0;
         for (const auto &[aside, turn] : changes)
         {
+            if (result.size() >= tuning_.posesBeside)
+                break;
             if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
                 return {};
             const double side = aside * cost_.preferredClearance;
             const Pose beside{pose.x - side * std::sin(pose.yaw), pose.y + side * std::cos(pose.yaw),
                               pose.yaw + turn * cost_.preferredClearance / LEVER};
-            if (result.size() >= tuning_.posesBeside)
-                break;
             if (environment_.keeps(beside, strict_.preferredClearance) && environment_.isPassable(beside))
                 result.push_back(beside);
         }
@@ -111,11 +111,14 @@ namespace parking::search
     PathWidener::Gap PathWidener::cutOut(const Path &path, double begin, double end)
     {
         const Path untilEnd = path.first(end);
-        Gap gap{path.first(begin), path.rest(end), 0.0};
+        Gap gap{path.first(begin), path.rest(end), path.start, 0.0};
         const Path part = untilEnd.rest(begin);
         gap.cost = pathCost(strict_, part, environment_);
         if (!gap.before.pieces.empty())
+        {
+            gap.from = gap.before.end();
             gap.cost += strict_.join(gap.before.pieces.back(), part.pieces.front());
+        }
         if (!gap.after.pieces.empty())
             gap.cost += strict_.join(part.pieces.back(), gap.after.pieces.front());
         return gap;
@@ -145,7 +148,7 @@ namespace parking::search
     void PathWidener::lead(const Gap &gap, const Pose &through, const Limits &limits, std::vector<Lead> &leads)
     {
         const double bound = gap.cost - LEAST_GAIN;
-        const Pose from = gap.before.pieces.empty() ? gap.before.start : gap.before.end(), to = gap.after.start;
+        const Pose &from = gap.from, &to = gap.after.start;
         const PathPiece *const before = gap.before.pieces.empty() ? nullptr : &gap.before.pieces.back();
         const PathPiece *const after = gap.after.pieces.empty() ? nullptr : &gap.after.pieces.front();
         const std::optional<Leg> there = shortest(from, through, before, nullptr, bound);

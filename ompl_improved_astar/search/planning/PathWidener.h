@@ -76,6 +76,7 @@ namespace parking::search
         struct Gap
         {
             Path before, after;
+            Pose from;  ///< where it begins
             double cost;
         };
 

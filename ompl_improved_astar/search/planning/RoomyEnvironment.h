@@ -41,9 +41,9 @@ namespace parking::search
         double freeLength(const Pose &from, double curvature, double length) override
         {
             const Arc arc{curvature, length};
-            double clear = 0.0;
-            world_.clearLengths(from, &arc, 1, clearance_, &clear);
-            return clear;
+            double free = 0.0;
+            freeLengths(from, &arc, 1, &free);
+            return free;
         }
 
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override

@@ -151,6 +151,15 @@ namespace parking_test
         return world;
     }
 
+    /** \brief The least distance between the car and the obstacles along a path, looked at every centimetre. */
+    inline double leastGap(const DiscCarWorld &world, const parking::Path &path)
+    {
+        double least = world.gap(path.start);
+        for (const parking::PathState &state : path.sample(0.01))
+            least = std::min(least, world.gap(state.pose));
+        return least;
+    }
+
     /** \brief What is wrong with a path, or nothing: curvature, direction, ends, collisions (every 2 mm). */
     inline std::string faultOf(const parking::Path &path, const DiscCarWorld &world,
                                const std::vector<parking::Pose> &starts, const std::vector<parking::Pose> &goals,

@@ -1,7 +1,7 @@
 // The shortening of paths: never worse, ends kept, free and drivable.
 
 #include "ompl_improved_astar/search/planning/PathShortener.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/NoisyWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -102,15 +102,7 @@ TEST(PathShortener, pricesClearanceAsTheWholePathDoes)
    by a million random queries: two curves replaced each other for ever, each cheaper than the other. */
 TEST(PathShortener, endsWhereClosenessIsNothingButNoise)
 {
-    class Noisy : public DiscCarWorld
-    {
-    public:
-        using DiscCarWorld::DiscCarWorld;
-        bool keeps(const Pose &pose, double /*clearance*/) override
-        {
-            return std::fmod(std::abs(1e3 * pose.x + 777.0 * pose.y), 2.0) < 1.0;
-        }
-    } world({{-100.0, -100.0}, {100.0, 100.0}});
+    NoisyWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     constexpr std::uint64_t FAR_TOO_MANY = 20000;
     const ReedsShepp curves(RADIUS);
     CostModel cost = model(0.1, 0.0);

@@ -1,7 +1,7 @@
 // Leading paths past obstacles: more room, never dearer, ends kept, free and drivable.
 
 #include "ompl_improved_astar/search/planning/PathWidener.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/NoisyWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -52,14 +52,6 @@ namespace
                 return path;
         }
         return {from, {}};
-    }
-
-    double leastGap(const DiscCarWorld &world, const Path &path)
-    {
-        double least = std::numeric_limits<double>::infinity();
-        for (const PathState &state : path.sample(0.01))
-            least = std::min(least, world.gap(state.pose));
-        return least;
     }
 
     /** A straight drive of 17 m along y = 0 with a block beside it, so far from the flank of the car. */
@@ -214,22 +206,9 @@ TEST(PathWidener, addsOneCuspAtMost)
     EXPECT_GT(more, 10);
 }
 
-/** Where what is close changes from millimetre to millimetre, no two ways to cut a path agree on it. */
 TEST(PathWidener, neverMakesDearerAndEndsWhereClosenessIsNothingButNoise)
 {
-    class Noisy : public DiscCarWorld
-    {
-    public:
-        using DiscCarWorld::DiscCarWorld;
-        bool keeps(const Pose &pose, double /*clearance*/) override
-        {
-            return std::fmod(std::abs(1e3 * pose.x + 777.0 * pose.y), 2.0) < 1.0;
-        }
-        double clearance(const Pose &pose) override
-        {
-            return keeps(pose, PREFERRED) ? 2.0 * PREFERRED : 0.5 * PREFERRED;
-        }
-    } world({{-100.0, -100.0}, {100.0, 100.0}});
+    NoisyWorld world({{-100.0, -100.0}, {100.0, 100.0}});
     const ReedsShepp curves(RADIUS);
     int changed = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed)

@@ -20,14 +20,6 @@ namespace
 {
     constexpr double CLEARANCE = 0.3;
 
-    double leastGap(const DiscCarWorld &world, const Path &path)
-    {
-        double least = world.gap(path.start);
-        for (const PathState &state : path.sample(0.01))
-            least = std::min(least, world.gap(state.pose));
-        return least;
-    }
-
     struct Solved
     {
         bool isSolved{false};
