@@ -112,3 +112,28 @@ TEST(RoomyEnvironment, AWayWithRoomIsFoundBesideOneWithout)
     EXPECT_GE(more, 3);
     EXPECT_EQ(less, 0);
 }
+
+/** However much more room is asked for between the samples, by its plain cost a path gets hardly dearer. */
+TEST(RoomyEnvironment, RoomCostsNoMoreThanItMay)
+{
+    SearchTuning spacious, shortenedOnly;
+    spacious.leastForRoom = spacious.mostForRoom = 0;
+    shortenedOnly.leastForRoom = shortenedOnly.mostForRoom = 0;
+    shortenedOnly.posesBeside = 0;
+    int changed = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        ClearanceWorld world(randomField(seed % 60, 6));
+        Random random(seed);
+        const Pose start = world.freePose(random), goal = world.freePose(random);
+        spacious.roomToSpare = seed % 2 == 0 ? 1.1 : 3.0;
+        const Solved before = solve(world, start, goal, shortenedOnly), wider = solve(world, start, goal, spacious);
+        ASSERT_EQ(wider.isSolved, before.isSolved);
+        if (!before.isSolved)
+            continue;
+        ASSERT_LE(wider.cost, 1.02 * before.cost + 1e-9);
+        changed += wider.cost != before.cost;
+    }
+    EXPECT_GT(changed, 3);
+}
