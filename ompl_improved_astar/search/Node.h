@@ -56,6 +56,7 @@ namespace parking::search
         Motion motion;              ///< from the parent
         float h{0.0f};              ///< estimated cost of the way on
         float mobility{0.0f};       ///< metres of the longest free motion from here, known after the first expansion
+        float wait{0.0f};           ///< what its place in the open list costs it, being crowded
         NodeIndex parent{NO_NODE};  ///< NO_NODE for a root
         std::uint8_t cusps{0};      ///< between root and node, at most ANY_CUSPS
         std::uint8_t level{0};      ///< the coarsest level on which its cell was free

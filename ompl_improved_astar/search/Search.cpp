@@ -42,6 +42,8 @@ namespace parking::search
         heuristicName_ = heuristic;
         for (Frontier &each : frontiers_)
             each.begin(parameters.openList, traits_.levels, parameters.tuning.turnsRatio);
+        for (Crowds &each : crowds_)
+            each.begin(parameters.tuning.crowdedPlace * parameters.turningRadius, parameters.tuning.crowdSectors);
         boundIsKept_ = parameters.weights.far <= 1.0 && parameters.weights.near <= 1.0;
         leastDropped_ = {INFINITE, INFINITE};
         hasLateRoots_ = joinsAgain_ = false;
@@ -217,8 +219,13 @@ namespace parking::search
         const bool first = !node.isExpanded();
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
         if (node.next != level || !mayImprove(own.side(), node) ||
-            (queue == 0 && entry.f > priority(own, node, node.h) + ROUNDING))
+            (queue == 0 && entry.f > priority(own, node) + ROUNDING))
             return;
+        if (queue == 0 && hasToGoOnWaiting(own, node))
+        {
+            pushToFirst(own, level, entry.node);
+            return;
+        }
         own.countTurn(queue, level);
         node.next = static_cast<std::uint8_t>(level + 1);
         if (own.queues() > 1)
@@ -233,6 +240,8 @@ namespace parking::search
                 return;
         }
         ++statistics_.expanded;
+        if (spreadsOut())
+            crowds_[static_cast<std::size_t>(own.side())].add(own.node(entry.node).pose);
         expansion_.successors.clear();
         expansion_.mobility = 0.0;
         model_->expand(own.side(), entry.node, own.node(entry.node), level, first, expansion_);
@@ -351,6 +360,8 @@ namespace parking::search
             bytes += detours_[i]->way.bytes();
         for (const Enclosure &enclosure : enclosures_)
             bytes += enclosure.bytes();
+        for (const Crowds &each : crowds_)
+            bytes += each.bytes();
         return bytes;
     }
 

@@ -5,6 +5,7 @@
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/containers/Crowds.h"
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/proofs/Enclosure.h"
 #include "parking_geometry/curves/Path.h"
@@ -285,6 +286,15 @@ namespace parking::search
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
         double priority(const Frontier &own, const Node &node, double ahead) const;
+        /** Its priority in the first queue, as it was when it was put there. */
+        double priority(const Frontier &own, const Node &node) const
+        {
+            return priority(own, node, node.h) + node.wait;
+        }
+        bool spreadsOut() const;
+        float waitOf(const Frontier &own, const Node &node) const;
+        bool hasToGoOnWaiting(const Frontier &own, const Node &node) const;
+        void pushToFirst(Frontier &own, std::size_t level, NodeIndex index);
         void push(Frontier &own, std::size_t level, NodeIndex index);
         void rekey(Frontier &own);
         float estimateOf(Side side, const Pose &pose);
@@ -330,7 +340,8 @@ namespace parking::search
         ModelTraits traits_;
         std::array<Frontier, 2> frontiers_;
         std::array<Guides, 2> guides_;
-        Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
+        std::array<Crowds, 2> crowds_;  // of the nodes expanded until there was a solution, by side
+        Side confined_{Side::Goal};     // the side that is harder to get away from, or the only one that is searched
         bool prepared_{false};
         bool hasLateRoots_{false};  // that were added after some expansions
         bool joinsAgain_{false};    // nodes are yet to be joined with such roots

@@ -185,10 +185,40 @@ namespace parking::search
         return node.g + parameters_.weights.at(nearest) * ahead;
     }
 
+    bool Search::spreadsOut() const
+    {
+        // Models that aim go by the least f of all that was closed, and bounds by the costs alone.
+        return parameters_.spreadOut && traits_.joinsAfar && !hasTarget_ && !boundIsKept_ && !hasSolution();
+    }
+
+    float Search::waitOf(const Frontier &own, const Node &node) const
+    {
+        if (!spreadsOut())
+            return node.wait;
+        const SearchTuning &tuning = parameters_.tuning;
+        const std::uint32_t expansions = crowds_[static_cast<std::size_t>(own.side())].at(node.pose);
+        return static_cast<float>(tuning.waitPerExpansion * parameters_.turningRadius *
+                                  std::min(expansions, tuning.mostCrowded));
+    }
+
+    bool Search::hasToGoOnWaiting(const Frontier &own, const Node &node) const
+    {
+        // Twice as long each time at least, so that a node is put back a few times and no more.
+        const double much = parameters_.tuning.longerWait * parameters_.turningRadius;
+        return waitOf(own, node) > node.wait + std::max<double>(much, node.wait);
+    }
+
+    void Search::pushToFirst(Frontier &own, std::size_t level, NodeIndex index)
+    {
+        Node &node = own.node(index);
+        node.wait = waitOf(own, node);
+        own.push(0, level, priority(own, node), node.h, index);
+    }
+
     void Search::push(Frontier &own, std::size_t level, NodeIndex index)
     {
-        const Node &node = own.node(index);
-        own.push(0, level, priority(own, node, node.h), node.h, index);
+        // Nothing waits in the queues of detours: those are followed rather than searched.
+        pushToFirst(own, level, index);
         for (std::size_t i = 0; i < detoursOf(own); ++i)
             pushToDetour(i, level, index);
     }
@@ -200,7 +230,7 @@ namespace parking::search
                 [this, &own](OpenList::Entry &entry)
                 {
                     const Node &node = own.node(entry.node);
-                    entry.f = priority(own, node, node.h);
+                    entry.f = priority(own, node);
                     return mayImprove(own.side(), node);
                 });
     }

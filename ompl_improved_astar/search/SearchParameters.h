@@ -51,6 +51,7 @@ namespace parking::search
         bool analyticExpansion{true};         ///< join the two sides by curves
         bool obstacleHeuristic{true};         ///< guide round obstacles by ObstacleHeuristic
         bool lookAhead{true};                 ///< drive on along the way round obstacles while there is room
+        bool spreadOut{true};                 ///< let nodes in places that are crowded wait
         bool detours{true};                   ///< try other ways round obstacles when stuck
         bool eagerObstacles{false};           ///< find out what is free before the search instead of during it
         std::size_t maxMemory{std::size_t{512} << 20};  ///< bytes of nodes, cells and lists; the search stops there

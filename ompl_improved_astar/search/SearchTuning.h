@@ -56,6 +56,17 @@ namespace parking::search
         double mostLookahead{1.3};     ///< by a curve no longer than this times the straight line
         /** @} */
 
+        /** \name Spreading out, until there is a solution
+
+            Chosen by hand on random queries with the tuning seeds that docs/planner.md names, and on the 62 problems.
+            @{ */
+        double waitPerExpansion{0.5};   ///< added to the cost of an open node for each expansion that there was in its
+        double crowdedPlace{2.0};       ///< place, a square with this side,
+        unsigned int crowdSectors{8};   ///< with a heading in the same one of so many parts of a turn,
+        std::uint32_t mostCrowded{20};  ///< but for no more expansions than so many;
+        double longerWait{4.0};         ///< when its turn comes and that is more by so much now, it goes on waiting
+        /** @} */
+
         /** \name Detours, when the search is stuck
 
             Chosen by hand on random queries with the tuning seeds that docs/planner.md names.

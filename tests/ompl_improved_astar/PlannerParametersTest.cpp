@@ -97,6 +97,7 @@ namespace
                                                           {"search_from", "goal"},
                                                           {"shortening", "1"},
                                                           {"smoothing", "bspline"},
+                                                          {"spread_out", "1"},
                                                           {"steering_angles", "3"},
                                                           {"turning_radius", "3"},
                                                           {"xy_resolution", "0"}};
@@ -234,7 +235,7 @@ namespace
         set = {};
         set.bidirectional = set.adaptiveResolution = set.shortening = false;
         set.searchFrom = "start";
-        set.lookAhead = set.detours = false;
+        set.lookAhead = set.spreadOut = set.detours = false;
         expected["hybrid_astar"] = set;
 
         EXPECT_EQ(parking::parameterSetNames().size(), expected.size());

@@ -377,6 +377,28 @@ namespace
         EXPECT_LT(2 * expanded("1"), expanded("0"));
     }
 
+    TEST_F(PlannerSwitches, SpreadingOutSavesExpansionsWhereTheCarMustTurnRoundOnTheWay)
+    {
+        // A narrow aisle with a bay; the car faces the closed end at the start, and away from it at the goal.
+        std::uint64_t with = 0, without = 0;
+        for (const double length : {80.0, 120.0, 160.0})
+            for (const double bay : {10.0, 20.0, 30.0, 40.0, 50.0, 60.0})
+            {
+                const Site site{{box(0.0, 3.6, bay, 11.0), box(bay + 6.0, 3.6, length, 11.0)},
+                                {{0.0, 0.0}, {length, 11.0}}};
+                const auto expanded = [&](const char *value)
+                {
+                    return planned(Space::ReedsShepp, site, {length - 6.0, 1.8, parking::PI}, {5.0, 1.8, 0.0},
+                                   {{"spread_out", value}})
+                        .planner->statistics()
+                        .expanded;
+                };
+                with += expanded("1");
+                without += expanded("0");
+            }
+        EXPECT_LT(10 * with, 8 * without);
+    }
+
     TEST_F(PlannerSwitches, WeightsTradeWorkForLength)
     {
         const auto plan = [](const char *weight)

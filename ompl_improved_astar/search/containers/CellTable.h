@@ -14,7 +14,8 @@ namespace parking::search
     public:
         static constexpr std::uint32_t NONE = 0xffffffffu;  ///< what find() gives for an empty cell
 
-        CellTable() : slots_(1u << 12)
+        /** \brief Empty, with room for half as many cells as there are \e slots, a power of two, before it grows. */
+        explicit CellTable(std::size_t slots = std::size_t{1} << 12) : slots_(slots)
         {
         }
 

@@ -183,7 +183,7 @@ namespace parking
                                           {
                                               fromStartOnly(set);
                                               set.adaptiveResolution = false;
-                                              set.lookAhead = set.detours = false;
+                                              set.lookAhead = set.spreadOut = set.detours = false;
                                               set.shortening = false;
                                           }}};
     }  // namespace
@@ -220,6 +220,8 @@ namespace parking
              "guide the search round obstacles (car model)"},
             {"look_ahead", &P::lookAhead, yesOrNo(), "",
              "drive on along the way round obstacles while there is room, without looking at each step (car model)"},
+            {"spread_out", &P::spreadOut, yesOrNo(), "",
+             "while no path is known, rather search where less has been searched, by place and heading (car model)"},
             {"detours", &P::detours, yesOrNo(), "",
              "when the search is stuck: try ways through wider gaps, explore, and look for a proof that there is no "
              "way (car "

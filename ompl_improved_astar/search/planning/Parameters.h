@@ -31,6 +31,7 @@ namespace parking
         double tieBreak{1e-3};                ///< tie_break: p, added to w
         bool obstacleHeuristic{true};         ///< obstacle_heuristic: guide round obstacles
         bool lookAhead{true};                 ///< look_ahead: drive on along the way round obstacles
+        bool spreadOut{true};                 ///< spread_out: rather search where less has been searched
         bool detours{true};                   ///< detours: try other ways when stuck
         std::string obstacleLoading{"lazy"};  ///< obstacle_loading: lazy or eager
         bool adaptiveResolution{true};        ///< adaptive_resolution: refine where needed

@@ -55,6 +55,7 @@ namespace parking::search
         search.analyticExpansion = parameters.analyticExpansion;
         search.obstacleHeuristic = parameters.obstacleHeuristic;
         search.lookAhead = parameters.lookAhead;
+        search.spreadOut = parameters.spreadOut;
         search.detours = parameters.detours;
         search.maxMemory = std::size_t{parameters.maxMemoryMb} << 20;
         search.eagerObstacles = parameters.obstacleLoading == "eager";

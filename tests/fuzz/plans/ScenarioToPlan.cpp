@@ -49,6 +49,7 @@ namespace parking_test::fuzz
             {
                 parameters.preferredClearance = numbers.between(0.0, 1.0);
                 parameters.lookAhead = numbers.flag();
+                parameters.spreadOut = numbers.flag();
             }
             return parameters;
         }

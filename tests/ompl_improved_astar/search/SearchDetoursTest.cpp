@@ -16,6 +16,14 @@ namespace
 {
     constexpr std::uint64_t MOST_EXPANSIONS = 6000;
 
+    /** Spreading out is off: it would lead out of some of the traps, too, in time. */
+    SearchParameters trapParameters()
+    {
+        SearchParameters parameters = carParameters();
+        parameters.spreadOut = false;
+        return parameters;
+    }
+
     /** The size of a row of parked cars between two aisles. */
     struct Row
     {
@@ -94,7 +102,7 @@ namespace
     }
 
     Counts searched(CarProblem problem, bool detours, const Eigen::Vector2d &half,
-                    SearchParameters parameters = carParameters())
+                    SearchParameters parameters = trapParameters())
     {
         Search search;
         return searched(search, problem, detours, half, parameters);
@@ -114,6 +122,18 @@ TEST(SearchDetours, leadOutOfATrap)
     }
 }
 
+TEST(SearchDetours, leadOutOfATrapWhileSpreadingOutToo)
+{
+    const Row row;
+    for (const double startX : PLACES)
+    {
+        SCOPED_TRACE(startX);
+        const Counts with = searched(rowOfCars(row, startX), true, row.halfWorld(), carParameters());
+        EXPECT_TRUE(with.solved);
+        EXPECT_LT(with.expanded, 300u);
+    }
+}
+
 // Of a wide world the disc of the detour asks about the rooms on its way: of these 31,000, with the ways of all that
 // was open before 44,500. By its way, too, the car drives on without an expansion for each step.
 TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
@@ -121,9 +141,9 @@ TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
     const Row row{40.0, 4.0, 60.0}, longRow{300.0};
     const Counts with = searched(rowOfCars(row, 5.0), true, row.halfWorld());
     EXPECT_TRUE(with.solved);
-    EXPECT_GT(with.expanded, carParameters().tuning.leastExpansions);
+    EXPECT_GT(with.expanded, trapParameters().tuning.leastExpansions);
     EXPECT_LT(with.roomsAsked, 38000u);
-    SearchParameters parameters = carParameters();
+    SearchParameters parameters = trapParameters();
     parameters.lookAhead = false;
     EXPECT_GT(4 * searched(rowOfCars(longRow), true, longRow.halfWorld(), parameters).expanded,
               5 * searched(rowOfCars(longRow), true, longRow.halfWorld()).expanded);
@@ -132,7 +152,7 @@ TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
 // What is dear to the first is far less than the way round the end of a long row.
 TEST(SearchDetours, aSecondOneKeepsOutOfWhatTheFirstDoesNot)
 {
-    SearchParameters onlyOne = carParameters();
+    SearchParameters onlyOne = trapParameters();
     onlyOne.tuning.nextDetour = 2 * MOST_EXPANSIONS;
     const Row row{350.0}, longRow{500.0};
     EXPECT_TRUE(searched(rowOfCars(row), true, row.halfWorld(), onlyOne).solved);
@@ -153,7 +173,7 @@ TEST(SearchDetours, aSecondOneKeepsOutOfWhatTheFirstDoesNot)
 // through them is as dear and shorter.
 TEST(SearchDetours, theSecondOneFindsAislesThatAreNarrowToo)
 {
-    SearchParameters bothWide = carParameters();
+    SearchParameters bothWide = trapParameters();
     bothWide.tuning.detours[1].wide = bothWide.tuning.detours[0].wide;
     const Row row{80.0, 4.0, 4.2, 2.1};
     std::uint64_t with = 0, withoutSecond = 0;
@@ -177,7 +197,7 @@ TEST(SearchDetours, leaveOtherSearchesAsTheyAre)
     {
         SCOPED_TRACE(seed);
         const Counts without = searched(randomProblem(seed), false, {12.0, 12.0});
-        if (!without.solved || without.expanded >= carParameters().tuning.leastExpansions)
+        if (!without.solved || without.expanded >= trapParameters().tuning.leastExpansions)
             continue;
         const Counts with = searched(randomProblem(seed), true, {12.0, 12.0});
         EXPECT_EQ(with.expanded, without.expanded);
@@ -193,10 +213,10 @@ TEST(SearchDetours, areTheSameEachTime)
     const Row row, longRow{500.0};
     CarProblem trap = rowOfCars(row), longTrap = rowOfCars(longRow);
     Search search;
-    const Counts once = searched(search, trap, true, row.halfWorld(), carParameters());
-    const Counts both = searched(search, longTrap, true, longRow.halfWorld(), carParameters());
-    EXPECT_GT(both.expanded, once.expanded + carParameters().tuning.nextDetour) << "two detours";
-    const Counts again = searched(search, trap, true, row.halfWorld(), carParameters());
+    const Counts once = searched(search, trap, true, row.halfWorld(), trapParameters());
+    const Counts both = searched(search, longTrap, true, longRow.halfWorld(), trapParameters());
+    EXPECT_GT(both.expanded, once.expanded + trapParameters().tuning.nextDetour) << "two detours";
+    const Counts again = searched(search, trap, true, row.halfWorld(), trapParameters());
     EXPECT_EQ(once.expanded, again.expanded);
     EXPECT_EQ(once.length, again.length);
     EXPECT_EQ(once.memory, again.memory);
@@ -207,7 +227,7 @@ TEST(SearchDetours, areTheSameEachTime)
 TEST(SearchDetours, explorationFindsWaysWithoutDiscs)
 {
     std::uint64_t with = 0, without = 0;
-    SearchParameters notExploring = carParameters();
+    SearchParameters notExploring = trapParameters();
     notExploring.tuning.stalledDetours = 2 * MOST_EXPANSIONS;
     for (const std::uint64_t seed : {393u, 446u})
     {

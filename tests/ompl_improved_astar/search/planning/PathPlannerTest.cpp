@@ -107,7 +107,7 @@ TEST(PathPlanner, shorteningNeverCostsAnything)
 TEST(PathPlanner, onlyPathsFarDearerThanPromisedAreShortenedAgainAndThenNeverCostMore)
 {
     int again = 0, cheaper = 0;
-    for (std::uint64_t seed = 0; seed < 200; ++seed)
+    for (std::uint64_t seed = 0; seed < 400; ++seed)
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "ompl_improved_astar/search/containers/CellTable.h"
+#include "parking_geometry/Pose.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace parking::search
+{
+    /** \brief How often a search has expanded nodes in a place with about the same heading.
+
+        Places are the squares of a grid, headings the sectors of a circle, the first of them centred on the x axis. */
+    class Crowds
+    {
+    public:
+        /** \brief Empty, and not usable before begin(). */
+        Crowds() : counts_(FIRST_SLOTS)
+        {
+        }
+
+        /** \brief Forgets all counts; memory is kept.
+
+            \param side of a square, in metres
+            \param sectors of the circle */
+        void begin(double side, unsigned int sectors)
+        {
+            counts_.clear();
+            side_ = side;
+            sectors_ = sectors;
+        }
+
+        /** \brief Counts an expansion at that pose. */
+        void add(const Pose &pose)
+        {
+            counts_.set(keyOf(pose), at(pose) + 1);
+        }
+
+        /** \brief Expansions that were counted in the place and the sector of that pose. */
+        std::uint32_t at(const Pose &pose) const
+        {
+            const std::uint32_t count = counts_.find(keyOf(pose));
+            return count == CellTable::NONE ? 0 : count;
+        }
+
+        /** \brief The most bytes that the counts take up to their table's next growth. */
+        std::size_t bytes() const
+        {
+            return counts_.bytes();
+        }
+
+    private:
+        static constexpr std::size_t FIRST_SLOTS = 1u << 8;  // most searches end before they fill the half of it
+
+        std::uint64_t keyOf(const Pose &pose) const
+        {
+            constexpr int BITS = 28;  // of a coordinate; what lies farther away than that shares counts
+            constexpr std::uint64_t MASK = (std::uint64_t{1} << BITS) - 1;
+            const auto x = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(pose.x / side_))),
+                       y = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(pose.y / side_)));
+            const double turns = pose.yaw / (2.0 * PI);
+            const auto sector = static_cast<std::uint64_t>(std::lround((turns - std::floor(turns)) * sectors_)) %
+                                sectors_;  // the last half of a sector belongs to the first one
+            return (sector << (2 * BITS)) | ((x & MASK) << BITS) | (y & MASK);
+        }
+
+        CellTable counts_;
+        double side_{1.0};
+        unsigned int sectors_{1};
+    };
+}  // namespace parking::search

@@ -1,0 +1,142 @@
+// Spreading out: nodes in places that are crowded wait.
+
+#include "ompl_improved_astar/search/Search.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr std::uint64_t MOST_EXPANSIONS = 6000;
+
+    /** An aisle with a bay on one side, and the car at its closed end. It faces that end, and should at the goal, too,
+       at the other end: it can turn round in the bay only. Looking ahead comes to either end with the wrong heading. */
+    CarProblem aisleWithABay(double length, double bay, double width = 4.6)
+    {
+        const Box world{{0.0, 0.0}, {length, width + 7.0}};
+        CarProblem problem{DiscCarWorld(world), {{length - 6.0, 0.5 * width, PI}}, {{5.0, 0.5 * width, 0.0}}};
+        problem.world.boxes = {{{0.0, width}, {bay, width + 7.0}}, {{bay + 6.5, width}, {length, width + 7.0}}};
+        return problem;
+    }
+
+    SearchParameters parametersIn(const CarProblem &problem, bool spreadOut)
+    {
+        SearchParameters parameters = carParameters();
+        parameters.inscribedRadius = problem.world.radius;
+        parameters.bounds = problem.world.inside;
+        parameters.spreadOut = spreadOut;
+        return parameters;
+    }
+
+    /** Searches up to the first solution, which must be right where there is one. */
+    bool isSolved(Search &search, CarProblem &problem, const SearchParameters &parameters)
+    {
+        problem.begin(search, parameters);
+        search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
+        if (search.hasSolution())
+        {
+            EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,
+                              parameters.forwardOnly),
+                      "");
+        }
+        return search.hasSolution();
+    }
+
+    std::size_t waiting(const Search &search)
+    {
+        std::size_t count = 0;
+        for (const Side side : {Side::Start, Side::Goal})
+            for (const Node &node : search.frontier(side).nodes())
+                count += node.wait > 0.0f;
+        return count;
+    }
+}  // namespace
+
+TEST(SearchSpreading, findsWhereToTurnRound)
+{
+    std::uint64_t with = 0, without = 0;
+    for (const double length : {80.0, 100.0, 120.0, 140.0})
+        for (const double bay : {10.0, 20.0, 30.0, 40.0, 50.0})
+        {
+            SCOPED_TRACE(testing::Message() << length << ' ' << bay);
+            CarProblem problem = aisleWithABay(length, bay);
+            Search search;
+            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, true)));
+            with += search.expanded();
+            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, false)));
+            EXPECT_EQ(waiting(search), 0u);
+            without += search.expanded();
+        }
+    EXPECT_LT(10 * with, 8 * without);
+}
+
+TEST(SearchSpreading, neverMakesABoundWait)
+{
+    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        std::uint64_t expanded[2];
+        double cost[2], bound[2];
+        for (const bool spreadOut : {false, true})
+        {
+            CarProblem problem = randomProblem(seed);
+            SearchParameters parameters = parametersIn(problem, spreadOut);
+            parameters.weights.far = parameters.weights.near = 1.0;
+            parameters.weights.tieBreak = 0.0;
+            Search search;
+            isSolved(search, problem, parameters);
+            EXPECT_EQ(waiting(search), 0u);
+            expanded[spreadOut] = search.expanded();
+            cost[spreadOut] = search.bestCost();
+            bound[spreadOut] = search.lowerBound();
+        }
+        EXPECT_EQ(expanded[false], expanded[true]);
+        EXPECT_EQ(cost[false], cost[true]);
+        EXPECT_EQ(bound[false], bound[true]);
+    }
+}
+
+// Whatever waits, waits for its turn: where there is no way all that was reached is expanded in the end.
+TEST(SearchSpreading, leavesNothingOut)
+{
+    const Box world{{0.0, 0.0}, {60.0, 20.0}};
+    CarProblem problem{DiscCarWorld(world, {{{24.0, 0.0}, {25.0, 20.0}}}), {{6.0, 10.0, 0.0}}, {{45.0, 10.0, 0.0}}};
+    SearchParameters parameters = parametersIn(problem, true);
+    parameters.adaptiveResolution = parameters.obstacleHeuristic = parameters.detours = false;
+    Search search;
+    problem.begin(search, parameters);
+    EXPECT_EQ(search.run({}), SearchOutcome::Exhausted);
+    EXPECT_EQ(search.exhaustion(), Exhaustion::SearchedOut);
+    EXPECT_GT(waiting(search), 100u);
+    std::size_t exhausted = 0;
+    const Search &searched = search;
+    for (const Side side : {Side::Start, Side::Goal})
+        if (const Frontier &frontier = searched.frontier(side); frontier.isExhausted())
+        {
+            ++exhausted;
+            EXPECT_GT(frontier.nodes().size(), 100u);
+            for (const Node &node : frontier.nodes())
+                EXPECT_TRUE(node.isExpanded());
+        }
+    EXPECT_GT(exhausted, 0u);
+}
+
+TEST(SearchSpreading, solvesWhatIsSolvedWithout)
+{
+    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 14);
+        Search with, without;
+        EXPECT_EQ(isSolved(with, problem, parametersIn(problem, true)),
+                  isSolved(without, problem, parametersIn(problem, false)));
+    }
+}
