@@ -331,6 +331,7 @@ namespace parking::search
         void explore();
         NodeIndex nearestExplored(Side side, const Pose &pose) const;
         void beginEnclosures();
+        double wayAhead(Side side, double x, double y);
         void widenEnclosures();
 
         MotionEnvironment *environment_{nullptr};

@@ -130,11 +130,25 @@ namespace parking::search
         bodyCells_ = environment_->bodyCells(side, headings);
         if (!bodyCells_)
             return;
-        const std::vector<Pose> starts = frontier(Side::Start).rootPoses(), goals = frontier(Side::Goal).rootPoses();
         if (enclosures_.empty())
             enclosures_ = std::vector<Enclosure>(2);
-        enclosures_[0].begin(*bodyCells_, starts, goals, side, headings, tuning.mostColumns);
-        enclosures_[1].begin(*bodyCells_, goals, starts, side, headings, tuning.mostColumns);
+        for (const Side each : {Side::Start, Side::Goal})
+            enclosures_[static_cast<std::size_t>(each)].begin(
+                *bodyCells_, frontier(each).rootPoses(), frontier(opposite(each)).rootPoses(), side, headings,
+                tuning.mostColumns, [this, each](double x, double y) { return wayAhead(each, x, y); });
+    }
+
+    double Search::wayAhead(Side side, double x, double y)
+    {
+        constexpr double FARTHER = 1e6;  // metres: than any way that the disc knows
+        Guides &own = guides(side);
+        const double way = own.roundObstacles ? own.obstacles.distance(x, y) : INFINITE;
+        if (way < INFINITE)
+            return way;
+        double straight = INFINITE;
+        for (const Pose &target : own.targets)
+            straight = std::min(straight, std::hypot(target.x - x, target.y - y));
+        return FARTHER + straight;
     }
 
     void Search::widenEnclosures()

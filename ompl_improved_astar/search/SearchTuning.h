@@ -90,9 +90,9 @@ namespace parking::search
            try are finer.
             @{ */
         std::uint64_t enclosureAfter{800};      ///< expansions with detours before the proof begins
-        std::uint64_t expansionsPerColumn{30};  ///< an expansion is worth a column of cells at each end, and one more
+        std::uint64_t expansionsPerColumn{10};  ///< an expansion is worth a column of cells at each end, and one more
                                                 ///< for each so many that came before it
-        std::size_t mostColumns{100000};        ///< at each end
+        std::size_t mostColumns{200000};        ///< at each end
         double enclosureCells[2]{0.2, 0.1};     ///< side of a cell, in inscribed radii
         int enclosureHeadings[2]{72, 120};      ///< cells round the circle
         /** @} */

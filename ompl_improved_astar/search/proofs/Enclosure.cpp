@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parking::search
 {
@@ -26,7 +27,7 @@ namespace parking::search
     }  // namespace
 
     void Enclosure::begin(const BodyCells &body, const std::vector<Pose> &roots, const std::vector<Pose> &targets,
-                          double side, int headings, std::size_t mostColumns)
+                          double side, int headings, std::size_t mostColumns, Ahead ahead)
     {
         body_ = &body;
         side_ = side;
@@ -35,7 +36,9 @@ namespace parking::search
         seen_ = 0;
         verdict_ = Verdict::Unknown;
         columns_.clear();
-        waiting_.clear();
+        waiting_ = {};
+        entered_ = 0;
+        ahead_ = std::move(ahead);
         if (!roots.empty())
         {
             const Pose middle = body.middle(roots.front());
@@ -67,6 +70,11 @@ namespace parking::search
                 std::clamp(static_cast<int>(turn), 0, headings_ - 1)};
     }
 
+    Eigen::Vector2d Enclosure::middleOf(const Place &place) const
+    {
+        return origin_ + side_ * Eigen::Vector2d(place.first + 0.5, place.second + 0.5);
+    }
+
     void Enclosure::enter(const Place &place, const Headings &headings)
     {
         if (!TiledGrid<Column>::contains(place.first, place.second))
@@ -78,8 +86,11 @@ namespace parking::search
         const bool waits = !isEmpty(column.entered);
         for (std::size_t i = 0; i < headings.size(); ++i)
             column.entered[i] |= headings[i] & ~column.reached[i] & ~column.blocked[i];
-        if (!waits && !isEmpty(column.entered))
-            waiting_.push_back(place);
+        if (waits || isEmpty(column.entered))
+            return;
+        const Eigen::Vector2d at = middleOf(place);
+        // Whole cells: what is about as near is seen in the order in which it came, and then less often again.
+        waiting_.emplace(ahead_ ? std::floor(ahead_(at.x(), at.y()) / side_) : 0.0, entered_++, place);
     }
 
     /** Turning on the spot: the headings that are reached from some of the open ones. */
@@ -105,8 +116,10 @@ namespace parking::search
     {
         Column &column = columns_.at(place.first, place.second);
         if (!column.asked)
-            column.blocked =
-                body_->blocked(origin_.x() + side_ * (place.first + 0.5), origin_.y() + side_ * (place.second + 0.5));
+        {
+            const Eigen::Vector2d at = middleOf(place);
+            column.blocked = body_->blocked(at.x(), at.y());
+        }
         column.asked = true;
         Headings open{}, fresh{};
         const std::size_t last = static_cast<std::size_t>(headings_ - 1) / BITS;
@@ -138,8 +151,8 @@ namespace parking::search
                 return verdict_ = Verdict::Closed;
             if (seen_ >= mostColumns_)
                 return verdict_ = Verdict::TooLarge;
-            const Place place = waiting_.front();
-            waiting_.pop_front();
+            const Place place = std::get<Place>(waiting_.top());
+            waiting_.pop();
             ++seen_;
             see(place);
         }

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <functional>
+#include <queue>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,9 @@ namespace parking::search
     class Enclosure
     {
     public:
+        /** \brief Metres that are thought to lie between the body's middle at (x, y) and the targets. */
+        using Ahead = std::function<double(double x, double y)>;
+
         /** \brief How far the proof is. */
         enum class Verdict
         {
@@ -43,9 +48,11 @@ namespace parking::search
             \param roots, targets poses of the rear axle, free
             \param side of a cell in metres
             \param headings cells round the circle, from 8 to 128
-            \param mostColumns places after which it is given up */
+            \param mostColumns places after which it is given up
+            \param ahead places where it is least are seen first, so that a flood which can reach a target does so soon;
+            without it all that are equally near to the roots are. What is proven does not depend on it */
         void begin(const BodyCells &body, const std::vector<Pose> &roots, const std::vector<Pose> &targets, double side,
-                   int headings, std::size_t mostColumns);
+                   int headings, std::size_t mostColumns, Ahead ahead = {});
 
         /** \brief Goes on by so many columns. */
         Verdict widen(std::size_t columns);
@@ -65,12 +72,13 @@ namespace parking::search
         /** \brief Bytes of the cells. */
         std::size_t bytes() const
         {
-            return columns_.bytes() + waiting_.size() * sizeof(Place);
+            return columns_.bytes() + waiting_.size() * sizeof(Waiting);
         }
 
     private:
         using Headings = BodyCells::Headings;
         using Place = std::pair<std::int32_t, std::int32_t>;
+        using Waiting = std::tuple<double, std::size_t, Place>;  // what lies ahead, when it came, which
 
         struct Column
         {
@@ -85,6 +93,7 @@ namespace parking::search
         };
 
         Cell cellOf(const Pose &pose) const;
+        Eigen::Vector2d middleOf(const Place &place) const;
         void enter(const Place &place, const Headings &headings);
         Headings spread(Headings from, const Headings &open) const;
         void see(const Place &place);
@@ -94,9 +103,11 @@ namespace parking::search
         double side_{1.0};
         int headings_{1};
         std::size_t mostColumns_{0}, seen_{0};
+        Ahead ahead_;
         Verdict verdict_{Verdict::TooLarge};
         std::vector<Cell> targets_;
         TiledGrid<Column> columns_;
-        std::deque<Place> waiting_;
+        std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting_;
+        std::size_t entered_{0};  // places that were put into it
     };
 }  // namespace parking::search

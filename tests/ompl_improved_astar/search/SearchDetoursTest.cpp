@@ -240,3 +240,70 @@ TEST(SearchDetours, explorationFindsWaysWithoutDiscs)
     }
     EXPECT_LT(3 * with, 2 * without);
 }
+
+namespace
+{
+    /** A world whose cells are closed where their middle is in an obstacle, at all headings. */
+    class CellWorld : public DiscCarWorld
+    {
+    public:
+        using DiscCarWorld::DiscCarWorld;
+
+        std::unique_ptr<BodyCells> bodyCells(double, int) override
+        {
+            ++begun;
+            return std::make_unique<Cells>(*this);
+        }
+
+        int begun{0};
+        std::uint64_t asked{0};
+
+    private:
+        class Cells final : public BodyCells
+        {
+        public:
+            explicit Cells(CellWorld &world) : world_(world)
+            {
+            }
+            Pose middle(const Pose &rearAxle) const override
+            {
+                return rearAxle;
+            }
+            Headings blocked(double x, double y) const override
+            {
+                ++world_.asked;
+                const std::uint64_t all = world_.distanceFrom(x, y) > 0.0 ? 0 : ~std::uint64_t{0};
+                return {all, all};
+            }
+
+        private:
+            CellWorld &world_;
+        };
+    };
+}  // namespace
+
+// A proof that will not succeed costs little: the cells are followed along the disc's way, here once round the end of a
+// wall. Straight towards the other end first it would be 430,000 cells, in all directions 590,000.
+TEST(SearchDetours, theProofFollowsTheDiscsWay)
+{
+    const Box inside{{0.0, 0.0}, {80.0, 40.0}};
+    // The goal is in a room whose door, beside the rear axle, is for a disc only.
+    CellWorld world(inside, {{{0.0, 19.0}, {74.0, 20.0}},
+                             {{2.0, 32.0}, {3.4, 33.0}},
+                             {{5.4, 32.0}, {9.0, 33.0}},
+                             {{2.0, 27.0}, {9.0, 28.0}},
+                             {{2.0, 28.0}, {3.0, 32.0}},
+                             {{8.0, 28.0}, {9.0, 32.0}}});
+    world.radius = 0.9;
+    SearchParameters parameters = carParameters();
+    parameters.inscribedRadius = world.radius;
+    parameters.bounds = inside;
+    Search search;
+    search.begin(world, parameters);
+    search.addStart({6.0, 10.0, 0.0});
+    search.addGoal({4.4, 30.0, 0.0});
+    search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
+    EXPECT_FALSE(search.hasSolution());
+    EXPECT_GT(world.begun, 1) << "coarse cells, then fine ones";
+    EXPECT_LT(world.asked, 20000u);
+}

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <tuple>
@@ -134,8 +135,15 @@ TEST(Enclosure, agreesWithAFloodOfSingleCells)
         {
             return cells.poseIn(std::get<0>(cell), std::get<1>(cell), std::get<2>(cell));
         };
+        // Whatever is seen first.
+        Enclosure::Ahead ahead;
+        if (random.chance(0.7))
+            ahead = [&random](double, double)
+            {
+                return random.between(0.0, 3.0);
+            };
         // Two roots must not see less than one; the second one is the first again.
-        enclosure.begin(cells, {pose(from), pose(from)}, {pose(to)}, SIDE, headings, 100000);
+        enclosure.begin(cells, {pose(from), pose(from)}, {pose(to)}, SIDE, headings, 100000, ahead);
         Enclosure::Verdict verdict = Enclosure::Verdict::Unknown;
         while (verdict == Enclosure::Verdict::Unknown)
             verdict = enclosure.widen(1 + random.index(5));
@@ -147,6 +155,33 @@ TEST(Enclosure, agreesWithAFloodOfSingleCells)
     }
     EXPECT_GT(closed, 100);
     EXPECT_GT(connected, 100);
+}
+
+TEST(Enclosure, reachesATargetSoonWhereTheWayIsKnown)
+{
+    /** Nothing is blocked. */
+    class OpenCells final : public BodyCells
+    {
+    public:
+        Pose middle(const Pose &rearAxle) const override
+        {
+            return rearAxle;
+        }
+        Headings blocked(double, double) const override
+        {
+            return {};
+        }
+    };
+    const OpenCells cells;
+    const Pose root{0.0, 0.0, 0.0}, target{60.0 * SIDE, 10.0 * SIDE, 0.0};
+    Enclosure enclosure;
+    enclosure.begin(cells, {root}, {target}, SIDE, 72, 100000);
+    EXPECT_EQ(enclosure.widen(100000), Enclosure::Verdict::Connected);
+    EXPECT_GT(enclosure.columns(), 4000u);
+    enclosure.begin(cells, {root}, {target}, SIDE, 72, 100000,
+                    [&](double x, double y) { return std::hypot(target.x - x, target.y - y); });
+    EXPECT_EQ(enclosure.widen(100000), Enclosure::Verdict::Connected);
+    EXPECT_LT(enclosure.columns(), 200u);
 }
 
 TEST(Enclosure, givesUpWhereThereIsNoEnd)
