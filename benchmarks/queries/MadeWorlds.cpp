@@ -6,6 +6,8 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/text/NearestName.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -246,9 +248,107 @@ namespace parking
             return world;
         }
 
+        Polygons angledLot(Random &random)
+        {
+            Polygons world;
+            const double width = random.between(50.0, 90.0), cross = random.between(6.0, 8.0);
+            const double lean = random.between(PI / 4.0, PI / 3.0), slot = random.between(2.5, 2.8) / std::sin(lean);
+            const double aisle = random.between(3.8, 5.0), taken = random.between(0.5, 0.9);
+            // A slot across its aisle, with the corners of the car that stands in it.
+            const double depth = SLOT_LENGTH * std::sin(lean) + 2.0 * std::cos(lean);
+            const std::size_t aisles = 2 + random.index(3);
+            double y = 0.0;
+            for (std::size_t i = 0; i < aisles; ++i, y += 2.0 * depth + aisle)
+                // Both rows lean towards where the one way of the aisle leads.
+                for (const double up : {0.0, 1.0})
+                {
+                    const double middle = y + (up > 0.0 ? 1.5 * depth + aisle : 0.5 * depth);
+                    const double heading = (i % 2 == 0) == (up > 0.0) ? lean : PI - lean;
+                    for (double x = cross + slot; x < width - cross - slot; x += slot)
+                        if (random.chance(taken))
+                            park(world, random, {x, middle, heading});
+                }
+            surround(world, 0.0, 0.0, width, y);
+            return world;
+        }
+
+        Polygons carelessLot(Random &random)
+        {
+            Polygons world;
+            const double width = random.between(45.0, 75.0), aisle = random.between(4.2, 5.5);
+            const double askew = random.between(0.03, 0.12), taken = random.between(0.6, 0.9);
+            double y = 0.5 * SLOT_LENGTH;
+            for (std::size_t rows = 3 + random.index(3); rows > 0; --rows, y += SLOT_LENGTH + aisle)
+                for (double x = 2.0; x < width - 2.0; x += random.between(2.4, 3.1))
+                    if (random.chance(taken))
+                        park(world, random,
+                             {x, y + random.between(-0.6, 0.6), 0.5 * PI + askew * random.between(-2.0, 2.0)});
+            const double height = y - aisle - 0.5 * SLOT_LENGTH;
+            for (std::size_t count = 3 + random.index(5); count > 0; --count)
+            {
+                const double x = random.between(5.0, width - 5.0);
+                park(world, random, {x, random.between(5.0, height - 5.0), random.between(-PI, PI)});
+            }
+            surround(world, 0.0, 0.0, width, height);
+            return world;
+        }
+
+        /** Lanes between walls, every place of which is joined to every other, by one way mostly. */
+        Polygons maze(Random &random)
+        {
+            const std::size_t size = 5 + random.index(4);
+            const double lane = random.between(6.0, 9.0), loops = random.between(0.05, 0.2), half = 0.5 * WALL;
+            const auto side = static_cast<int>(size);
+            std::vector<bool> seen(size * size, false);
+            // Whether a place is open towards its neighbour on the right, and above.
+            std::vector<std::array<bool, 2>> open(size * size, {false, false});
+            const auto at = [side](int x, int y)
+            {
+                return static_cast<std::size_t>(y * side + x);
+            };
+            std::vector<std::pair<int, int>> way{{0, 0}};
+            seen[0] = true;
+            while (!way.empty())
+            {
+                const auto [x, y] = way.back();
+                std::vector<std::pair<int, int>> next;
+                for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+                    if (x + dx >= 0 && y + dy >= 0 && x + dx < side && y + dy < side && !seen[at(x + dx, y + dy)])
+                        next.emplace_back(dx, dy);
+                if (next.empty())
+                {
+                    way.pop_back();
+                    continue;
+                }
+                const auto [dx, dy] = next[random.index(next.size())];
+                open[at(x + std::min(dx, 0), y + std::min(dy, 0))][dx == 0 ? 1 : 0] = true;
+                seen[at(x + dx, y + dy)] = true;
+                way.emplace_back(x + dx, y + dy);
+            }
+            Polygons world;
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x)
+                {
+                    const double right = (x + 1) * lane, high = (y + 1) * lane;
+                    if (x + 1 < side && !open[at(x, y)][0] && !random.chance(loops))
+                        world.push_back(wall(right - half, y * lane - half, right + half, high + half));
+                    if (y + 1 < side && !open[at(x, y)][1] && !random.chance(loops))
+                        world.push_back(wall(x * lane - half, high - half, right + half, high + half));
+                }
+            surround(world, 0.0, 0.0, side * lane, side * lane);
+            return world;
+        }
+
         const std::vector<std::pair<std::string, std::function<Polygons(Random &)>>> KINDS{
-            {"parked_rows", parkedRows}, {"streets", streets}, {"multi_storey", multiStorey},
-            {"clutter", clutter},        {"shapes", shapes},   {"large_lot", largeLot}};
+            {"parked_rows", parkedRows},
+            {"streets", streets},
+            {"multi_storey", multiStorey},
+            {"clutter", clutter},
+            {"shapes", shapes},
+            {"large_lot", largeLot},
+            {"angled_lot", angledLot},
+            {"careless_lot", carelessLot},
+            {"maze", maze}};
     }  // namespace
 
     std::vector<std::string> worldKinds()

@@ -56,8 +56,9 @@ parking_plan mine/streets_3_2.yaml --svg path.svg
 Equal seeds give equal files on every machine; a world does not depend on which others are drawn. `index.json` says what was
 drawn. The kinds: `parked_rows` (aisles between rows of parked cars), `streets` (blocks of houses, cars along the kerbs, yards),
 `multi_storey` (decks with a ring of lanes, and narrow ramps from each to the next), `clutter` (posts, boxes, debris), `shapes`
-(large polygons of any form), `large_lot` (hundreds of cars on up to 250 m). Each world has one of the known
-cars, or the one of `--vehicle`.
+(large polygons of any form), `large_lot` (hundreds of cars on up to 250 m), `angled_lot` (slots askew to one-way aisles that
+are too narrow to turn round in), `careless_lot` (cars across the lines, and some in the aisles), `maze` (lanes between walls,
+with dead ends). Each world has one of the known cars, or the one of `--vehicle`.
 
 Times are processor times (`clock = processor`), so that a machine that does other things as well does not count against the
 planners. The machine was shared when this was measured.

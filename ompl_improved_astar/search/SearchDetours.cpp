@@ -142,13 +142,12 @@ namespace parking::search
     {
         constexpr double FARTHER = 1e6;  // metres: than any way that the disc knows
         Guides &own = guides(side);
-        const double way = own.roundObstacles ? own.obstacles.distance(x, y) : INFINITE;
-        if (way < INFINITE)
-            return way;
         double straight = INFINITE;
         for (const Pose &target : own.targets)
             straight = std::min(straight, std::hypot(target.x - x, target.y - y));
-        return FARTHER + straight;
+        // Where the disc's search cannot tell it says 0.
+        const double way = own.roundObstacles ? std::max(straight, own.obstacles.distance(x, y)) : INFINITE;
+        return way < INFINITE ? way : FARTHER + straight;
     }
 
     void Search::widenEnclosures()
@@ -177,8 +176,9 @@ namespace parking::search
         }
         if (!isConnected && !isOver)
             return;
-        ++enclosureLevel_;
         bodyCells_.reset();
+        if (++enclosureLevel_ == std::size(tuning.enclosureCells))
+            enclosures_.clear();
     }
 
     void Search::pushToDetour(std::size_t detour, std::size_t level, NodeIndex index)

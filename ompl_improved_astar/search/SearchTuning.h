@@ -30,7 +30,7 @@ namespace parking::search
         /** \name Frontiers and levels (multi-resolution A*)
             @{ */
         double turnsRatio{8.0};            ///< each finer level gets so many times fewer turns than the one before
-        std::uint64_t otherSidePeriod{4};  ///< one expansion in so many goes to the less confined side
+        std::uint64_t otherSidePeriod{6};  ///< one expansion in so many goes to the less confined side
         double worthKeeping{0.3};          ///< of a level's step: a node cheaper by that is kept beside another
         double farCurve{12.0};             ///< curves between poses farther apart than this
         std::size_t mostFarCurves{2};  ///< are tried only so many, the cheapest: what blocks these blocks the others
@@ -56,7 +56,7 @@ namespace parking::search
         double mostLookahead{1.3};     ///< by a curve no longer than this times the straight line
         /** @} */
 
-        /** \name Spreading out, until there is a solution
+        /** \name Spreading out, until there is a solution; what waits then goes on waiting
 
             Chosen by hand on random queries with the tuning seeds that docs/planner.md names, and on the 62 problems.
             @{ */

@@ -23,7 +23,7 @@ namespace parking::search
         /** \brief Forgets all counts; memory is kept.
 
             \param side of a square, in metres
-            \param sectors of the circle */
+            \param sectors of the circle, at most 16 */
         void begin(double side, unsigned int sectors)
         {
             counts_.clear();
@@ -55,14 +55,14 @@ namespace parking::search
 
         std::uint64_t keyOf(const Pose &pose) const
         {
-            constexpr int BITS = 28;  // of a coordinate; what lies farther away than that shares counts
-            constexpr std::uint64_t MASK = (std::uint64_t{1} << BITS) - 1;
+            // In this order all parts of the key count for the slot of a small table, too.
+            constexpr std::uint64_t MASK = (std::uint64_t{1} << 28) - 1;  // what lies farther away shares counts
             const auto x = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(pose.x / side_))),
                        y = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(pose.y / side_)));
             const double turns = pose.yaw / (2.0 * PI);
             const auto sector = static_cast<std::uint64_t>(std::lround((turns - std::floor(turns)) * sectors_)) %
                                 sectors_;  // the last half of a sector belongs to the first one
-            return (sector << (2 * BITS)) | ((x & MASK) << BITS) | (y & MASK);
+            return ((x & MASK) << 32) | ((y & MASK) << 4) | sector;
         }
 
         CellTable counts_;

@@ -50,7 +50,8 @@ namespace parking::search
             \param headings cells round the circle, from 8 to 128
             \param mostColumns places after which it is given up
             \param ahead places where it is least are seen first, so that a flood which can reach a target does so soon;
-            without it all that are equally near to the roots are. What is proven does not depend on it */
+            without it all that are equally near to the roots are. What is proven does not depend on it, unless there
+           are too many columns */
         void begin(const BodyCells &body, const std::vector<Pose> &roots, const std::vector<Pose> &targets, double side,
                    int headings, std::size_t mostColumns, Ahead ahead = {});
 
@@ -69,10 +70,11 @@ namespace parking::search
             return seen_;
         }
 
-        /** \brief Bytes of the cells. */
+        /** \brief Bytes of the cells and of the queue, growing included. */
         std::size_t bytes() const
         {
-            return columns_.bytes() + waiting_.size() * sizeof(Waiting);
+            constexpr std::size_t GROWING = 3;  // an array that grows is there twice, once of double the size
+            return columns_.bytes() + GROWING * waiting_.size() * sizeof(Waiting);
         }
 
     private:

@@ -33,7 +33,7 @@ class QueriesTest(ProgramTest):
         index = json.loads(first['index.json'])
         self.assertEqual((index['format'], index['seed'], index['margin']), (1, 'general', 0))
         self.assertEqual({query['name'] + '.yaml' for query in index['queries']} | {'index.json'}, set(first))
-        self.assertEqual([query['goal_at_obstacle'] for query in index['queries']], [False, True] * 6)
+        self.assertEqual([query['goal_at_obstacle'] for query in index['queries']], [False, True] * 9)
 
     def test_a_world_does_not_depend_on_the_others(self):
         self.queries('all', '--worlds', 1, '--queries', 1)

@@ -73,7 +73,8 @@ namespace
             ratios.push_back(lengths.first / lengths.improved);
             std::cout << std::filesystem::path(file).stem().string() << ": " << lengths.first << " m, " << ratios.back()
                       << " times " << lengths.improved << " m\n";
-            EXPECT_LE(ratios.back(), 1.3) << file;
+            // 1.26 in the dead end, where spreading out finds a way with fewer changes of direction that is longer.
+            EXPECT_LE(ratios.back(), file.find("dead_end_aisle") != std::string::npos ? 1.3 : 1.2) << file;
         }
         std::sort(ratios.begin(), ratios.end());
         EXPECT_LE(ratios[ratios.size() / 2], 1.08);

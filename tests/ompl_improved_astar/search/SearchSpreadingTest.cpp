@@ -78,6 +78,44 @@ TEST(SearchSpreading, findsWhereToTurnRound)
     EXPECT_LT(10 * with, 8 * without);
 }
 
+// No longer than for so many expansions, and longer when their turn comes than when they were put into the queue.
+TEST(SearchSpreading, waitsHaveAnEndAndGrow)
+{
+    std::uint64_t growing = 0, fixed = 0;
+    double longest = 0.0;
+    const SearchTuning tuning;
+    const double most = tuning.waitPerExpansion * tuning.mostCrowded * TURNING_RADIUS;
+    for (const double bay : {10.0, 30.0, 50.0})
+    {
+        CarProblem problem = aisleWithABay(120.0, bay);
+        SearchParameters parameters = parametersIn(problem, true);
+        Search search;
+        const Search &searched = search;
+        EXPECT_TRUE(isSolved(search, problem, parameters));
+        growing += search.expanded();
+        for (const Side side : {Side::Start, Side::Goal})
+            for (const Node &node : searched.frontier(side).nodes())
+                longest = std::max<double>(longest, node.wait);
+        parameters.tuning.longerWait = 1e9;
+        EXPECT_TRUE(isSolved(search, problem, parameters));
+        fixed += search.expanded();
+    }
+    EXPECT_NEAR(longest, most, 1e-3);
+    EXPECT_NE(growing, fixed);
+}
+
+TEST(SearchSpreading, isNotForWhatIsNearestToATarget)
+{
+    CarProblem problem = aisleWithABay(80.0, 30.0);
+    Search search;
+    search.begin(problem.world, parametersIn(problem, true));
+    search.addStart(problem.starts.front());
+    search.setTarget(problem.goals.front());
+    search.run([&search] { return search.expanded() >= 500; });
+    EXPECT_GT(search.expanded(), 50u);
+    EXPECT_EQ(waiting(search), 0u);
+}
+
 TEST(SearchSpreading, neverMakesABoundWait)
 {
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
