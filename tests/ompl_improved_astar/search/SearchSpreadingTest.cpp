@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 using namespace parking;
 using namespace parking::search;
@@ -102,6 +103,28 @@ TEST(SearchSpreading, waitsHaveAnEndAndGrow)
     }
     EXPECT_NEAR(longest, most, 1e-3);
     EXPECT_NE(growing, fixed);
+}
+
+TEST(SearchSpreading, endsWithTheFirstSolution)
+{
+    CarProblem problem = aisleWithABay(120.0, 30.0);
+    Search search;
+    const Search &searched = search;
+    ASSERT_TRUE(isSolved(search, problem, parametersIn(problem, true)));
+    EXPECT_GT(waiting(search), 0u);
+    std::size_t before[2], later = 0;
+    for (const Side side : {Side::Start, Side::Goal})
+        before[static_cast<std::size_t>(side)] = searched.frontier(side).nodes().size();
+    const std::uint64_t most = search.expanded() + 300;
+    while (search.run([&] { return search.expanded() >= most; }) == SearchOutcome::Improved)
+        continue;
+    for (const Side side : {Side::Start, Side::Goal})
+    {
+        const std::vector<Node> &nodes = searched.frontier(side).nodes();
+        for (std::size_t i = before[static_cast<std::size_t>(side)]; i < nodes.size(); ++i, ++later)
+            EXPECT_EQ(nodes[i].wait, 0.0f);
+    }
+    EXPECT_GT(later, 50u);
 }
 
 TEST(SearchSpreading, isNotForWhatIsNearestToATarget)
