@@ -260,14 +260,10 @@ namespace parking
             double y = 0.0;
             for (std::size_t i = 0; i < aisles; ++i, y += 2.0 * depth + aisle)
                 // Both rows lean towards where the one way of the aisle leads.
-                for (const double up : {0.0, 1.0})
-                {
-                    const double middle = y + (up > 0.0 ? 1.5 * depth + aisle : 0.5 * depth);
-                    const double heading = (i % 2 == 0) == (up > 0.0) ? lean : PI - lean;
-                    for (double x = cross + slot; x < width - cross - slot; x += slot)
-                        if (random.chance(taken))
-                            park(world, random, {x, middle, heading});
-                }
+                for (const bool upper : {false, true})
+                    row(world, random, cross + 0.5 * slot, width - cross - 0.5 * slot,
+                        y + (upper ? 1.5 * depth + aisle : 0.5 * depth), slot, taken,
+                        (i % 2 == 0) == upper ? lean - 0.5 * PI : 0.5 * PI - lean);
             surround(world, 0.0, 0.0, width, y);
             return world;
         }

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/containers/CellTable.h"
+#include "ompl_improved_astar/search/containers/Crowds.h"
 #include "ompl_improved_astar/search/openlists/OpenList.h"
 #include "parking_geometry/curves/Path.h"
 
@@ -169,6 +170,7 @@ namespace parking::search
         double bestClosedCost{0.0};     ///< by which it is the best
         double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root looked at
         std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
+        Crowds crowds;            ///< of the nodes expanded until there was a solution; whoever counts begins them
         std::optional<Pose> aim;  ///< what its estimates count to, when it is not the other side's roots
 
     private:

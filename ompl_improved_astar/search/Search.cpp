@@ -40,10 +40,12 @@ namespace parking::search
             guides.roundObstacles = false;
         }
         heuristicName_ = heuristic;
+        const SearchTuning &tuning = parameters.tuning;
         for (Frontier &each : frontiers_)
-            each.begin(parameters.openList, traits_.levels, parameters.tuning.turnsRatio);
-        for (Crowds &each : crowds_)
-            each.begin(parameters.tuning.crowdedPlace * parameters.turningRadius, parameters.tuning.crowdSectors);
+        {
+            each.begin(parameters.openList, traits_.levels, tuning.turnsRatio);
+            each.crowds.begin(tuning.crowdedPlace * parameters.turningRadius, tuning.crowdSectors);
+        }
         boundIsKept_ = parameters.weights.far <= 1.0 && parameters.weights.near <= 1.0;
         leastDropped_ = {INFINITE, INFINITE};
         hasLateRoots_ = joinsAgain_ = false;
@@ -241,7 +243,7 @@ namespace parking::search
         }
         ++statistics_.expanded;
         if (spreadsOut())
-            crowds_[static_cast<std::size_t>(own.side())].add(own.node(entry.node).pose);
+            own.crowds.add(own.node(entry.node).pose);
         expansion_.successors.clear();
         expansion_.mobility = 0.0;
         model_->expand(own.side(), entry.node, own.node(entry.node), level, first, expansion_);
@@ -360,8 +362,6 @@ namespace parking::search
             bytes += detours_[i]->way.bytes();
         for (const Enclosure &enclosure : enclosures_)
             bytes += enclosure.bytes();
-        for (const Crowds &each : crowds_)
-            bytes += each.bytes();
         return bytes;
     }
 

@@ -5,7 +5,6 @@
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
-#include "ompl_improved_astar/search/containers/Crowds.h"
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/proofs/Enclosure.h"
 #include "parking_geometry/curves/Path.h"
@@ -341,8 +340,7 @@ namespace parking::search
         ModelTraits traits_;
         std::array<Frontier, 2> frontiers_;
         std::array<Guides, 2> guides_;
-        std::array<Crowds, 2> crowds_;  // of the nodes expanded until there was a solution, by side
-        Side confined_{Side::Goal};     // the side that is harder to get away from, or the only one that is searched
+        Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
         bool prepared_{false};
         bool hasLateRoots_{false};  // that were added after some expansions
         bool joinsAgain_{false};    // nodes are yet to be joined with such roots

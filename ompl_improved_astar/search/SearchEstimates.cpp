@@ -196,7 +196,7 @@ namespace parking::search
         if (!spreadsOut())
             return node.wait;
         const SearchTuning &tuning = parameters_.tuning;
-        const std::uint32_t expansions = crowds_[static_cast<std::size_t>(own.side())].at(node.pose);
+        const std::uint32_t expansions = own.crowds.at(node.pose);
         return static_cast<float>(tuning.waitPerExpansion * parameters_.turningRadius *
                                   std::min(expansions, tuning.mostCrowded));
     }

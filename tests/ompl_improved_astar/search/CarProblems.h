@@ -4,6 +4,8 @@
 #include "tests/ompl_improved_astar/AfterAsking.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -53,6 +55,34 @@ namespace parking_test
         parameters.turningRadius = TURNING_RADIUS;
         parameters.cost = {0.0, 1.0, 0.1, 0.0, 1.0, 1.0 / TURNING_RADIUS};
         return parameters;
+    }
+
+    /** \brief The same for the world of a problem. */
+    inline parking::search::SearchParameters parametersIn(const CarProblem &problem)
+    {
+        parking::search::SearchParameters parameters = carParameters();
+        parameters.inscribedRadius = problem.world.radius;
+        parameters.bounds = problem.world.inside;
+        return parameters;
+    }
+
+    /** \brief Searches up to the first solution, which must be right where there is one, or up to so many expansions.
+     */
+    inline bool isSolved(parking::search::Search &search, CarProblem &problem,
+                         const parking::search::SearchParameters &parameters, std::uint64_t mostExpansions)
+    {
+        problem.begin(search, parameters);
+        search.run([&search, mostExpansions] { return search.expanded() >= mostExpansions; });
+        if (!search.hasSolution())
+            return false;
+        EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,
+                          parameters.forwardOnly),
+                  "");
+        if (!parameters.cost.prefersClearance())  // else it depends on where motions are sampled
+        {
+            EXPECT_NEAR(search.bestCost(), pathCost(parameters.cost, search.bestPath(), problem.world), 1e-6);
+        }
+        return true;
     }
 
     inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10)

@@ -53,35 +53,11 @@ namespace
         return lanesToDrive(lanes, {6.0, lanes.middleOf(0), startYaw}, {70.0, lanes.middleOf(lanes.count - 1), 0.0});
     }
 
-    SearchParameters parametersIn(const CarProblem &problem)
-    {
-        SearchParameters parameters = carParameters();
-        parameters.inscribedRadius = problem.world.radius;
-        parameters.bounds = problem.world.inside;
-        return parameters;
-    }
-
-    bool isSolved(Search &search, CarProblem &problem, const SearchParameters &parameters)
-    {
-        problem.begin(search, parameters);
-        search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
-        if (!search.hasSolution())
-            return false;
-        EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,
-                          parameters.forwardOnly),
-                  "");
-        if (!parameters.cost.prefersClearance())  // else it depends on where motions are sampled
-        {
-            EXPECT_NEAR(search.bestCost(), pathCost(parameters.cost, search.bestPath(), problem.world), 1e-6);
-        }
-        return true;
-    }
-
     /** Expansions up to the first solution. */
     std::uint64_t expansions(CarProblem problem, const SearchParameters &parameters)
     {
         Search search;
-        EXPECT_TRUE(isSolved(search, problem, parameters));
+        EXPECT_TRUE(isSolved(search, problem, parameters, MOST_EXPANSIONS));
         return search.expanded();
     }
 
@@ -129,7 +105,7 @@ TEST(SearchLookahead, drivesInReverseWhereTheCarFacesAway)
     Search search;
     CarProblem reversing = problem;
     reversing.goals.front().yaw = PI;  // along the whole way
-    ASSERT_TRUE(isSolved(search, reversing, parameters));
+    ASSERT_TRUE(isSolved(search, reversing, parameters, MOST_EXPANSIONS));
     int backwards = 0;
     forEachAhead(search, [&](const Node &parent, const Node &node)
                  { backwards += parent.fixed && node.motion.length * parent.motion.length > 0.0; });
@@ -148,7 +124,7 @@ TEST(SearchLookahead, drivesForwardsOnlyWhereTheCarDoes)
         parameters.bidirectional = false;
         parameters.searchFromGoal = fromGoal;
         Search search;
-        ASSERT_TRUE(isSolved(search, problem, parameters));
+        ASSERT_TRUE(isSolved(search, problem, parameters, MOST_EXPANSIONS));
         const int ahead = forEachAhead(
             search, [&](const Node &, const Node &node) { EXPECT_EQ(node.motion.length > 0.0, !fromGoal); });
         EXPECT_GT(ahead, 10);
@@ -224,7 +200,7 @@ TEST(SearchLookahead, leavesPlacesNarrowerThanPreferredToTheSearch)
         SCOPED_TRACE(preferred);
         parameters.cost.preferredClearance = preferred;
         Search search;
-        isSolved(search, problem, parameters);
+        isSolved(search, problem, parameters, MOST_EXPANSIONS);
         EXPECT_EQ(forEachAhead(search, [](const Node &, const Node &) {}) > 0, preferred < 4.0);
     }
 }
@@ -240,7 +216,7 @@ TEST(SearchLookahead, comesAsNearAsIsPreferred)
     parameters.cost.clearanceWeight = 1.0;
     parameters.cost.clearanceRange = 5.0;
     Search search;
-    isSolved(search, problem, parameters);
+    isSolved(search, problem, parameters, MOST_EXPANSIONS);
     EXPECT_GT(forEachAhead(search, [](const Node &, const Node &) {}), 0);
 }
 
@@ -273,7 +249,7 @@ TEST(SearchLookahead, goesOnWhereItWasStopped)
     const SearchParameters parameters = parametersIn(lanes);
     Search whole, inPieces;
     CarProblem problem = lanes;
-    ASSERT_TRUE(isSolved(whole, problem, parameters));
+    ASSERT_TRUE(isSolved(whole, problem, parameters, MOST_EXPANSIONS));
     for (const int questions : {8, 9, 12})
     {
         problem.begin(inPieces, parameters);
@@ -295,10 +271,10 @@ TEST(SearchLookahead, isNotDoneWhereTheBoundCounts)
     SearchParameters parameters = parametersIn(problem);
     parameters.detours = false;
     Search usual;
-    EXPECT_TRUE(isSolved(usual, problem, parameters));
+    EXPECT_TRUE(isSolved(usual, problem, parameters, MOST_EXPANSIONS));
     EXPECT_GT(forEachAhead(usual, [](const Node &, const Node &) {}), 10);
     parameters.weights = {1.0, 1.0};
     Search bounded;
-    isSolved(bounded, problem, parameters);
+    isSolved(bounded, problem, parameters, MOST_EXPANSIONS);
     EXPECT_EQ(forEachAhead(bounded, [](const Node &, const Node &) {}), 0);
 }

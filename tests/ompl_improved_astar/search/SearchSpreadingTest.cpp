@@ -30,25 +30,9 @@ namespace
 
     SearchParameters parametersIn(const CarProblem &problem, bool spreadOut)
     {
-        SearchParameters parameters = carParameters();
-        parameters.inscribedRadius = problem.world.radius;
-        parameters.bounds = problem.world.inside;
+        SearchParameters parameters = parking_test::parametersIn(problem);
         parameters.spreadOut = spreadOut;
         return parameters;
-    }
-
-    /** Searches up to the first solution, which must be right where there is one. */
-    bool isSolved(Search &search, CarProblem &problem, const SearchParameters &parameters)
-    {
-        problem.begin(search, parameters);
-        search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
-        if (search.hasSolution())
-        {
-            EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,
-                              parameters.forwardOnly),
-                      "");
-        }
-        return search.hasSolution();
     }
 
     std::size_t waiting(const Search &search)
@@ -70,9 +54,9 @@ TEST(SearchSpreading, findsWhereToTurnRound)
             SCOPED_TRACE(testing::Message() << length << ' ' << bay);
             CarProblem problem = aisleWithABay(length, bay);
             Search search;
-            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, true)));
+            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, true), MOST_EXPANSIONS));
             with += search.expanded();
-            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, false)));
+            EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, false), MOST_EXPANSIONS));
             EXPECT_EQ(waiting(search), 0u);
             without += search.expanded();
         }
@@ -92,13 +76,13 @@ TEST(SearchSpreading, waitsHaveAnEndAndGrow)
         SearchParameters parameters = parametersIn(problem, true);
         Search search;
         const Search &searched = search;
-        EXPECT_TRUE(isSolved(search, problem, parameters));
+        EXPECT_TRUE(isSolved(search, problem, parameters, MOST_EXPANSIONS));
         growing += search.expanded();
         for (const Side side : {Side::Start, Side::Goal})
             for (const Node &node : searched.frontier(side).nodes())
                 longest = std::max<double>(longest, node.wait);
         parameters.tuning.longerWait = 1e9;
-        EXPECT_TRUE(isSolved(search, problem, parameters));
+        EXPECT_TRUE(isSolved(search, problem, parameters, MOST_EXPANSIONS));
         fixed += search.expanded();
     }
     EXPECT_NEAR(longest, most, 1e-3);
@@ -110,7 +94,7 @@ TEST(SearchSpreading, endsWithTheFirstSolution)
     CarProblem problem = aisleWithABay(120.0, 30.0);
     Search search;
     const Search &searched = search;
-    ASSERT_TRUE(isSolved(search, problem, parametersIn(problem, true)));
+    ASSERT_TRUE(isSolved(search, problem, parametersIn(problem, true), MOST_EXPANSIONS));
     EXPECT_GT(waiting(search), 0u);
     std::size_t before[2], later = 0;
     for (const Side side : {Side::Start, Side::Goal})
@@ -153,7 +137,7 @@ TEST(SearchSpreading, neverMakesABoundWait)
             parameters.weights.far = parameters.weights.near = 1.0;
             parameters.weights.tieBreak = 0.0;
             Search search;
-            isSolved(search, problem, parameters);
+            isSolved(search, problem, parameters, MOST_EXPANSIONS);
             EXPECT_EQ(waiting(search), 0u);
             expanded[spreadOut] = search.expanded();
             cost[spreadOut] = search.bestCost();
@@ -197,7 +181,7 @@ TEST(SearchSpreading, solvesWhatIsSolvedWithout)
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed, 14);
         Search with, without;
-        EXPECT_EQ(isSolved(with, problem, parametersIn(problem, true)),
-                  isSolved(without, problem, parametersIn(problem, false)));
+        EXPECT_EQ(isSolved(with, problem, parametersIn(problem, true), MOST_EXPANSIONS),
+                  isSolved(without, problem, parametersIn(problem, false), MOST_EXPANSIONS));
     }
 }
