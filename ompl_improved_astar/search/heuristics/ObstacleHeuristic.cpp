@@ -12,7 +12,7 @@ namespace parking::search
         constexpr double HALF_DIAGONAL = 0.70710679;
         constexpr double ON_THE_BOUNDS =
             0.01;                       // of half a cell: so near to the bounds, rounding decides what is inside
-        constexpr int REFINEMENTS = 2;  // how often a cell is halved to find out whether the disc fits into it
+        constexpr int REFINEMENTS = 3;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
         constexpr std::uint64_t MANY_CELLS = 128;     // settled for one question
         constexpr std::size_t LARGEST_POCKET = 1000;  // cells: what is larger is no pocket

@@ -63,7 +63,6 @@ namespace parking
         double tolerance_;
         search::MotionEnvironment *judge_;
         bool boundsMatter_;
-        bool hasWideCells_;
         CheckCounts counts_;
     };
 }  // namespace parking

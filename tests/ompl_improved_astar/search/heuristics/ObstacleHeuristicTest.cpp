@@ -64,13 +64,18 @@ namespace
         }
 
     private:
-        /** One of the sixteen parts of the cell may hold the disc's centre. */
+        /** One of the sixty-four parts of the cell may hold the disc's centre. */
         static bool mayHoldDisc(const DiscCarWorld &world, double x, double y, double resolution, double radius)
         {
-            for (const double dx : {-0.375, -0.125, 0.125, 0.375})
-                for (const double dy : {-0.375, -0.125, 0.125, 0.375})
-                    if (world.distanceFrom(x + dx * resolution, y + dy * resolution) +
-                            std::sqrt(0.5) * resolution / 4.0 >=
+            constexpr int PARTS = 8;
+            const auto middle = [](int part)
+            {
+                return (part + 0.5) / PARTS - 0.5;
+            };
+            for (int i = 0; i < PARTS; ++i)
+                for (int k = 0; k < PARTS; ++k)
+                    if (world.distanceFrom(x + middle(i) * resolution, y + middle(k) * resolution) +
+                            std::sqrt(0.5) * resolution / PARTS >=
                         radius)
                         return true;
             return false;

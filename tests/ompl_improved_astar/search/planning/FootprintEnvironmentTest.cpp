@@ -207,34 +207,72 @@ TEST(FootprintEnvironment, whatIsClearNeedNoLookToBeFreeAndTheRestIsFreeAsFarAsB
     EXPECT_GT(notAtAll, 1000);
 }
 
+namespace
+{
+    /** Whether a disc gets from one half of a map, as wide as long, to the other, through a gap in the wall between. */
+    class GapInMap
+    {
+    public:
+        GapInMap(std::size_t size, double resolution, std::size_t gap)
+          : map_(size, size, resolution),
+            checker_(ObstacleSet::fromGrid(wall(map_, gap)), Vehicle()),
+            side_(static_cast<double>(size) * resolution),
+            environment_(checker_, {{0.0, 0.0}, {side_, side_}}, TOLERANCE)
+        {
+        }
+
+        bool lets(double radius)
+        {
+            const StopFunction never;
+            const std::vector<Pose> roots{{0.8 * side_, 0.8 * side_, 0.0}}, targets{{0.2 * side_, 0.2 * side_, 0.0}};
+            const SearchParameters parameters;
+            ObstacleHeuristic way;
+            way.begin({environment_, parameters, Side::Start, roots, targets, never}, {radius},
+                      parameters.tuning.mostCells);
+            return !way.provesUnreachable(roots.front());
+        }
+
+    private:
+        static OccupancyGrid &wall(OccupancyGrid &map, std::size_t gap)
+        {
+            const std::size_t middle = map.height() / 2;
+            for (std::size_t row = 0; row < map.height(); ++row)
+                if (row < middle || row >= middle + gap)
+                    map.set(map.width() / 2, row, Cell::Occupied);
+            return map;
+        }
+
+        OccupancyGrid map_;
+        FootprintChecker checker_;
+        double side_;
+        FootprintEnvironment environment_;
+    };
+}  // namespace
+
 /** In maps whose cells are a metre wide: were the room told with the error of a cell, discs would go where they do not
     fit, and lead the search there. */
 TEST(FootprintEnvironment, discsPassGapsOfMapsWithWideCellsWhereTheyFitButForAFractionOfACell)
 {
     constexpr double GAP = 4.0;
-    OccupancyGrid map(80, 60, 1.0);
-    for (std::size_t row = 0; row < 60; ++row)
-        if (row < 30 || row >= 30 + static_cast<std::size_t>(GAP))
-            map.set(40, row, Cell::Occupied);
-    const Vehicle vehicle;
-    const FootprintChecker checker(ObstacleSet::fromGrid(map), vehicle);
-    FootprintEnvironment environment(checker, {{0.0, 0.0}, {80.0, 60.0}}, TOLERANCE);
-    const StopFunction never;
-    const std::vector<Pose> roots{{60.0, 50.0, 0.0}}, targets{{20.0, 10.0, 0.0}};
-    const SearchParameters parameters;
-    const HeuristicQuery query{environment, parameters, Side::Start, roots, targets, never};
-    const auto fits = [&](double radius)
-    {
-        ObstacleHeuristic way;
-        way.begin(query, {radius}, parameters.tuning.mostCells);
-        return !way.provesUnreachable(roots.front());
-    };
+    GapInMap map(80, 1.0, 4);
     for (const double radius : {0.5, 1.0, 1.5, 0.499 * GAP})
-        EXPECT_TRUE(fits(radius)) << radius;
+        EXPECT_TRUE(map.lets(radius)) << radius;
     // In the corner of a cell the bound is too high by half a diagonal less half a side: 0.21 m. To this comes what a
     // part of a cell of the disc's way is wide.
     for (const double radius : {0.6 * GAP, 0.75 * GAP, GAP})
-        EXPECT_FALSE(fits(radius)) << radius;
+        EXPECT_FALSE(map.lets(radius)) << radius;
+}
+
+/** The same for cells of 10 cm: a gap that is too narrow by a few centimetres must be told from one that is not, or a
+    place that is closed to every car is taken for open. */
+TEST(FootprintEnvironment, discsPassGapsOfMapsWithSmallCellsWhereTheyFitButForCentimetres)
+{
+    constexpr double GAP = 1.6;
+    GapInMap map(400, 0.1, 16);
+    for (const double radius : {0.4, 0.7, 0.499 * GAP})
+        EXPECT_TRUE(map.lets(radius)) << radius;
+    for (const double radius : {0.5 * GAP + 0.08, 0.5 * GAP + 0.129, GAP})
+        EXPECT_FALSE(map.lets(radius)) << radius;
 }
 
 /** Looking at the ends of the pieces first changes the cost of the answer, not the answer. */
