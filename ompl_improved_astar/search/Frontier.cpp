@@ -84,7 +84,8 @@ namespace parking::search
     {
         // An array that grows is there twice, once of double the size.
         constexpr std::size_t GROWING = 3;
-        std::size_t bytes = cells_.bytes() + crowds.bytes() + GROWING * nodes_.size() * sizeof(Node);
+        std::size_t bytes =
+            cells_.bytes() + crowds.bytes() + exploration.bytes() + GROWING * nodes_.size() * sizeof(Node);
         for (std::size_t queue = 0; queue < queueCount_; ++queue)
             for (const std::unique_ptr<OpenList> &list : queues_[queue].open)
                 bytes += GROWING * list->size() * sizeof(OpenList::Entry);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ompl_improved_astar/search/Exploration.h"
 #include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/containers/CellTable.h"
 #include "ompl_improved_astar/search/containers/Crowds.h"
@@ -170,6 +171,7 @@ namespace parking::search
         double bestClosedCost{0.0};     ///< by which it is the best
         double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root looked at
         std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
+        Exploration exploration;  ///< of what is open, while the search is stuck; whoever explores begins it
         Crowds crowds;            ///< of the nodes expanded until there was a solution; whoever counts begins them
         std::optional<Pose> aim;  ///< what its estimates count to, when it is not the other side's roots
 

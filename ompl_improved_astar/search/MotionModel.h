@@ -30,13 +30,6 @@ namespace parking::search
         double mobility{0.0};               ///< metres of the longest free motion, when it is known
     };
 
-    /** \brief Where a motion towards a pose ends, unless it gets there. */
-    enum class Until
-    {
-        Contact,   ///< where it is not free any more
-        Closeness  ///< where it does not surely keep the preferred clearance any more; as Contact if there is none
-    };
-
     /** \brief What is peculiar to a model, for the search to go by. */
     struct ModelTraits
     {
@@ -130,11 +123,12 @@ namespace parking::search
                           const Offer &offer) = 0;
 
         /** \brief Moves from a node by the shortest motion that leads, or would lead, to a pose without regard to
-            obstacles, and ends on the way where it is told to.
+            obstacles, and ends where that does not surely keep the preferred clearance any more, or if none is
+            preferred where it is not free.
 
             \param motions the way, one motion after the other, from the root outwards; overwritten. None when nothing
             of it can be driven, and for a model that cannot go where it is told to. */
-        virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/, Until /*until*/,
+        virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/,
                                  std::vector<Successor> &motions)
         {
             motions.clear();

@@ -173,7 +173,8 @@ namespace parking::search
                 return SearchOutcome::Exhausted;
             }
             turnEnds_ = true;
-            step(frontier(side));
+            if (!mayExplore() || !explore())
+                step(frontier(side));
         }
     }
 
@@ -184,27 +185,25 @@ namespace parking::search
             return;
         if (needsDetour())
             takeDetour();
-        if (mayExplore())
-            explore();
         widenEnclosures();
     }
 
-    void Search::close(Frontier &own, const OpenList::Entry &entry)
+    void Search::close(Frontier &own, NodeIndex index, double cost)
     {
-        const Node &node = own.node(entry.node);
-        noteProgress(own, entry.node);
+        const Node &node = own.node(index);
+        noteProgress(own, index);
         // Models that aim do so at the closed node of least cost (paper, "Bidirectional Search"), the others are joined
         // with the one that has come farthest.
         if (own.bestClosed != NO_NODE)
         {
             const Node &best = own.node(own.bestClosed);
             const bool isBetter =
-                traits_.aims && entry.f != own.bestClosedCost ? entry.f < own.bestClosedCost : node.h < best.h;
+                traits_.aims && cost != own.bestClosedCost ? cost < own.bestClosedCost : node.h < best.h;
             if (!isBetter)
                 return;
         }
-        own.bestClosed = entry.node;
-        own.bestClosedCost = entry.f;
+        own.bestClosed = index;
+        own.bestClosedCost = cost;
         if (traits_.aims)
         {
             frontier(opposite(own.side())).aim = node.pose;
@@ -217,41 +216,52 @@ namespace parking::search
         const std::size_t queue = queueInTurn_ = own.chooseQueue();
         const std::size_t level = own.chooseLevel(queue);
         const OpenList::Entry entry = own.pop(queue, level);
-        Node &node = own.node(entry.node);
-        const bool first = !node.isExpanded();
+        const Node &node = own.node(entry.node);
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
         if (node.next != level || !mayImprove(own.side(), node) ||
             (queue == 0 && entry.f > priority(own, node) + ROUNDING))
+        {
+            turnEnds_ = false;
             return;
+        }
         if (queue == 0 && hasToGoOnWaiting(own, node))
         {
             pushToFirst(own, level, entry.node);
+            turnEnds_ = false;
             return;
         }
         own.countTurn(queue, level);
-        node.next = static_cast<std::uint8_t>(level + 1);
         if (own.queues() > 1)
             own.noteEstimate(queue, entry.h, parameters_.tuning.extraTurns);
+        expand(own, level, entry.node, entry.f);
+    }
+
+    void Search::expand(Frontier &own, std::size_t level, NodeIndex index, double cost)
+    {
+        const bool first = !own.node(index).isExpanded();
+        own.node(index).next = static_cast<std::uint8_t>(level + 1);
         if (first)
-            close(own, entry);
+            close(own, index, cost);
         if (first && !traits_.joinsAfar)
         {
-            joinAround(own, entry.node);
+            joinAround(own, index);
             // For the bound the node has to be expanded all the same: it is in no list any more.
             if (improved_ && !boundIsKept_)
                 return;
         }
         ++statistics_.expanded;
         if (spreadsOut())
-            own.crowds.add(own.node(entry.node).pose);
+            own.crowds.add(own.node(index).pose);
+        if (detoursTaken() > 0)
+            own.exploration.noteExpansion(own.node(index).pose, index);
         expansion_.successors.clear();
         expansion_.mobility = 0.0;
-        model_->expand(own.side(), entry.node, own.node(entry.node), level, first, expansion_);
+        model_->expand(own.side(), index, own.node(index), level, first, expansion_);
         if (first)
-            own.node(entry.node).mobility = static_cast<float>(expansion_.mobility);
-        underWay_ = {own.side(), entry.node, level, first, 0};
+            own.node(index).mobility = static_cast<float>(expansion_.mobility);
+        underWay_ = {own.side(), index, level, first, 0};
         if (first)
-            beginLookahead(own, entry.node, queue);
+            beginLookahead(own, index, queueInTurn_);
         if (finishExpansion())
             finishLookahead();
     }

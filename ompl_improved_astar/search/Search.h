@@ -232,13 +232,6 @@ namespace parking::search
             double estimate(const Node &node, double noWay, bool looksOn);
         };
 
-        /** Exploration: the nodes from which random poses are made for, by side. */
-        struct Exploration
-        {
-            std::array<std::vector<NodeIndex>, 2> nodes;
-            unsigned int samples{0};
-        };
-
         Frontier &frontier(Side side)
         {
             return frontiers_[static_cast<std::size_t>(side)];
@@ -258,11 +251,12 @@ namespace parking::search
         bool isHopeless() const;
         bool chooseSide(Side &side);
         void step(Frontier &own);
+        void expand(Frontier &own, std::size_t level, NodeIndex index, double cost);
         bool finishExpansion();
         void endTurn();
         double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
-        void close(Frontier &own, const OpenList::Entry &entry);
+        void close(Frontier &own, NodeIndex index, double cost);
 
         // SearchJoins.cpp: joining the frontiers
         void joinAround(const Frontier &own, NodeIndex index);
@@ -322,13 +316,14 @@ namespace parking::search
         {
             return detoursOf(frontier(confined_));
         }
+        bool isOpen(const Node &node) const;
         bool needsDetour() const;
         bool mayExplore() const;
         void takeDetour();
         void endDetours();
         void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index);
-        void explore();
-        NodeIndex nearestExplored(Side side, const Pose &pose) const;
+        void beginExploration();
+        bool explore();
         void beginEnclosures();
         double wayAhead(Side side, double x, double y);
         void widenEnclosures();
@@ -370,8 +365,8 @@ namespace parking::search
         std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
-        Exploration exploration_;
-        std::vector<Successor> motions_;     // towards a pose, one after the other
+        Side explored_{Side::Start};                    // the frontier that was explored last
+        std::vector<Successor> motions_;                // towards a pose, one after the other
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;
         std::size_t enclosureLevel_{0};  // of their cells: each finer than the one before

@@ -12,19 +12,6 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr unsigned int MOST_SAMPLES_OF_A_MOVE = 8;  // that may lie inside of obstacles
-
-        /** The radical inverse: the elements of a Halton sequence. */
-        double halton(unsigned int index, unsigned int base)
-        {
-            double result = 0.0, digit = 1.0;
-            for (; index > 0; index /= base)
-            {
-                digit /= base;
-                result += digit * (index % base);
-            }
-            return result;
-        }
     }  // namespace
 
     void Search::noteProgress(const Frontier &own, NodeIndex index)
@@ -100,18 +87,24 @@ namespace parking::search
         detour.fromRoot = detour.way.distance(detour.root.x, detour.root.y);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
-            if (const Node &node = stuck.node(i);
-                node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded()))
-                pushToDetour(number, node.next, i);
+            if (isOpen(stuck.node(i)))
+                pushToDetour(number, stuck.node(i).next, i);
+        if (number == 0)
+            beginExploration();
+    }
+
+    bool Search::isOpen(const Node &node) const
+    {
+        return node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded());
     }
 
     void Search::endDetours()
     {
         for (Frontier &each : frontiers_)
             each.setQueues(1);
-        for (std::vector<NodeIndex> &nodes : exploration_.nodes)
-            nodes.clear();
-        exploration_.samples = 0;
+        for (Frontier &each : frontiers_)
+            each.exploration.clear();
+        explored_ = Side::Goal;
         enclosureLevel_ = 0;
         enclosures_.clear();
         bodyCells_.reset();
@@ -189,67 +182,44 @@ namespace parking::search
         own.push(1 + detour, level, priority(own, node, ahead), ahead, index);
     }
 
-    bool Search::mayExplore() const
+    void Search::beginExploration()
     {
         const SearchTuning &tuning = parameters_.tuning;
-        return detoursTaken() > 0 && !improved_ && statistics_.expanded >= detoursSince_ + tuning.stalledDetours &&
-               statistics_.expanded % tuning.explorationPeriod == 0 && parameters_.bounds.size().minCoeff() > 0.0;
-    }
-
-    NodeIndex Search::nearestExplored(Side side, const Pose &pose) const
-    {
-        NodeIndex best = NO_NODE;
-        double nearest = INFINITE;
-        const auto look = [&](const std::vector<NodeIndex> &nodes)
+        for (Frontier &each : frontiers_)
         {
-            for (const NodeIndex index : nodes)
-            {
-                const Pose &node = frontier(side).node(index).pose;
-                if (positionDistance(node, pose) >= nearest)
-                    continue;
-                const double length = lengthFrom(side, node, pose);
-                if (length < nearest)
-                {
-                    nearest = length;
-                    best = index;
-                }
-            }
-        };
-        look(frontier(side).roots());
-        look(exploration_.nodes[static_cast<std::size_t>(side)]);
-        return best;
-    }
-
-    void Search::explore()
-    {
-        // A step of RRT-Connect (J. J. Kuffner and S. M. LaValle, 2000) with a sequence that fills the space evenly and
-        // is the same each time.
-        const Box &bounds = parameters_.bounds;
-        Pose sample;
-        for (unsigned int tries = 0; tries < MOST_SAMPLES_OF_A_MOVE; ++tries)
-        {
-            const unsigned int i = ++exploration_.samples;
-            const Eigen::Vector2d at =
-                bounds.min + Eigen::Vector2d(halton(i, 3), halton(i, 5)).cwiseProduct(bounds.size());
-            sample = {at.x(), at.y(), wrapAngle(2.0 * PI * halton(i, 7))};
-            if (environment_->roomAt(sample.x, sample.y) >= parameters_.inscribedRadius)
-                break;
+            each.exploration.begin(tuning.exploredPlace * parameters_.turningRadius, tuning.exploredSectors);
+            for (NodeIndex i = 0; i < each.nodes().size(); ++i)
+                if (each.node(i).isExpanded())
+                    each.exploration.noteExpansion(each.node(i).pose, i);
+            for (NodeIndex i = 0; i < each.nodes().size(); ++i)
+                if (isOpen(each.node(i)))
+                    each.exploration.push(each.node(i).pose, each.node(i).next, i);
         }
-        const Side side = !parameters_.bidirectional      ? confined_
-                          : exploration_.samples % 2 == 0 ? Side::Start
-                                                          : Side::Goal;
-        Frontier &own = frontier(side);
-        NodeIndex index = nearestExplored(side, sample);
-        if (index == NO_NODE)
-            return;
-        model_->moveTowards(side, own.node(index).pose, sample, Until::Contact, motions_);
-        if (motions_.empty())
-            return;
-        index = keepMotions(own, index);
-        exploration_.nodes[static_cast<std::size_t>(side)].push_back(index);
-        joinAfar(own, index);
-        if (const NodeIndex partner = nearestExplored(opposite(side), own.node(index).pose);
-            partner != NO_NODE && !improved_)
-            joinPair(own, index, partner);
+    }
+
+    bool Search::mayExplore() const
+    {
+        return detoursTaken() > 0 && statistics_.expanded % parameters_.tuning.explorationPeriod == 0;
+    }
+
+    bool Search::explore()
+    {
+        // The sides take turns: what is new to one of them may be where the other has come.
+        for (const Side side : {opposite(explored_), explored_})
+        {
+            if (!parameters_.bidirectional && side != confined_)
+                continue;
+            Frontier &own = frontier(side);
+            for (Exploration::Candidate next; (next = own.exploration.pop()).node != NO_NODE;)
+            {
+                const Node &node = own.node(next.node);
+                if (node.next != next.level || !mayImprove(side, node))
+                    continue;
+                explored_ = side;
+                expand(own, next.level, next.node, priority(own, node));
+                return true;
+            }
+        }
+        return false;
     }
 }  // namespace parking::search

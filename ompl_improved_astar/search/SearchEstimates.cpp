@@ -221,6 +221,8 @@ namespace parking::search
         pushToFirst(own, level, index);
         for (std::size_t i = 0; i < detoursOf(own); ++i)
             pushToDetour(i, level, index);
+        if (detoursTaken() > 0)
+            own.exploration.push(own.node(index).pose, level, index);
     }
 
     void Search::rekey(Frontier &own)

@@ -48,7 +48,7 @@ namespace parking::search
         // Where the heading is too far off, the curve turns round: nothing to be done without looking.
         if (lengthFrom(own.side(), from, to) > tuning.mostLookahead * positionDistance(from, to))
             return NO_NODE;
-        model_->moveTowards(own.side(), from, to, Until::Closeness, motions_);
+        model_->moveTowards(own.side(), from, to, motions_);
         const bool hasCusp =
             std::any_of(motions_.begin(), motions_.end(),
                         [&](const Successor &each) { return (each.motion.length < 0.0) != inReverse; });

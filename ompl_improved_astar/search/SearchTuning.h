@@ -80,8 +80,9 @@ namespace parking::search
         std::uint64_t extraTurns{4};                       ///< of a queue that comes nearer than it ever was
         double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
-        std::uint64_t stalledDetours{50};       ///< expansions with detours before the world is explored, too,
-        std::uint64_t explorationPeriod{3};     ///< by one move in so many expansions
+        std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:
+        double exploredPlace{1.4};              ///< it is where there were the fewest, by squares with this side
+        unsigned int exploredSectors{16};       ///< and so many sectors of headings
         /** @} */
 
         /** \name Proving that there is no way, when the search stays stuck

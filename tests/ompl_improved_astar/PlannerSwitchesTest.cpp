@@ -379,7 +379,8 @@ namespace
 
     TEST_F(PlannerSwitches, SpreadingOutSavesExpansionsWhereTheCarMustTurnRoundOnTheWay)
     {
-        // A narrow aisle with a bay; the car faces the closed end at the start, and away from it at the goal.
+        // A narrow aisle with a bay; the car faces the closed end at the start, and away from it at the goal. (What is
+        // left of it with exploration, which finds the bay, too: see SearchExplorationTest.cpp.)
         std::uint64_t with = 0, without = 0;
         for (const double length : {80.0, 120.0, 160.0})
             for (const double bay : {10.0, 20.0, 30.0, 40.0, 50.0, 60.0})
@@ -396,7 +397,7 @@ namespace
                 with += expanded("1");
                 without += expanded("0");
             }
-        EXPECT_LT(10 * with, 8 * without);
+        EXPECT_LT(10 * with, 9 * without);
     }
 
     TEST_F(PlannerSwitches, WeightsTradeWorkForLength)
@@ -435,6 +436,7 @@ namespace
             problem.set("obstacle_heuristic", false);
             problem.set("approximate", false);
             problem.set("bidirectional", false);
+            problem.set("detours", false);  // else the proof that there is no way comes first
             problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
             EXPECT_EQ(problem.solve(20.0), nothingLeft());
             return problem.planner->statistics().expanded;

@@ -26,34 +26,39 @@ namespace parking::search
             \param sectors of the circle, at most 16 */
         void begin(double side, unsigned int sectors)
         {
-            counts_.clear();
+            clear();
             side_ = side;
             sectors_ = sectors;
+        }
+
+        /** \brief Forgets all counts. */
+        void clear()
+        {
+            counts_.clear();
         }
 
         /** \brief Counts an expansion at that pose. */
         void add(const Pose &pose)
         {
-            counts_.set(keyOf(pose), at(pose) + 1);
+            const std::uint64_t place = placeOf(pose);
+            counts_.set(place, at(place) + 1);
         }
 
         /** \brief Expansions that were counted in the place and the sector of that pose. */
         std::uint32_t at(const Pose &pose) const
         {
-            const std::uint32_t count = counts_.find(keyOf(pose));
+            return at(placeOf(pose));
+        }
+
+        /** \brief The same for what placeOf() gave. */
+        std::uint32_t at(std::uint64_t place) const
+        {
+            const std::uint32_t count = counts_.find(place);
             return count == CellTable::NONE ? 0 : count;
         }
 
-        /** \brief The most bytes that the counts take up to their table's next growth. */
-        std::size_t bytes() const
-        {
-            return counts_.bytes();
-        }
-
-    private:
-        static constexpr std::size_t FIRST_SLOTS = 1u << 8;  // most searches end before they fill the half of it
-
-        std::uint64_t keyOf(const Pose &pose) const
+        /** \brief A number for the place and the sector of that pose. */
+        std::uint64_t placeOf(const Pose &pose) const
         {
             // In this order all parts of the key count for the slot of a small table, too.
             constexpr std::uint64_t MASK = (std::uint64_t{1} << 28) - 1;  // what lies farther away shares counts
@@ -64,6 +69,15 @@ namespace parking::search
                                 sectors_;  // the last half of a sector belongs to the first one
             return ((x & MASK) << 32) | ((y & MASK) << 4) | sector;
         }
+
+        /** \brief The most bytes that the counts take up to their table's next growth. */
+        std::size_t bytes() const
+        {
+            return counts_.bytes();
+        }
+
+    private:
+        static constexpr std::size_t FIRST_SLOTS = 1u << 8;  // most searches end before they fill the half of it
 
         CellTable counts_;
         double side_{1.0};

@@ -172,10 +172,10 @@ namespace parking::search
         }
     }
 
-    double CarModel::lengthUntil(Until until, const Pose &from, const Arc &motion, double &clear)
+    double CarModel::clearLength(const Pose &from, const Arc &motion, double &clear)
     {
         clear = -1.0;
-        if (until == Until::Contact || !parameters_->cost.prefersClearance())
+        if (!parameters_->cost.prefersClearance())
             return environment_->freeLength(from, motion.curvature, motion.length);
         environment_->clearLengths(from, &motion, 1, parameters_->cost.preferredClearance, &clear);
         if (clear > 0.0)
@@ -190,8 +190,7 @@ namespace parking::search
         return preference.closeness(from, driven, *environment_, clear, 0.0) > 0.0 ? 0.0 : free;
     }
 
-    void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, Until until,
-                               std::vector<Successor> &motions)
+    void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions)
     {
         motions.clear();
         // On the goal's side the car will drive from there to here.
@@ -203,7 +202,7 @@ namespace parking::search
                                                   : Arc{curve.pieces[curve.count - 1 - k].curvature,
                                                         -curve.pieces[curve.count - 1 - k].length};
             double clear = 0.0;
-            const double length = lengthUntil(until, pose, piece, clear);
+            const double length = clearLength(pose, piece, clear);
             const bool isWhole = length >= std::abs(piece.length);
             if (length >= shortest_)
             {

@@ -33,8 +33,7 @@ namespace parking::search
                     Expansion &expansion) override;
         bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                   const Offer &offer) override;
-        void moveTowards(Side side, const Pose &from, const Pose &to, Until until,
-                         std::vector<Successor> &motions) override;
+        void moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions) override;
         double distance(const Pose &from, const Pose &to) const override
         {
             return curves_.distance(from, to);
@@ -61,8 +60,9 @@ namespace parking::search
 
         void collectMotions(Side side, const Node &node);
         void measureMotions(const Pose &from);
-        /** How far it is driven along a motion, and the part of it known to be clear, as in Successor. */
-        double lengthUntil(Until until, const Pose &from, const Arc &motion, double &clear);
+        /** How far a motion surely keeps the preferred clearance (is free, if none is preferred), and the part of it
+            known to be clear, as in Successor. */
+        double clearLength(const Pose &from, const Arc &motion, double &clear);
 
         MotionEnvironment *environment_{nullptr};
         const SearchParameters *parameters_{nullptr};

@@ -117,7 +117,8 @@ namespace
 TEST(OwnModel, isSearchedLikeTheProjectsOwn)
 {
     GridWorld world({"..........", "..######..", ".......#..", "..####.#..", ".....#.#..", ".....#...."});
-    const Pose start{0.5, 0.5, 0.0}, goal{6.5, 1.5, 0.5 * PI};
+    // Off the middles of cells, so that no step ends on a border, where rounding decides what is free.
+    const Pose start{0.53, 0.47, 0.0}, goal{6.53, 1.47, 0.5 * PI};
     const PlanResult result = plan(world, requestIn(world, start, goal));
     ASSERT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
     EXPECT_EQ(faultOf(posesOf(result.path), world, start, goal), "");

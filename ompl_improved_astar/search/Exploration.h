@@ -1,0 +1,79 @@
+#pragma once
+
+#include "ompl_improved_astar/search/Node.h"
+#include "ompl_improved_astar/search/containers/CellTable.h"
+#include "ompl_improved_astar/search/containers/Crowds.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief The open nodes of a frontier in an order that asks for new places only: first what lies where there
+        were the fewest expansions, and of these what was opened last.
+
+        A place is a square with a sector of headings, as in Crowds. Costs and estimates do not count, so that no guide
+        can draw it to the same places over and over (compare the cells of KPIECE: I. A. Sucan and L. E. Kavraki, "A
+        sampling-based tree planner for systems with complex dynamics", 2012, and N. Lipovetzky and H. Geffner,
+        "Best-first width search", 2017). */
+    class Exploration
+    {
+    public:
+        /** \brief An open node, and the level on which it waits. */
+        struct Candidate
+        {
+            NodeIndex node{NO_NODE};  ///< none: nothing is open
+            std::size_t level{0};     ///< of its resolution
+        };
+
+        /** \brief Forgets everything; memory is kept.
+
+            \param side of a place, in metres
+            \param sectors of headings, at most 16 */
+        void begin(double side, unsigned int sectors);
+
+        /** \brief Forgets all nodes. */
+        void clear();
+
+        /** \brief Notes that a node was expanded. */
+        void noteExpansion(const Pose &pose, NodeIndex node);
+
+        /** \brief The node that was expanded last in the place of that pose; NO_NODE when there is none. */
+        NodeIndex lastExpandedAt(const Pose &pose) const
+        {
+            return last_.find(counts_.placeOf(pose));
+        }
+
+        /** \brief Adds an open node. */
+        void push(const Pose &pose, std::size_t level, NodeIndex node);
+
+        /** \brief Takes out the node whose turn it is; NO_NODE when none waits. It may have been expanded since. */
+        Candidate pop();
+
+        /** \brief The most bytes that all of it takes, growing included. */
+        std::size_t bytes() const;
+
+    private:
+        struct Waiting
+        {
+            std::uint32_t expansions;  // in its place, when it was put here
+            std::uint32_t number;      // the later the smaller
+            std::uint64_t place;
+            Candidate candidate;
+
+            bool operator>(const Waiting &other) const
+            {
+                return std::tie(expansions, number) > std::tie(other.expansions, other.number);
+            }
+        };
+
+        Crowds counts_;
+        CellTable last_;
+        std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting_;
+        std::uint32_t number_{0};
+    };
+}  // namespace parking::search
