@@ -128,6 +128,12 @@ namespace parking::search
             larger cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
+        /** \brief The same, as close to the distance as can be told, for those who ask seldom. */
+        virtual double closeRoomAt(double x, double y)
+        {
+            return roomAt(x, y);
+        }
+
         /** \brief isFree() for a pose of a motion that is tried: like freeLength(), it may say no because the time is
             up. */
         virtual bool isPassable(const Pose &pose)

@@ -93,19 +93,22 @@ namespace parking::search
     {
         const Eigen::Vector2d at = centreOf({column, row});
         const double half = 0.5 * resolution_;
-        const bool fits = mayHoldDisc(disc_.radius, at.x(), at.y(), half, REFINEMENTS);
+        const bool fits = mayHoldDisc(disc_.radius, &MotionEnvironment::closeRoomAt, at.x(), at.y(), half, REFINEMENTS);
         state.passage = fits ? Occupancy::Free : Occupancy::Blocked;
-        state.dear = disc_.wide > disc_.radius && !mayHoldDisc(disc_.wide, at.x(), at.y(), half, REFINEMENTS);
+        // What is dear is no matter of a few centimetres.
+        state.dear = disc_.wide > disc_.radius &&
+                     !mayHoldDisc(disc_.wide, &MotionEnvironment::roomAt, at.x(), at.y(), half, REFINEMENTS);
     }
 
-    bool ObstacleHeuristic::mayHoldDisc(double radius, double x, double y, double halfSide, int refinements)
+    bool ObstacleHeuristic::mayHoldDisc(double radius, Room roomAt, double x, double y, double halfSide,
+                                        int refinements)
     {
         // Of a cell on the bounds only a part counts, and none of its points is farther from the one that is asked for
         // than half a diagonal.
         const Eigen::Vector2d middle{x, y}, asked = bounds_.nearest(middle);
         if ((asked - middle).cwiseAbs().maxCoeff() > halfSide * (1.0 + ON_THE_BOUNDS))
             return false;
-        const double room = environment_->roomAt(asked.x(), asked.y());
+        const double room = (environment_->*roomAt)(asked.x(), asked.y());
         if (room >= radius)
             return true;
         if (room + 2.0 * HALF_DIAGONAL * halfSide < radius)
@@ -116,7 +119,7 @@ namespace parking::search
         const double quarter = 0.5 * halfSide;
         for (const double dx : {-quarter, quarter})
             for (const double dy : {-quarter, quarter})
-                if (mayHoldDisc(radius, x + dx, y + dy, quarter, refinements - 1))
+                if (mayHoldDisc(radius, roomAt, x + dx, y + dy, quarter, refinements - 1))
                     return true;
         return false;
     }

@@ -175,7 +175,8 @@ namespace parking::search
         }
 
         void findPassage(CellState &state, std::int32_t column, std::int32_t row);
-        bool mayHoldDisc(double radius, double x, double y, double halfSide, int refinements);
+        using Room = double (MotionEnvironment::*)(double x, double y);  // roomAt() or closeRoomAt()
+        bool mayHoldDisc(double radius, Room room, double x, double y, double halfSide, int refinements);
         std::uint32_t estimate(std::int32_t column, std::int32_t row) const;
         Ground groundOf(CellState &state, std::int32_t column, std::int32_t row);
         void findDearRoundAim();

@@ -14,6 +14,8 @@ namespace parking
         constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
         constexpr double RADIANS_AT_A_TIME = 1.0;
         constexpr double A_HAIR = 1e-9;  // metres
+        // Cells of the field, in inscribed radii: from this on their error decides where a disc fits.
+        constexpr double WIDE_CELL = 0.5;
 
         class CellsOfChecker final : public search::BodyCells
         {
@@ -53,6 +55,7 @@ namespace parking
         boundsMatter_ = frame.yaw != 0.0 || frame.x + world.min.x() < bounds.min.x() ||
                         frame.y + world.min.y() < bounds.min.y() || frame.x + world.max.x() > bounds.max.x() ||
                         frame.y + world.max.y() > bounds.max.y();
+        hasWideCells_ = checker.field().resolution() >= WIDE_CELL * checker.vehicle().inscribedRadius(checker.margin());
     }
 
     bool FootprintEnvironment::isFree(const Pose &pose)
@@ -182,6 +185,13 @@ namespace parking
     }
 
     double FootprintEnvironment::roomAt(double x, double y)
+    {
+        const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
+        const DistanceField &field = checker_.field();
+        return hasWideCells_ ? field.closeUpperBound(local.x, local.y) : field.upperBound(local.x, local.y);
+    }
+
+    double FootprintEnvironment::closeRoomAt(double x, double y)
     {
         const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
         return checker_.field().closeUpperBound(local.x, local.y);

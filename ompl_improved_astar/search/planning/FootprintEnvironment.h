@@ -38,6 +38,7 @@ namespace parking
             return bounds_;
         }
         double roomAt(double x, double y) override;
+        double closeRoomAt(double x, double y) override;
         /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
         bool isMotionFree(const Pose &from, const Pose &to) override;
         bool acceptPath(const Path &path) override;
@@ -63,6 +64,7 @@ namespace parking
         double tolerance_;
         search::MotionEnvironment *judge_;
         bool boundsMatter_;
+        bool hasWideCells_;
         CheckCounts counts_;
     };
 }  // namespace parking

@@ -78,6 +78,11 @@ namespace parking::search
             return world_.roomAt(x, y) - clearance_;
         }
 
+        double closeRoomAt(double x, double y) override
+        {
+            return world_.closeRoomAt(x, y) - clearance_;
+        }
+
         bool wasInterrupted() const override
         {
             return world_.wasInterrupted();
