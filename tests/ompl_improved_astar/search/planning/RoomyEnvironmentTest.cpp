@@ -61,6 +61,7 @@ TEST(RoomyEnvironment, IsFreeWhereTheClearanceIsKept)
             ASSERT_EQ(roomy.isPassable(pose), keeps);
             ++(keeps ? free : near);
             ASSERT_NEAR(roomy.roomAt(pose.x, pose.y), world.roomAt(pose.x, pose.y) - CLEARANCE, 1e-12);
+            ASSERT_NEAR(roomy.closeRoomAt(pose.x, pose.y), world.closeRoomAt(pose.x, pose.y) - CLEARANCE, 1e-12);
             ASSERT_EQ(roomy.clearance(pose), world.clearance(pose));
             const double curvature = random.between(-0.3, 0.3), length = random.between(-6.0, 6.0);
             const double driven = roomy.freeLength(pose, curvature, length);
