@@ -30,7 +30,7 @@ namespace parking::search
             std::size_t level{0};     ///< of its resolution
         };
 
-        /** \brief Forgets everything; memory is kept.
+        /** \brief Forgets everything.
 
             \param side of a place, in metres
             \param sectors of headings, at most 16 */
@@ -42,7 +42,7 @@ namespace parking::search
         /** \brief Notes that a node was expanded. */
         void noteExpansion(const Pose &pose, NodeIndex node);
 
-        /** \brief The node that was expanded last in the place of that pose; NO_NODE when there is none. */
+        /** \brief The node that was noted last in the place of that pose; NO_NODE when there is none. */
         NodeIndex lastExpandedAt(const Pose &pose) const
         {
             return last_.find(counts_.placeOf(pose));
@@ -71,8 +71,10 @@ namespace parking::search
             }
         };
 
+        static constexpr std::size_t FIRST_SLOTS = 1u << 8;  // most searches are never stuck
+
         Crowds counts_;
-        CellTable last_;
+        CellTable last_{FIRST_SLOTS};
         std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting_;
         std::uint32_t number_{0};
     };

@@ -172,7 +172,6 @@ namespace parking::search
                                                          : Exhaustion::SearchedOut;
                 return SearchOutcome::Exhausted;
             }
-            turnEnds_ = true;
             if (!mayExplore() || !explore())
                 step(frontier(side));
         }
@@ -220,14 +219,10 @@ namespace parking::search
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
         if (node.next != level || !mayImprove(own.side(), node) ||
             (queue == 0 && entry.f > priority(own, node) + ROUNDING))
-        {
-            turnEnds_ = false;
             return;
-        }
         if (queue == 0 && hasToGoOnWaiting(own, node))
         {
             pushToFirst(own, level, entry.node);
-            turnEnds_ = false;
             return;
         }
         own.countTurn(queue, level);
@@ -238,6 +233,7 @@ namespace parking::search
 
     void Search::expand(Frontier &own, std::size_t level, NodeIndex index, double cost)
     {
+        turnEnds_ = true;
         const bool first = !own.node(index).isExpanded();
         own.node(index).next = static_cast<std::uint8_t>(level + 1);
         if (first)

@@ -365,7 +365,7 @@ namespace parking::search
         std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
-        Side explored_{Side::Start};                    // the frontier that was explored last
+        Side explored_{Side::Goal};                     // the frontier that was explored last
         std::vector<Successor> motions_;                // towards a pose, one after the other
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
         std::unique_ptr<BodyCells> bodyCells_;

@@ -101,9 +101,10 @@ namespace parking::search
     void Search::endDetours()
     {
         for (Frontier &each : frontiers_)
+        {
             each.setQueues(1);
-        for (Frontier &each : frontiers_)
             each.exploration.clear();
+        }
         explored_ = Side::Goal;
         enclosureLevel_ = 0;
         enclosures_.clear();
@@ -189,11 +190,13 @@ namespace parking::search
         {
             each.exploration.begin(tuning.exploredPlace * parameters_.turningRadius, tuning.exploredSectors);
             for (NodeIndex i = 0; i < each.nodes().size(); ++i)
-                if (each.node(i).isExpanded())
-                    each.exploration.noteExpansion(each.node(i).pose, i);
-            for (NodeIndex i = 0; i < each.nodes().size(); ++i)
-                if (isOpen(each.node(i)))
-                    each.exploration.push(each.node(i).pose, each.node(i).next, i);
+            {
+                const Node &node = each.node(i);
+                if (node.isExpanded())
+                    each.exploration.noteExpansion(node.pose, i);
+                if (isOpen(node))
+                    each.exploration.push(node.pose, node.next, i);
+            }
         }
     }
 

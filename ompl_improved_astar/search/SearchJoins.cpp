@@ -41,12 +41,15 @@ namespace parking::search
         for (std::size_t i = 0; i < detoursOf(other); ++i)
             if (const NodeIndex best = detours_[i]->best; best != NO_NODE && best != other.bestClosed)
                 joinPair(own, index, best);
-        if (detoursTaken() == 0)
-            return;
         // Where both have come to the same place they are near to each other, whatever is thought of the way on.
-        const NodeIndex neighbour = other.exploration.lastExpandedAt(own.node(index).pose);
-        if (neighbour != NO_NODE && neighbour != other.bestClosed && other.node(neighbour).parent != NO_NODE)
-            joinPair(own, index, neighbour);
+        const NodeIndex neighbour =
+            detoursTaken() > 0 ? other.exploration.lastExpandedAt(own.node(index).pose) : NO_NODE;
+        if (neighbour == NO_NODE || neighbour == other.bestClosed || other.node(neighbour).parent == NO_NODE)
+            return;
+        for (std::size_t i = 0; i < detoursOf(other); ++i)
+            if (detours_[i]->best == neighbour)
+                return;
+        joinPair(own, index, neighbour);
     }
 
     bool Search::join(NodeIndex fromStart, NodeIndex fromGoal, Side sweptFrom)

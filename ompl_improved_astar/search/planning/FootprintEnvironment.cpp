@@ -186,9 +186,10 @@ namespace parking
 
     double FootprintEnvironment::roomAt(double x, double y)
     {
+        if (hasWideCells_)
+            return closeRoomAt(x, y);
         const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
-        const DistanceField &field = checker_.field();
-        return hasWideCells_ ? field.closeUpperBound(local.x, local.y) : field.upperBound(local.x, local.y);
+        return checker_.field().upperBound(local.x, local.y);
     }
 
     double FootprintEnvironment::closeRoomAt(double x, double y)

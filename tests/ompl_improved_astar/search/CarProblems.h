@@ -85,13 +85,19 @@ namespace parking_test
         return true;
     }
 
-    inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10)
+    /** \brief From somewhere in that world to somewhere else. */
+    inline CarProblem randomProblemIn(const DiscCarWorld &world, std::uint64_t seed)
     {
-        CarProblem problem{randomField(seed, boxes), {}, {}};
-        Random random(seed + 1000);
+        CarProblem problem{world, {}, {}};
+        Random random(seed);
         problem.starts.push_back(problem.world.freePose(random));
         problem.goals.push_back(problem.world.freePose(random));
         return problem;
+    }
+
+    inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10)
+    {
+        return randomProblemIn(randomField(seed, boxes), seed + 1000);
     }
 
     /** \brief 15 cm on each side, and an aisle not much longer than the car. */

@@ -61,7 +61,7 @@ TEST(Exploration, takesTheNewestOfTheLeastExpandedPlaces)
 {
     Random random(3);
     Exploration exploration;
-    for (int round = 0; round < 3; ++round)  // memory is kept, what is in it is not
+    for (int round = 0; round < 3; ++round)
     {
         exploration.begin(SIDE, SECTORS);
         EXPECT_EQ(exploration.pop().node, NO_NODE);
