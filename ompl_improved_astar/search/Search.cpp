@@ -219,7 +219,10 @@ namespace parking::search
         // Stale: the node has become cheaper since, or was expanded at this level already, or cannot help any more.
         if (node.next != level || !mayImprove(own.side(), node) ||
             (queue == 0 && entry.f > priority(own, node) + ROUNDING))
+        {
+            noteExhaustion(own);
             return;
+        }
         if (queue == 0 && hasToGoOnWaiting(own, node))
         {
             pushToFirst(own, level, entry.node);
@@ -287,9 +290,14 @@ namespace parking::search
         }
         if (parameters_.adaptiveResolution && underWay_.level + 1 < traits_.levels)
             push(own, underWay_.level + 1, index);
+        noteExhaustion(own);
+        return true;
+    }
+
+    void Search::noteExhaustion(Frontier &own) const
+    {
         if (own.isExhausted())
             own.expansionsWhenExhausted = statistics_.expanded;
-        return true;
     }
 
     double Search::costThrough(const Frontier &own, const Node &parent, const Successor &successor) const

@@ -253,6 +253,7 @@ namespace parking::search
         void step(Frontier &own);
         void expand(Frontier &own, std::size_t level, NodeIndex index, double cost);
         bool finishExpansion();
+        void noteExhaustion(Frontier &own) const;
         void endTurn();
         double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);

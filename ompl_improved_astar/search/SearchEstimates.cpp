@@ -112,6 +112,7 @@ namespace parking::search
         for (NodeIndex i = 0; i < met; ++i)
             if (Node &node = own.node(i); node.isExpanded())
             {
+                node.fixed = true;  // its motions hang on it already
                 node.next = node.level;
                 push(own, node.level, i);
                 own.expansionsWhenExhausted = 0;

@@ -129,6 +129,26 @@ namespace
     };
 }  // namespace
 
+namespace
+{
+    /** Counts the nodes that are where their motions lead to from their parents, as all should be. */
+    std::uint64_t hangingOnTheirParents(const Search &search)
+    {
+        std::uint64_t seen = 0;
+        for (const Side side : {Side::Start, Side::Goal})
+            for (const Node &node : search.frontier(side).nodes())
+            {
+                if (node.parent == NO_NODE)
+                    continue;
+                const Node &parent = search.frontier(side).node(node.parent);
+                EXPECT_TRUE(
+                    isSamePose(node.pose, advance(parent.pose, node.motion.curvature, node.motion.length), 1e-9));
+                ++seen;
+            }
+        return seen;
+    }
+}  // namespace
+
 // A node whose expansion was interrupted has children already: it must not give its place to a cheaper one.
 TEST(SearchLateRoots, interruptedNodesKeepTheirChildren)
 {
@@ -144,18 +164,63 @@ TEST(SearchLateRoots, interruptedNodesKeepTheirChildren)
         search.addGoal(problem.goals.front());
         while (search.run([&] { return world.wasInterrupted(); }) == SearchOutcome::Stopped && search.expanded() < 400)
             world.goOn();
-        for (const Side side : {Side::Start, Side::Goal})
-            for (const Node &node : std::as_const(search).frontier(side).nodes())
-            {
-                if (node.parent == NO_NODE)
-                    continue;
-                const Node &parent = std::as_const(search).frontier(side).node(node.parent);
-                ASSERT_TRUE(
-                    isSamePose(node.pose, advance(parent.pose, node.motion.curvature, node.motion.length), 1e-9));
-                ++seen;
-            }
+        seen += hangingOnTheirParents(search);
+        ASSERT_FALSE(HasFailure());
     }
     EXPECT_GT(seen, 5000u);
+}
+
+// So have nodes that are expanded again since there is another root.
+TEST(SearchLateRoots, nodesExpandedAgainKeepTheirChildren)
+{
+    std::uint64_t seen = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 14);
+        Random random(seed);
+        Search search;
+        problem.begin(search, carParameters());
+        for (const std::uint64_t expanded : {100u, 250u, 400u})
+        {
+            while (search.run([&] { return search.expanded() >= expanded; }) == SearchOutcome::Improved)
+                continue;
+            const Pose late = problem.world.freePose(random);
+            seed % 2 == 0 ? search.addGoal(late) : search.addStart(late);
+        }
+        seen += hangingOnTheirParents(search);
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GT(seen, 5000u);
+}
+
+// Exploration expands what the first queue still has entries of, so that these may be the last ones in it.
+TEST(SearchLateRoots, theEndOfAFrontierIsNoticedWhateverIsLeftInItsQueue)
+{
+    int ended = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 24);
+        problem.world.tellsRoom = false;
+        Search search;
+        const Search &searched = search;
+        SearchParameters parameters = carParameters();
+        parameters.tuning.explorationPeriod = 2;
+        parameters.adaptiveResolution = false;
+        problem.begin(search, parameters);
+        search.run([&] { return search.expanded() >= 6000; });
+        if (search.hasSolution())
+            continue;
+        for (const Side side : {Side::Start, Side::Goal})
+            if (const Frontier &each = searched.frontier(side); each.isExhausted())
+            {
+                ++ended;
+                EXPECT_GT(each.expansionsWhenExhausted, 0u);
+                EXPECT_LE(each.expansionsWhenExhausted, search.expanded());
+            }
+    }
+    EXPECT_GT(ended, 3);
 }
 
 TEST(SearchLateRoots, changedHeuristicsDoNotLoseOpenNodes)
