@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/Random.h"
 #include "ompl_improved_astar/search/Exploration.h"
+#include "ompl_improved_astar/search/Frontier.h"
 
 #include <gtest/gtest.h>
 
@@ -112,4 +113,19 @@ TEST(Exploration, forgetsEverythingAndSaysHowMuchItHolds)
     EXPECT_EQ(exploration.bytes(), empty);
     EXPECT_EQ(exploration.pop().node, NO_NODE);
     EXPECT_EQ(exploration.lastExpandedAt(pose), NO_NODE);
+}
+
+TEST(Frontier, countsThePlacesThatItKeepsAsMemory)
+{
+    Frontier frontier(Side::Start);
+    frontier.begin("binary_heap", 1, 8.0);
+    frontier.crowds.begin(SIDE, SECTORS);
+    frontier.exploration.begin(SIDE, SECTORS);
+    const std::size_t nothing = frontier.bytes();
+    frontier.crowds.add({1.0, 2.0, 0.5});
+    const std::size_t crowded = frontier.bytes();
+    EXPECT_EQ(crowded, nothing + frontier.crowds.bytes());
+    frontier.exploration.push({1.0, 2.0, 0.5}, 0, 0);
+    EXPECT_EQ(frontier.bytes(), crowded + frontier.exploration.bytes());
+    EXPECT_GT(frontier.exploration.bytes(), 0u);
 }
