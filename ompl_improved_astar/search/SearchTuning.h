@@ -100,14 +100,16 @@ namespace parking::search
 
         /** \name Thinking again after the first solution
             @{ */
-        double afterthought{0.3};            ///< share of the expansions so far that is spent on it,
-        std::uint64_t leastAfterthought{8};  ///< and at least so many,
-        double afterthoughtPerExcess{35.0};  ///< and so many more for a path twice as long as it looked,
-        double mostExcess{1.0};              ///< in proportion up to that excess
-        double weightsOfAfterthought{0.7};   ///< factor on the weights: what is cheap counts more than what is near
-        double hardlyLonger{1.03};           ///< than the bare curve: nothing to look for
-        double hardlyDearer{1.1};            ///< nor with a path whose cost is hardly more than its length was expected
-        std::size_t fewCusps{1};             ///< to be, with no more cusps than so many
+        double afterthought{0.3};              ///< share of the expansions so far that is spent on it,
+        std::uint64_t leastAfterthought{8};    ///< and at least so many,
+        double afterthoughtPerExcess{35.0};    ///< and so many more for a path twice as long as it looked,
+        double mostExcess{1.0};                ///< in proportion up to that excess
+        double weightsOfAfterthought{0.7};     ///< factor on the weights: what is cheap counts more than what is near
+        double stillDear{2.0};                 ///< a path that then costs more than this times what it promised
+        std::uint64_t secondAfterthought{80};  ///< is worth so many more (chosen on tuneX1 to X11, F1 to F3, G1, too)
+        double hardlyLonger{1.03};             ///< than the bare curve: nothing to look for
+        double hardlyDearer{1.1};  ///< nor with a path whose cost is hardly more than its length was expected
+        std::size_t fewCusps{1};   ///< to be, with no more cusps than so many
         /** @} */
 
         /** \name Shortening

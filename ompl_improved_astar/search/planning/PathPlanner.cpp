@@ -156,7 +156,7 @@ namespace parking::search
         const bool isCheap =
             search_.bestCost() < tuning.hardlyDearer * expected && search_.bestPath().cusps() <= tuning.fewCusps;
         if (!isShort && !isBare && !isCheap)
-            thinkAgain(search_.bestPath().length() / expected - 1.0);
+            thinkAgain(expected);
         Path best = search_.bestPath();
         double cost = search_.bestCost();
         // A bare curve is shortened no more.
@@ -258,7 +258,19 @@ namespace parking::search
         }
     }
 
-    void PathPlanner::thinkAgain(double excess)
+    void PathPlanner::goOn(std::uint64_t expansions)
+    {
+        const std::uint64_t end = search_.expanded() + expansions;
+        const StopFunction enough = [this, end]
+        {
+            return search_.expanded() >= end || isTimeUp();
+        };
+        while (search_.run(enough) == SearchOutcome::Improved)
+        {
+        }
+    }
+
+    void PathPlanner::thinkAgain(double expected)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         const auto lower = [&tuning](double weight)
@@ -268,17 +280,12 @@ namespace parking::search
         weights_.far = lower(weights_.far);
         weights_.near = lower(weights_.near);
         search_.setWeights(weights_);
-        const std::uint64_t spent = search_.expanded();
-        const double more = tuning.afterthought * static_cast<double>(spent) +
+        const double excess = search_.bestPath().length() / expected - 1.0;
+        const double more = tuning.afterthought * static_cast<double>(search_.expanded()) +
                             tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
-        const std::uint64_t end = spent + tuning.leastAfterthought + static_cast<std::uint64_t>(more);
-        const StopFunction enough = [this, end]
-        {
-            return search_.expanded() >= end || isTimeUp();
-        };
-        while (search_.run(enough) == SearchOutcome::Improved)
-        {
-        }
+        goOn(tuning.leastAfterthought + static_cast<std::uint64_t>(more));
+        if (search_.bestCost() > tuning.stillDear * expected)
+            goOn(tuning.secondAfterthought);
     }
 
     PathPlanner::Outcome PathPlanner::improve()

@@ -118,7 +118,9 @@ namespace parking::search
 
         bool take(const Path &path, double cost);
         void takeFirst();
-        void thinkAgain(double excess);
+        /** Searches on, for so many expansions, for what is cheaper than the best path. */
+        void goOn(std::uint64_t expansions);
+        void thinkAgain(double expected);
         bool shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset, double widest,
                      CurveChoice choice);
         bool shortenWhole(Path &path, double &cost, double coarsest);

@@ -103,8 +103,14 @@ class TrajectoryTest(ProgramTest):
         self.assertLess(math.hypot(last['x'] - goal['x'], last['y'] - goal['y']), 0.001)
 
         def greatest_jerk(samples):
+            # Samples are no more than 5 cm apart: where the car is quick some lie within an interval of the motion,
+            # whose acceleration is that of all its parts.
+            knots = samples[:1]
+            for sample, after in zip(samples[1:], samples[2:] + [None]):
+                if after is None or abs(sample['acceleration'] - knots[-1]['acceleration']) > 1e-9:
+                    knots.append(sample)
             middles = [(0.5 * (a['t'] + b['t']), (b['v'] - a['v']) / (b['t'] - a['t']))
-                       for a, b in zip(samples, samples[1:])]
+                       for a, b in zip(knots, knots[1:])]
             return max(abs(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(middles, middles[1:]))
         self.assertGreater(greatest_jerk(free['planned_trajectory']), 3.0)
         self.assertLess(greatest_jerk(limited['planned_trajectory']), 1.5001)

@@ -80,6 +80,44 @@ TEST(PathPlanner, solvesAndReportsWhatItReturns)
     EXPECT_GT(solved, 30);
 }
 
+TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
+{
+    std::size_t dear = 0, others = 0, cheaper = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        PathPlannerParameters parameters = parametersFor(problem);
+        parameters.shorten = false;
+        const SearchTuning tuning = parameters.search.tuning;
+        PathPlanner longer;
+        begin(longer, problem, parameters);
+        parameters.search.tuning.secondAfterthought = 0;
+        PathPlanner shorter;
+        begin(shorter, problem, parameters);
+        if (shorter.solve(afterAsking(3000), {}) != Outcome::Solved)
+            continue;
+        ASSERT_EQ(longer.solve(afterAsking(3000), {}), Outcome::Solved);
+        const double expected = std::max(shorter.search().shortestMotion(), shorter.search().estimate());
+        if (shorter.bestCost() > tuning.stillDear * expected)
+        {
+            ++dear;
+            EXPECT_LE(longer.expanded(), shorter.expanded() + tuning.secondAfterthought);
+            EXPECT_LE(longer.bestCost(), shorter.bestCost());
+            cheaper += longer.bestCost() < shorter.bestCost() ? 1 : 0;
+        }
+        else
+        {
+            ++others;
+            EXPECT_EQ(longer.expanded(), shorter.expanded());
+            EXPECT_EQ(longer.bestCost(), shorter.bestCost());
+        }
+    }
+    EXPECT_GT(dear, 5u);
+    EXPECT_GT(others, 50u);
+    EXPECT_GT(cheaper, 1u);
+}
+
 TEST(PathPlanner, shorteningNeverCostsAnything)
 {
     int cheaper = 0;
