@@ -141,7 +141,7 @@ namespace parking::search
         return true;
     }
 
-    SearchOutcome Search::run(const StopFunction &stop)
+    SearchOutcome Search::run(const StopFunction &stop, std::uint64_t mostExpansions)
     {
         stop_ = [this, stop]
         {
@@ -159,7 +159,7 @@ namespace parking::search
             }
             if (parameters_.eagerObstacles && !loaded_ && !load())
                 return SearchOutcome::Stopped;
-            if (!finishExpansion() || !finishLookahead() || (stop_ && stop_()))
+            if (!finishExpansion() || !finishLookahead() || expanded() >= mostExpansions || (stop_ && stop_()))
                 return SearchOutcome::Stopped;
             endTurn();
             if (!prepared_)

@@ -83,8 +83,12 @@ namespace parking::search
             run() then ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
         void setTarget(const Pose &target);
 
-        /** \brief Searches until the solution improves, nothing is left, or \e stop says so. */
-        SearchOutcome run(const StopFunction &stop);
+        /** \brief Searches until the solution improves, nothing is left, or \e stop says so.
+
+            \param mostExpansions of the query: after so many none is begun. What is under way is finished, while \e
+           stop may leave a flood before it knows the estimates that it was for */
+        SearchOutcome run(const StopFunction &stop,
+                          std::uint64_t mostExpansions = std::numeric_limits<std::uint64_t>::max());
 
         /** \brief Bytes that nodes, cells, open lists, the ways round obstacles and the tables of the model take at
            most, growing included. */

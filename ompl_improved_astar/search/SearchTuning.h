@@ -106,7 +106,7 @@ namespace parking::search
         double mostExcess{1.0};                ///< in proportion up to that excess
         double weightsOfAfterthought{0.7};     ///< factor on the weights: what is cheap counts more than what is near
         double stillDear{2.0};                 ///< a path that then costs more than this times what it promised
-        std::uint64_t secondAfterthought{80};  ///< is worth so many more (chosen on tuneX1 to X11, F1 to F3, G1, too)
+        std::uint64_t secondAfterthought{80};  ///< is worth so many more (chosen on tuneX9 to X11, F1 to F3, G1)
         double hardlyLonger{1.03};             ///< than the bare curve: nothing to look for
         double hardlyDearer{1.1};  ///< nor with a path whose cost is hardly more than its length was expected
         std::size_t fewCusps{1};   ///< to be, with no more cusps than so many
@@ -134,7 +134,7 @@ namespace parking::search
         std::size_t posesBeside{6};      ///< that are tried for each part
         double dearerForRoom{1.02};      ///< so much dearer may a path be that keeps it between its samples, too
         std::uint64_t leastForRoom{30};  ///< expansions in search of a way with room where both ends have it,
-        std::uint64_t mostForRoom{60};   ///< else as many as the search for any way took, but no more
+        std::uint64_t mostForRoom{60};   ///< else as many as there were so far, but no more
         double longestForRoom{30.0};     ///< for a path no longer than this: the disc's way is found anew
         /** @} */
 

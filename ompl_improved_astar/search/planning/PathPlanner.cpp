@@ -241,11 +241,7 @@ namespace parking::search
         roomySearch_->addStart(best.start);
         roomySearch_->addGoal(best.end());
         const std::uint64_t most = std::clamp(search_.expanded(), tuning.leastForRoom, tuning.mostForRoom);
-        const StopFunction enough = [this, most]
-        {
-            return roomySearch_->expanded() >= most || isTimeUp();
-        };
-        if (roomySearch_->run(enough) != SearchOutcome::Improved)
+        if (roomySearch_->run(stop_, most) != SearchOutcome::Improved)
             return;
         Path other = roomySearch_->bestPath();
         double costOfOther = pathCost(search_.cost(), other, *environment_);
@@ -261,11 +257,7 @@ namespace parking::search
     void PathPlanner::goOn(std::uint64_t expansions)
     {
         const std::uint64_t end = search_.expanded() + expansions;
-        const StopFunction enough = [this, end]
-        {
-            return search_.expanded() >= end || isTimeUp();
-        };
-        while (search_.run(enough) == SearchOutcome::Improved)
+        while (search_.run(stop_, end) == SearchOutcome::Improved)
         {
         }
     }
@@ -316,12 +308,8 @@ namespace parking::search
                     search_.setWeights(weights_);
                 }
                 const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
-                const StopFunction enough = [&]
-                {
-                    return search_.expanded() >= end || isTimeUp();
-                };
                 SearchOutcome outcome;
-                while ((outcome = search_.run(enough)) == SearchOutcome::Improved && !goodEnough_)
+                while ((outcome = search_.run(stop_, end)) == SearchOutcome::Improved && !goodEnough_)
                     progress = take(search_.bestPath(), search_.bestCost()) || progress;
                 searching = outcome != SearchOutcome::Exhausted;
             }

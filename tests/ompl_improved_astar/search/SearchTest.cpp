@@ -302,6 +302,37 @@ TEST(Search, stopsAndGoesOnToTheSamePath)
     }
 }
 
+// A limit of expansions, unlike a stop, leaves no estimate behind that is what it is for want of time.
+TEST(Search, expandsNoMoreThanItMayAndGoesOnAsIfNothingHadBeen)
+{
+    std::size_t solved = 0;
+    std::uint64_t differences = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 25);
+        SearchParameters parameters = parametersIn(problem);
+        parameters.tuning.heuristicCell = 1.0 / 60.0;  // floods are long
+        Search whole, parts, stopped;
+        if (!isSolved(whole, problem, parameters, 2000))
+            continue;
+        ++solved;
+        problem.begin(parts, parameters);
+        std::uint64_t most = 0;
+        while (parts.run({}, most) == SearchOutcome::Stopped && most < 2000)
+            EXPECT_EQ(parts.expanded(), most++);
+        EXPECT_EQ(parts.expanded(), whole.expanded());
+        EXPECT_EQ(parts.bestCost(), whole.bestCost());
+        problem.begin(stopped, parameters);
+        most = 0;
+        while (stopped.run([&] { return stopped.expanded() >= most; }) == SearchOutcome::Stopped && most < 2000)
+            ++most;
+        differences += stopped.expanded() != whole.expanded() || stopped.bestCost() != whole.bestCost();
+    }
+    EXPECT_GT(solved, 20u);
+    EXPECT_GT(differences, 0u);  // else there was no flood that a stop could have left
+}
+
 TEST(Search, aStopIsHeededBeforeTheNextExpansion)
 {
     CarProblem problem = maze(2);

@@ -82,7 +82,7 @@ TEST(PathPlanner, solvesAndReportsWhatItReturns)
 
 TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
 {
-    std::size_t dear = 0, others = 0, cheaper = 0;
+    std::size_t dear = 0, others = 0, cheaper = 0, whole = 0;
     for (std::uint64_t seed = 0; seed < 150; ++seed)
     {
         SCOPED_TRACE(seed);
@@ -103,8 +103,17 @@ TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
         {
             ++dear;
             EXPECT_LE(longer.expanded(), shorter.expanded() + tuning.secondAfterthought);
+            whole += longer.expanded() == shorter.expanded() + tuning.secondAfterthought ? 1 : 0;
             EXPECT_LE(longer.bestCost(), shorter.bestCost());
             cheaper += longer.bestCost() < shorter.bestCost() ? 1 : 0;
+            // Whoever stops it does not wait for the rest.
+            const std::uint64_t most = shorter.expanded() + 10;
+            PathPlanner stopped;
+            parameters.search.tuning = tuning;
+            begin(stopped, problem, parameters);
+            stopped.solve([&stopped, most] { return stopped.expanded() >= most; }, {});
+            EXPECT_TRUE(stopped.hasSolution());
+            EXPECT_LE(stopped.expanded(), most);
         }
         else
         {
@@ -114,6 +123,7 @@ TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
         }
     }
     EXPECT_GT(dear, 5u);
+    EXPECT_GT(whole, 5u);
     EXPECT_GT(others, 50u);
     EXPECT_GT(cheaper, 1u);
 }
