@@ -85,8 +85,8 @@ namespace parking::search
 
         /** \brief Searches until the solution improves, nothing is left, or \e stop says so.
 
-            \param mostExpansions of the query: after so many none is begun. What is under way is finished, while \e
-           stop may leave a flood before it knows the estimates that it was for */
+            \param mostExpansions of the query: after so many none is begun, and the last one is finished. A flood for
+            estimates that \e stop ends leaves them too low */
         SearchOutcome run(const StopFunction &stop,
                           std::uint64_t mostExpansions = std::numeric_limits<std::uint64_t>::max());
 

@@ -72,7 +72,7 @@ namespace parking_test
                          const parking::search::SearchParameters &parameters, std::uint64_t mostExpansions)
     {
         problem.begin(search, parameters);
-        search.run([&search, mostExpansions] { return search.expanded() >= mostExpansions; });
+        search.run({}, mostExpansions);
         if (!search.hasSolution())
             return false;
         EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,

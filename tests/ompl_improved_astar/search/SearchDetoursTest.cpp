@@ -284,7 +284,7 @@ TEST(SearchDetours, theProofFollowsTheDiscsWay)
     search.begin(world, parameters);
     search.addStart({6.0, 10.0, 0.0});
     search.addGoal({4.4, 30.0, 0.0});
-    search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
+    search.run({}, MOST_EXPANSIONS);
     EXPECT_FALSE(search.hasSolution());
     EXPECT_GT(world.begun, 1) << "coarse cells, then fine ones";
     EXPECT_LT(world.asked, 20000u);

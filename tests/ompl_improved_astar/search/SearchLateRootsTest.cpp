@@ -183,7 +183,7 @@ TEST(SearchLateRoots, nodesExpandedAgainKeepTheirChildren)
         problem.begin(search, carParameters());
         for (const std::uint64_t expanded : {100u, 250u, 400u})
         {
-            while (search.run([&] { return search.expanded() >= expanded; }) == SearchOutcome::Improved)
+            while (search.run({}, expanded) == SearchOutcome::Improved)
                 continue;
             const Pose late = problem.world.freePose(random);
             seed % 2 == 0 ? search.addGoal(late) : search.addStart(late);
@@ -209,7 +209,7 @@ TEST(SearchLateRoots, theEndOfAFrontierIsNoticedWhateverIsLeftInItsQueue)
         parameters.tuning.explorationPeriod = 2;
         parameters.adaptiveResolution = false;
         problem.begin(search, parameters);
-        search.run([&] { return search.expanded() >= 6000; });
+        search.run({}, 6000);
         if (search.hasSolution())
             continue;
         for (const Side side : {Side::Start, Side::Goal})

@@ -157,7 +157,7 @@ namespace
         search.begin(world, parameters);
         search.addStart(problem.starts.front());
         search.addGoal(problem.goals.front());
-        search.run([&search] { return search.expanded() >= MOST_EXPANSIONS; });
+        search.run({}, MOST_EXPANSIONS);
         EXPECT_TRUE(search.hasSolution());
         double least = std::numeric_limits<double>::infinity();
         const auto drive = [&](const Node &parent, const Node &node)

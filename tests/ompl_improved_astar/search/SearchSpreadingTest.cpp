@@ -100,7 +100,7 @@ TEST(SearchSpreading, endsWithTheFirstSolution)
     for (const Side side : {Side::Start, Side::Goal})
         before[static_cast<std::size_t>(side)] = searched.frontier(side).nodes().size();
     const std::uint64_t most = search.expanded() + 300;
-    while (search.run([&] { return search.expanded() >= most; }) == SearchOutcome::Improved)
+    while (search.run({}, most) == SearchOutcome::Improved)
         continue;
     for (const Side side : {Side::Start, Side::Goal})
     {
@@ -118,7 +118,7 @@ TEST(SearchSpreading, isNotForWhatIsNearestToATarget)
     search.begin(problem.world, parametersIn(problem, true));
     search.addStart(problem.starts.front());
     search.setTarget(problem.goals.front());
-    search.run([&search] { return search.expanded() >= 500; });
+    search.run({}, 500);
     EXPECT_GT(search.expanded(), 50u);
     EXPECT_EQ(waiting(search), 0u);
 }

@@ -139,7 +139,7 @@ TEST(Search, keepsToTheMostCuspsItIsGiven)
         CarProblem problem = randomProblem(seed);
         Search limited;
         problem.begin(limited, parameters);
-        const SearchOutcome outcome = limited.run([&] { return limited.expanded() >= MOST_EXPANSIONS; });
+        const SearchOutcome outcome = limited.run({}, MOST_EXPANSIONS);
         for (const Side side : {Side::Start, Side::Goal})
             for (const Node &node : std::as_const(limited).frontier(side).nodes())
                 ASSERT_LE(node.cusps, parameters.mostCusps);
