@@ -116,6 +116,13 @@ namespace parking::search
             return nearer;
         }
 
+        /** \brief The pose with the opposite heading at which the body covers the most of the ground that it covers at
+            \e pose, as far as the body is known: else the rear axle stays where it is. */
+        virtual Pose turnedRound(const Pose &pose) const
+        {
+            return {pose.x, pose.y, wrapAngle(pose.yaw + PI)};
+        }
+
         /** \brief Where the rear axle may be, whatever the obstacles: everywhere, unless a world says otherwise. */
         virtual Box bounds() const
         {

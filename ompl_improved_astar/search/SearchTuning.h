@@ -126,6 +126,18 @@ namespace parking::search
         double spacings{0.3};              ///< up to this much more
         /** @} */
 
+        /** \name Turning round elsewhere
+
+            Chosen by hand on random queries with seeds tuneX9, tuneF1 and tuneG1.
+            @{ */
+        double dearTurns{1.15};       ///< a path with cusps that costs more than this times what it promised is tried
+        std::size_t turnKnots{24};    ///< of these no more parts than so many,
+        double turnKnotSpacing{1.0};  ///< and none shorter
+        double turnReach{5.0};        ///< from where the car begins to turn round to where it has
+        std::size_t turnSpan{3};      ///< parts that are driven the other way by one curve
+        std::size_t mostTurnCurves{150};  ///< that are tried, from pose to pose
+        /** @} */
+
         /** \name Leading what was found past obstacles that it comes too near to
 
             Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k.

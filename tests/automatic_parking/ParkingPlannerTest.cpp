@@ -111,7 +111,7 @@ namespace
         // The same gate, wide enough for 10 cm on either side, and a way round it.
         Scenario scenario = openGround();
         const double half = 0.5 * scenario.vehicle.width + 0.1;
-        scenario.polygons = {box(6.0, half, 8.0, 6.0), box(6.0, -15.0, 8.0, -half)};
+        scenario.polygons = {box(6.0, half, 8.0, 9.0), box(6.0, -15.0, 8.0, -half)};
         const ParkingPlan direct = ParkingPlanner().plan(scenario);
         ASSERT_TRUE(direct.found);
         EXPECT_LT(direct.path.length(), 16.0);

@@ -142,6 +142,12 @@ namespace parking
             sweep(start, from, arcs, count, clear);
     }
 
+    Pose FootprintEnvironment::turnedRound(const Pose &pose) const
+    {
+        // The body's middle stays where it is.
+        return MotionEnvironment::turnedRound(advance(pose, 0.0, 2.0 * checker_.vehicle().centreOffset()));
+    }
+
     double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const
     {
         // The rear axle as a box of no size, the bounds as four walls in its frame.

@@ -33,6 +33,7 @@ namespace parking
                                 double clearance, std::size_t most) override;
         void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                           double *clear) override;
+        Pose turnedRound(const Pose &pose) const override;
         Box bounds() const override
         {
             return bounds_;

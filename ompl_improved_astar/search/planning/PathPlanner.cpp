@@ -1,5 +1,6 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ namespace parking::search
         starts_.clear();
         bestPath_ = {};
         bestCost_ = INFINITE;
+        costOfTurned_ = INFINITE;
         shortenerConnections_ = 0;
         hasRoomySearch_ = false;
         goodEnough_ = false;
@@ -176,9 +178,34 @@ namespace parking::search
                         CurveChoice::Cheapest);
             }
         }
+        if (parameters_.shorten && cost > tuning.dearTurns * expected)
+            turnRound(best, cost);
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
         take(best, cost);
+    }
+
+    bool PathPlanner::turnRound(Path &path, double &cost)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        const ReedsShepp &curves = *search_.model().curves();
+        if (path.cusps() == 0 || curves.family() != CurveFamily::ReedsShepp || isTimeUp())
+            return false;
+        PathTurner turner(*environment_, curves, search_.cost(), tuning);
+        Path turned = path;
+        const bool isTurned = turner.pass(turned, cost, stop_);
+        shortenerConnections_ += turner.connections();
+        if (!isTurned)
+            return false;
+        double costOfTurned = pathCost(search_.cost(), turned, *environment_);
+        const double coarsest = turned.length() / tuning.mostKnots;
+        shortenWhole(turned, costOfTurned, coarsest);
+        shortenByOtherKnots(search_.cost(), turned, costOfTurned, coarsest);
+        if (!(costOfTurned < cost))
+            return false;
+        path = std::move(turned);
+        cost = costOfTurned;
+        return true;
     }
 
     bool PathPlanner::widen(Path &path, double &cost)
@@ -298,6 +325,12 @@ namespace parking::search
                     const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
                     progress = shortenBest(knots.spacing, knots.offset) || progress;
                 }
+            if (parameters_.shorten && !goodEnough_ && bestCost_ < costOfTurned_)
+            {
+                Path path = bestPath_;
+                double cost = costOfTurned_ = bestCost_;
+                progress = (turnRound(path, cost) && take(path, cost)) || progress;
+            }
             if (searching && !goodEnough_)
             {
                 const double least = std::max(1.0, weights_.far * tuning.weightDecay);

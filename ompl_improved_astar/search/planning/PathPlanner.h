@@ -126,6 +126,8 @@ namespace parking::search
         bool shortenWhole(Path &path, double &cost, double coarsest);
         bool shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest);
         bool shortenBest(double spacing, double offset);
+        /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
+        bool turnRound(Path &path, double &cost);
         /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
         bool widen(Path &path, double &cost);
         bool canLeaveWithRoom(const Pose &pose);
@@ -143,6 +145,7 @@ namespace parking::search
         std::vector<Pose> starts_;
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
+        double costOfTurned_{std::numeric_limits<double>::infinity()};  // of the best path that was tried to turn last
         std::uint64_t shortenerConnections_{0};
         StopFunction stop_;
         ImprovementFunction improved_;

@@ -68,6 +68,11 @@ namespace parking::search
             return false;  // cars do not ask
         }
 
+        Pose turnedRound(const Pose &pose) const override
+        {
+            return world_.turnedRound(pose);
+        }
+
         Box bounds() const override
         {
             return world_.bounds();

@@ -29,6 +29,29 @@ namespace
     constexpr double TOLERANCE = 1e-3;
 }  // namespace
 
+/** Turned round the body covers the ground that it covered: every corner lies where the opposite one was. */
+TEST(FootprintEnvironment, turnsTheCarRoundOnTheSpotOnWhichItStands)
+{
+    Vehicle vehicle;
+    vehicle.frontOverhang = 1.1;
+    vehicle.rearOverhang = 0.6;
+    const World world = randomPolygonWorld(1);
+    const FootprintChecker checker(world.obstacles, vehicle);
+    const FootprintEnvironment environment(checker, {{-50.0, -50.0}, {50.0, 50.0}}, TOLERANCE);
+    Random random(7);
+    for (int i = 0; i < 100; ++i)
+    {
+        const Pose pose{random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-PI, PI)};
+        const Pose turned = environment.turnedRound(pose);
+        EXPECT_NEAR(std::abs(wrapAngle(turned.yaw - pose.yaw)), PI, 1e-12);
+        EXPECT_EQ(turned.yaw, wrapAngle(turned.yaw));
+        const Pose front = advance(pose, 0.0, vehicle.wheelbase + vehicle.frontOverhang);
+        const Pose turnedRear = advance(turned, 0.0, -vehicle.rearOverhang);
+        EXPECT_NEAR(positionDistance(front, turnedRear), 0.0, 1e-12);
+        EXPECT_EQ(checker.isFree(turned), checker.isFree(pose));
+    }
+}
+
 TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
 {
     const Vehicle vehicle;
