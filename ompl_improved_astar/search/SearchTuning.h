@@ -128,14 +128,14 @@ namespace parking::search
 
         /** \name Turning round elsewhere
 
-            Chosen by hand on random queries with seeds tuneX9, tuneF1 and tuneG1.
+            Chosen by hand on random queries with seeds tuneX9, tuneF1 and tuneG1, and on the 62 problems.
             @{ */
         double dearTurns{1.15};       ///< a path with cusps that costs more than this times what it promised is tried
-        std::size_t turnKnots{24};    ///< of these no more parts than so many,
+        std::size_t turnKnots{40};    ///< of these no more parts than so many,
         double turnKnotSpacing{1.0};  ///< and none shorter
-        double turnReach{5.0};        ///< from where the car begins to turn round to where it has
+        double turnReach{4.0};        ///< from where the car begins to turn round to where it has
         std::size_t turnSpan{3};      ///< parts that are driven the other way by one curve
-        std::size_t mostTurnCurves{150};  ///< that are tried, from pose to pose
+        std::size_t mostTurnCurves{300};  ///< that are tried, from pose to pose
         /** @} */
 
         /** \name Leading what was found past obstacles that it comes too near to
