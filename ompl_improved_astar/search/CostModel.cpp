@@ -43,11 +43,16 @@ namespace parking::search
         return cost + perSample * std::max(clear > 0.0 ? 1.0 : 0.0, static_cast<double>(nearer));
     }
 
-    double curveCost(const CostModel &model, const ReedsSheppCurve &curve)
+    double curveCost(const CostModel &model, const ReedsSheppCurve &curve, const PathPiece *before,
+                     const PathPiece *after)
     {
         double cost = 0.0;
         for (std::size_t i = 0; i < curve.count; ++i)
             cost += model.drive(curve.pieces[i]) + (i > 0 ? model.join(curve.pieces[i - 1], curve.pieces[i]) : 0.0);
+        if (before != nullptr && curve.count > 0)
+            cost += model.join(*before, curve.pieces[0]);
+        if (after != nullptr && curve.count > 0)
+            cost += model.join(curve.pieces[curve.count - 1], *after);
         return cost;
     }
 

@@ -67,8 +67,12 @@ namespace parking::search
         }
     };
 
-    /** \brief Cost of an analytic curve, wherever it is. */
-    double curveCost(const CostModel &model, const ReedsSheppCurve &curve);
+    /** \brief Cost of an analytic curve, wherever it is.
+
+        \param before, after what is driven before and after it, if anything: what joining them costs is added, unless
+        the curve is empty */
+    double curveCost(const CostModel &model, const ReedsSheppCurve &curve, const PathPiece *before = nullptr,
+                     const PathPiece *after = nullptr);
 
     /** \brief Extra cost of an analytic curve that begins at \e from, because of the obstacles nearby; above \e most
         it may be too little. */

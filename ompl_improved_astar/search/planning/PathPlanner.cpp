@@ -188,12 +188,14 @@ namespace parking::search
     bool PathPlanner::turnRound(Path &path, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        const ReedsShepp &curves = *search_.model().curves();
-        if (path.cusps() == 0 || curves.family() != CurveFamily::ReedsShepp || isTimeUp())
+        // What has been tried is not tried again. A car that drives forwards only has no cusps.
+        if (!(cost < costOfTurned_) || path.cusps() == 0 || isTimeUp())
             return false;
-        PathTurner turner(*environment_, curves, search_.cost(), tuning);
+        PathTurner turner(*environment_, *search_.model().curves(), search_.cost(), tuning);
         Path turned = path;
         const bool isTurned = turner.pass(turned, cost, stop_);
+        if (!isTimeUp())
+            costOfTurned_ = cost;
         shortenerConnections_ += turner.connections();
         if (!isTurned)
             return false;
@@ -325,10 +327,10 @@ namespace parking::search
                     const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
                     progress = shortenBest(knots.spacing, knots.offset) || progress;
                 }
-            if (parameters_.shorten && !goodEnough_ && bestCost_ < costOfTurned_)
+            if (parameters_.shorten && !goodEnough_)
             {
                 Path path = bestPath_;
-                double cost = costOfTurned_ = bestCost_;
+                double cost = bestCost_;
                 progress = (turnRound(path, cost) && take(path, cost)) || progress;
             }
             if (searching && !goodEnough_)

@@ -145,7 +145,7 @@ namespace parking::search
         std::vector<Pose> starts_;
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
-        double costOfTurned_{std::numeric_limits<double>::infinity()};  // of the best path that was tried to turn last
+        double costOfTurned_{std::numeric_limits<double>::infinity()};  // of the path that turnRound() tried last
         std::uint64_t shortenerConnections_{0};
         StopFunction stop_;
         ImprovementFunction improved_;

@@ -117,8 +117,7 @@ namespace parking::search
         if (!(offer.least < mostCost_))
             return;
         offers_.push_back(offer);
-        std::push_heap(offers_.begin(), offers_.end(),
-                       [](const Offer &a, const Offer &b) { return a.least > b.least; });
+        std::push_heap(offers_.begin(), offers_.end(), isDearer);
     }
 
     void PathTurner::close(const Offer &taken)
@@ -154,16 +153,10 @@ namespace parking::search
         ++connectionCount_;
         curves_.candidates(from.pose, to.pose, candidates_, most);
         order_.clear();
+        const PathPiece *const before = offered.from != 0 ? &from.last : nullptr;
         for (const ReedsSheppCurve &curve : candidates_)
-        {
-            if (curve.count == 0)
-                continue;
-            double cost = curveCost(cost_, curve);
-            if (offered.from != 0)
-                cost += cost_.join(from.last, curve.pieces[0]);
-            if (cost < most)
+            if (const double cost = curveCost(cost_, curve, before); curve.count > 0 && cost < most)
                 order_.emplace_back(cost, &curve);
-        }
         const auto offerAgain = [&](double costOfCurve, Knowledge knowledge, std::size_t curve)
         {
             const double cost = from.cost + costOfCurve;
@@ -193,8 +186,7 @@ namespace parking::search
         offer({places_[0].least, 0.0, 0, 0, Knowledge::Whole, ALONG});
         while (!offers_.empty() && !places_.back().isClosed)
         {
-            std::pop_heap(offers_.begin(), offers_.end(),
-                          [](const Offer &a, const Offer &b) { return a.least > b.least; });
+            std::pop_heap(offers_.begin(), offers_.end(), isDearer);
             const Offer next = offers_.back();
             offers_.pop_back();
             if (places_[next.to].isClosed)

@@ -21,8 +21,8 @@ namespace parking::search
         it, and turn round where that has led them, however dear it is there. Here the path is cut at knots. At each the
         car may stand as on the path, or turned round on the same ground; it gets along the path, along the turned knots
         by curves of bounded curvature, and from the ones to the others by such curves where it has room to turn. The
-        cheapest way through these is found by A* with lazy evaluation: bounds first, then what the cheapest curve
-       costs, and only at last whether one is free (after B. Cohen, M. Phillips and M. Likhachev, "Planning single-arm
+        cheapest way through these is found by A* with lazy evaluation: bounds first, then the cost of the cheapest
+        curve, and only at last whether one is free (after B. Cohen, M. Phillips and M. Likhachev, "Planning single-arm
         manipulations with n-arm robots", 2014). Free and drivable, with the path's own ends. Deterministic. */
     class PathTurner
     {
@@ -63,8 +63,8 @@ namespace parking::search
             PathPiece after;   ///< leads on
         };
 
-        /** A pose at which the car may stand, and the cheapest way to it. As many as there are knots of each kind: on
-           the path before the car has turned round, turned, and on the path again. */
+        /** A pose at which the car may stand, and the cheapest way to it. There are three for each knot, kind by kind:
+            on the path before the car has turned round, turned, and on the path again. */
         struct Place
         {
             Pose pose;
@@ -107,6 +107,11 @@ namespace parking::search
         bool isTurned(std::size_t place) const
         {
             return place >= knots_.size() && place < 2 * knots_.size();
+        }
+
+        static bool isDearer(const Offer &a, const Offer &b)
+        {
+            return a.least > b.least;
         }
 
         void cut(const Path &path);

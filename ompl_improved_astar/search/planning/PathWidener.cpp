@@ -134,11 +134,7 @@ namespace parking::search
         {
             if (curve.count == 0)
                 continue;
-            double cost = curveCost(strict_, curve);
-            if (before != nullptr)
-                cost += strict_.join(*before, curve.pieces[0]);
-            if (after != nullptr)
-                cost += strict_.join(curve.pieces[curve.count - 1], *after);
+            const double cost = curveCost(strict_, curve, before, after);
             if (cost < (best ? best->cost : bound))
                 best = Leg{cost, curve};
         }

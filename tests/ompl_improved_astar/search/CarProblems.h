@@ -24,14 +24,15 @@ namespace parking_test
         DiscCarWorld world;
         std::vector<parking::Pose> starts, goals;
 
-        /** \brief Begins the query; the problem must outlive it. */
-        void begin(parking::search::Search &search, const parking::search::SearchParameters &parameters)
+        /** \brief Begins the query of a Search or a PathPlanner; the problem must outlive it. */
+        template <class Planner, class Parameters>
+        void begin(Planner &planner, const Parameters &parameters)
         {
-            search.begin(world, parameters);
+            planner.begin(world, parameters);
             for (const parking::Pose &start : starts)
-                search.addStart(start);
+                planner.addStart(start);
             for (const parking::Pose &goal : goals)
-                search.addGoal(goal);
+                planner.addGoal(goal);
         }
     };
 

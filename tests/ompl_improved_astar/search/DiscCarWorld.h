@@ -35,6 +35,7 @@ namespace parking_test
         std::vector<double> offsets{0.0, 1.3, 2.6};  ///< of the discs' centres ahead of the rear axle
         double radius{0.95};
         bool tellsRoom{true};
+        bool acceptsPaths{true};
         std::uint64_t questions{0};
         std::uint64_t pathsAsked{0};
         std::uint64_t roomsAsked{0};
@@ -103,7 +104,7 @@ namespace parking_test
         bool acceptPath(const parking::Path & /*path*/) override
         {
             ++pathsAsked;
-            return true;
+            return acceptsPaths;
         }
 
         parking::Pose freePose(Random &random)

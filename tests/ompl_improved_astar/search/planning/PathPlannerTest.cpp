@@ -27,15 +27,6 @@ namespace
         return parameters;
     }
 
-    void begin(PathPlanner &planner, CarProblem &problem, const PathPlannerParameters &parameters)
-    {
-        planner.begin(problem.world, parameters);
-        for (const Pose &start : problem.starts)
-            planner.addStart(start);
-        for (const Pose &goal : problem.goals)
-            planner.addGoal(goal);
-    }
-
     CostModel costModel(const PathPlannerParameters &parameters)
     {
         CostModel cost = parameters.search.cost;
@@ -53,7 +44,7 @@ TEST(PathPlanner, solvesAndReportsWhatItReturns)
         CarProblem problem = randomProblem(seed);
         const PathPlannerParameters parameters = parametersFor(problem);
         PathPlanner planner;
-        begin(planner, problem, parameters);
+        problem.begin(planner, parameters);
         std::vector<double> costs;
         const Outcome outcome =
             planner.solve(afterAsking(3000),
@@ -91,10 +82,10 @@ TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
         parameters.shorten = false;
         const SearchTuning tuning = parameters.search.tuning;
         PathPlanner longer;
-        begin(longer, problem, parameters);
+        problem.begin(longer, parameters);
         parameters.search.tuning.secondAfterthought = 0;
         PathPlanner shorter;
-        begin(shorter, problem, parameters);
+        problem.begin(shorter, parameters);
         if (shorter.solve(afterAsking(3000), {}) != Outcome::Solved)
             continue;
         ASSERT_EQ(longer.solve(afterAsking(3000), {}), Outcome::Solved);
@@ -110,7 +101,7 @@ TEST(PathPlanner, thinksOnAboutPathsThatStayDear)
             const std::uint64_t most = shorter.expanded() + 10;
             PathPlanner stopped;
             parameters.search.tuning = tuning;
-            begin(stopped, problem, parameters);
+            problem.begin(stopped, parameters);
             stopped.solve([&stopped, most] { return stopped.expanded() >= most; }, {});
             EXPECT_TRUE(stopped.hasSolution());
             EXPECT_LE(stopped.expanded(), most);
@@ -138,10 +129,10 @@ TEST(PathPlanner, shorteningNeverCostsAnything)
         PathPlannerParameters parameters = parametersFor(problem);
         parameters.search.cost.clearanceWeight = seed % 2 ? 1.0 : 0.0;
         PathPlanner with, without;
-        begin(with, problem, parameters);
+        problem.begin(with, parameters);
         const Outcome outcome = with.solve(afterAsking(3000), nullptr);
         parameters.shorten = false;
-        begin(without, problem, parameters);
+        problem.begin(without, parameters);
         ASSERT_EQ(without.solve(afterAsking(3000), nullptr), outcome);
         if (outcome != Outcome::Solved)
             continue;
@@ -163,11 +154,11 @@ TEST(PathPlanner, onlyPathsFarDearerThanPromisedAreShortenedAgainAndThenNeverCos
         // What is turned round starts from another path.
         parameters.search.tuning.dearTurns = INFINITE;
         PathPlanner usual, spared;
-        begin(usual, problem, parameters);
+        problem.begin(usual, parameters);
         if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         parameters.search.tuning.mostShortenings = 0;
-        begin(spared, problem, parameters);
+        problem.begin(spared, parameters);
         ASSERT_EQ(spared.solve(afterAsking(3000), nullptr), Outcome::Solved);
         const double promised = std::max(spared.search().shortestMotion(), spared.search().estimate());
         EXPECT_EQ(usual.statistics().expanded, spared.statistics().expanded);
@@ -194,11 +185,11 @@ TEST(PathPlanner, aPathThatCostsHardlyMoreThanPromisedIsNotThoughtOver)
         PathPlannerParameters parameters = parametersFor(problem);
         parameters.shorten = false;
         PathPlanner usual, thorough;
-        begin(usual, problem, parameters);
+        problem.begin(usual, parameters);
         if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         parameters.search.tuning.hardlyDearer = 0.0;
-        begin(thorough, problem, parameters);
+        problem.begin(thorough, parameters);
         ASSERT_EQ(thorough.solve(afterAsking(3000), nullptr), Outcome::Solved);
         if (usual.expanded() == thorough.expanded())
             continue;
@@ -220,7 +211,7 @@ TEST(PathPlanner, theShortestCurveIsNotThoughtOverHoweverDear)
     parameters.search.cost.clearanceCost = 1.0;
     parameters.shorten = false;
     PathPlanner planner;
-    begin(planner, problem, parameters);
+    problem.begin(planner, parameters);
     ASSERT_EQ(planner.solve(afterAsking(3000), nullptr), Outcome::Solved);
     EXPECT_NEAR(planner.bestPath().length(), 27.0, 1e-9);
     EXPECT_GT(planner.bestCost(), 1.5 * 27.0);
@@ -236,7 +227,7 @@ TEST(PathPlanner, theShortestCurveIsNotThoughtOverHoweverDear)
     EXPECT_GT(shortener.connections(), 0u);
     parameters.shorten = true;
     PathPlanner shortening;
-    begin(shortening, problem, parameters);
+    problem.begin(shortening, parameters);
     ASSERT_EQ(shortening.solve(afterAsking(3000), nullptr), Outcome::Solved);
     EXPECT_EQ(shortening.statistics().connections, planner.statistics().connections + shortener.connections());
 }
@@ -250,12 +241,12 @@ TEST(PathPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
         CarProblem problem = seed < 2 ? maze(2 + static_cast<int>(seed)) : randomProblem(seed);
         PathPlannerParameters parameters = parametersFor(problem);
         PathPlanner once;
-        begin(once, problem, parameters);
+        problem.begin(once, parameters);
         if (once.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         parameters.anytime = true;
         PathPlanner planner;
-        begin(planner, problem, parameters);
+        problem.begin(planner, parameters);
         std::vector<double> costs;
         const auto record = [&](const Path &path, double cost)
         {
@@ -288,7 +279,7 @@ TEST(PathPlanner, endsWhenTheSolutionIsGoodEnough)
     PathPlannerParameters parameters = parametersFor(problem);
     parameters.anytime = true;
     PathPlanner planner;
-    begin(planner, problem, parameters);
+    problem.begin(planner, parameters);
     int reports = 0;
     EXPECT_EQ(planner.solve(nullptr, [&](const Path &, double) { return ++reports == 2; }), Outcome::Solved);
     EXPECT_EQ(reports, 2);
@@ -301,7 +292,7 @@ TEST(PathPlanner, endsByItselfWithTheBareCurve)
     parameters.search.cost = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0};
     parameters.anytime = true;
     PathPlanner planner;
-    begin(planner, problem, parameters);
+    problem.begin(planner, parameters);
     EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
     EXPECT_NEAR(planner.bestCost(), ReedsShepp(TURNING_RADIUS).distance(problem.starts[0], problem.goals[0]), 1e-9);
     EXPECT_NEAR(planner.suboptimalityBound(), 1.0, 1e-9);
@@ -318,13 +309,13 @@ TEST(PathPlanner, theBoundHoldsForTheBestThatIsEverFound)
         parameters.search.weights = {1.0, 1.0, 0.0, 0.0};
         parameters.shorten = false;  // what it finds is outside of the discretised problem
         PathPlanner planner;
-        begin(planner, problem, parameters);
+        problem.begin(planner, parameters);
         if (planner.solve(afterAsking(3000), nullptr) != Outcome::Solved)
             continue;
         const double cost = planner.bestCost(), bound = planner.suboptimalityBound();
         parameters.anytime = true;
         PathPlanner longer;
-        begin(longer, problem, parameters);
+        problem.begin(longer, parameters);
         longer.solve(afterAsking(10000), nullptr);
         EXPECT_LE(cost / bound, longer.bestCost() + 1e-6);
         bounded += bound < INFINITE;
@@ -336,7 +327,7 @@ TEST(PathPlanner, solvedOnceIsSolvedAgain)
 {
     CarProblem problem = maze(2);
     PathPlanner planner;
-    begin(planner, problem, parametersFor(problem));
+    problem.begin(planner, parametersFor(problem));
     EXPECT_EQ(planner.solve(nullptr, nullptr), Outcome::Solved);
     const double cost = planner.bestCost();
     const std::uint64_t expanded = planner.statistics().expanded;
@@ -354,9 +345,9 @@ TEST(PathPlanner, stoppedItGoesOn)
     CarProblem problem = maze(3);
     const PathPlannerParameters parameters = parametersFor(problem);
     PathPlanner whole, pieces;
-    begin(whole, problem, parameters);
+    problem.begin(whole, parameters);
     ASSERT_EQ(whole.solve(nullptr, nullptr), Outcome::Solved);
-    begin(pieces, problem, parameters);
+    problem.begin(pieces, parameters);
     EXPECT_EQ(pieces.solve([] { return true; }, nullptr), Outcome::Stopped);
     EXPECT_EQ(pieces.statistics().expanded, 0u);
     int count = 0;
@@ -371,7 +362,7 @@ TEST(PathPlanner, askingForTheBoundAfterwardsDoesNotNeedTheStopFunctionAnyMore)
     CarProblem problem = maze(3);
     PathPlannerParameters parameters = parametersFor(problem);
     PathPlanner planner;
-    begin(planner, problem, parameters);
+    problem.begin(planner, parameters);
     {
         const auto alive = std::make_unique<bool>(true);
         int called = 0;
@@ -407,7 +398,7 @@ TEST(PathPlanner, approximatePathsEndAsNearAsTheCarComes)
                     PathPlannerParameters parameters = parametersFor(problem);
                     parameters.search.bidirectional = bidirectional;
                     PathPlanner planner;
-                    begin(planner, problem, parameters);
+                    problem.begin(planner, parameters);
                     if (goalKnown)
                     {
                         const Outcome outcome = planner.solve(afterAsking(4000), nullptr);

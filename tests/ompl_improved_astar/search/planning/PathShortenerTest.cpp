@@ -203,15 +203,8 @@ TEST(PathShortener, leavesPartsAloneThatAreWiderThanAllowed)
 
 TEST(PathShortener, takesNoCurveThatTheWorldRefuses)
 {
-    class Refusing : public DiscCarWorld
-    {
-    public:
-        using DiscCarWorld::DiscCarWorld;
-        bool acceptPath(const Path & /*path*/) override
-        {
-            return false;
-        }
-    } world({{-100.0, -100.0}, {100.0, 100.0}});
+    DiscCarWorld world({{-100.0, -100.0}, {100.0, 100.0}});
+    world.acceptsPaths = false;
     const ReedsShepp curves(RADIUS);
     Path path{{0.0, 0.0, 0.0}, {{1.0 / RADIUS, 3.0}, {-1.0 / RADIUS, 6.0}, {1.0 / RADIUS, 3.0}}};
     EXPECT_FALSE(

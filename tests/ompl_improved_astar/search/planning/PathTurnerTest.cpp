@@ -48,7 +48,7 @@ namespace
         return a.pieces.size() == b.pieces.size() && a.length() == b.length() && a.cusps() == b.cusps();
     }
 
-    /** A path that nothing has shortened, from one place of a problem to another; empty when there is none. */
+    /** A first solution; without pieces when there is none. */
     Path plannedPath(CarProblem &problem, double dearTurns = std::numeric_limits<double>::infinity(),
                      bool shorten = false)
     {
@@ -57,9 +57,7 @@ namespace
         parameters.search.tuning.dearTurns = dearTurns;
         parameters.shorten = shorten;
         PathPlanner planner;
-        planner.begin(problem.world, parameters);
-        planner.addStart(problem.starts.front());
-        planner.addGoal(problem.goals.front());
+        problem.begin(planner, parameters);
         planner.solve(afterAsking(20000), {});
         return planner.bestPath();
     }
@@ -126,18 +124,10 @@ TEST(PathTurner, takesOnlyWhatCostsLess)
 
 TEST(PathTurner, endsWhenItIsStoppedOrThePathIsNotAccepted)
 {
-    class Strict : public DiscCarWorld
-    {
-    public:
-        using DiscCarWorld::DiscCarWorld;
-        bool acceptPath(const Path & /*path*/) override
-        {
-            return false;
-        }
-    };
     const ReedsShepp curves(TURNING_RADIUS);
     const DiscCarWorld plain = laneBetweenRooms();
-    Strict world(plain.inside, plain.boxes);
+    DiscCarWorld world = plain;
+    world.acceptsPaths = false;
     const Path before = turnAndReverse(10);
     const double cost = pathCost(model(), before, world);
     Path path = before;
@@ -203,7 +193,7 @@ TEST(PathTurner, staysDrivableInAnyWorld)
     EXPECT_GT(same, 10);
 }
 
-/** The planner takes it only when it is cheaper in the end, and never for a car that drives forwards only. */
+/** The planner takes it only when it is cheaper in the end, and leaves paths without cusps alone. */
 TEST(PathTurner, makesTheFirstSolutionsOfThePlannerCheaper)
 {
     int cheaper = 0, solved = 0;

@@ -247,16 +247,8 @@ TEST(PathWidener, stopsWhenTold)
 
 TEST(PathWidener, doesNotTakeWhatIsRefused)
 {
-    class Refusing : public DiscCarWorld
-    {
-    public:
-        using DiscCarWorld::DiscCarWorld;
-        bool acceptPath(const Path & /*path*/) override
-        {
-            ++pathsAsked;
-            return false;
-        }
-    } world({{-15.0, -10.0}, {15.0, 10.0}});
+    DiscCarWorld world({{-15.0, -10.0}, {15.0, 10.0}});
+    world.acceptsPaths = false;
     world.boxes.push_back({{-1.0, world.radius + 0.1}, {1.0, 9.0}});
     Path path = straightOn();
     EXPECT_FALSE(PathWidener(world, ReedsShepp(RADIUS), model(), SearchTuning()).pass(path, nullptr));
