@@ -58,12 +58,31 @@ namespace parking::search
         std::size_t bytes() const;
 
     private:
+        static constexpr std::uint32_t NOTHING = 0xffffffffu;
+
+        /** An open node, on a stack of those in its place. */
+        struct Item
+        {
+            NodeIndex node;
+            std::uint32_t level;
+            std::uint32_t number;  // the later the smaller
+            std::uint32_t below;   // the item under it
+        };
+
+        /** What is open in a place, and what its entry in the queue says: others of the place have been overtaken. */
+        struct Place
+        {
+            std::uint64_t key;
+            std::uint32_t top{NOTHING};
+            std::uint32_t expansions{0}, number{0};
+        };
+
+        /** A place in the queue. */
         struct Waiting
         {
-            std::uint32_t expansions;  // in its place, when it was put here
-            std::uint32_t number;      // the later the smaller
-            std::uint64_t place;
-            Candidate candidate;
+            std::uint32_t expansions;  // in the place, when it was put here
+            std::uint32_t number;      // of its newest node
+            std::uint32_t place;
 
             bool operator>(const Waiting &other) const
             {
@@ -71,10 +90,17 @@ namespace parking::search
             }
         };
 
+        std::uint32_t placeAt(std::uint64_t key);
+        void enqueue(std::uint32_t place);
+
         static constexpr std::size_t FIRST_SLOTS = 1u << 8;  // most searches are never stuck
 
         Crowds counts_;
         CellTable last_{FIRST_SLOTS};
+        CellTable indices_{FIRST_SLOTS};  // of places_
+        std::vector<Place> places_;
+        std::vector<Item> items_;
+        std::uint32_t freeItem_{NOTHING};  // the first of those that nothing lies in
         std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting_;
         std::uint32_t number_{0};
     };
