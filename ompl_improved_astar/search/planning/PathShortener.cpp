@@ -98,12 +98,12 @@ namespace parking::search
     bool PathShortener::replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path)
     {
         const std::size_t count = pieces_.size() - 1;
-        const Arc *before = i > 0 ? &pieces_[i - 1].segment : nullptr;
-        const Arc *after = j < count ? &pieces_[j].segment : nullptr;
+        const PathPiece before = i > 0 ? pieces_[i - 1].segment : Arc();
+        const PathPiece after = j < count ? pieces_[j].segment : Arc();
         // Cost of the pieces i ... j - 1 with the joins at both of their ends.
         double now = costBefore_[j] - costBefore_[i];
-        if (after)
-            now += cost_.join(pieces_[j - 1].segment, *after);
+        if (j < count)
+            now += cost_.join(pieces_[j - 1].segment, after);
         ++connectionCount_;
         curves_.candidates(pieces_[i].from, pieces_[j].from, candidates_, now - LEAST_GAIN);
         order_.clear();
@@ -111,11 +111,7 @@ namespace parking::search
         {
             if (curve.count == 0)
                 continue;
-            double sum = curveCost(cost_, curve);
-            if (before)
-                sum += cost_.join(*before, curve.pieces[0]);
-            if (after)
-                sum += cost_.join(curve.pieces[curve.count - 1], *after);
+            const double sum = curveCost(cost_, curve, i > 0 ? &before : nullptr, j < count ? &after : nullptr);
             if (sum < now - LEAST_GAIN)
                 order_.emplace_back(sum, &curve);
         }

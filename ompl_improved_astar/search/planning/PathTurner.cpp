@@ -33,21 +33,27 @@ namespace parking::search
         const std::size_t last = path.pieces.size() - 1;
         Pose pose = path.start;
         double driven = 0.0, cost = 0.0;
+        // The rest of a piece is driven part by part: what is near to an obstacle costs more than the rest of it.
+        const auto drive = [&](PathPiece &rest, double length)
+        {
+            const PathPiece part(rest.curvature, std::copysign(length, rest.length), rest.sharpness);
+            cost += cost_.drive(part) + (cost_.pricesCloseness() ? cost_.closeness(pose, part, environment_) : 0.0);
+            driven += length;
+            pose = advance(pose, part);
+            rest = {part.endCurvature(), rest.length - part.length, rest.sharpness};
+        };
         for (std::size_t i = 0; i <= last; ++i)
         {
             const PathPiece &piece = path.pieces[i];
-            const double length = piece.driven();
-            const double costOfPiece =
-                cost_.drive(piece) + (cost_.pricesCloseness() ? cost_.closeness(pose, piece, environment_) : 0.0);
+            PathPiece rest = piece;
+            const double end = driven + piece.driven();
             cost += i > 0 ? cost_.join(path.pieces[i - 1], piece) : 0.0;
-            for (double at = next(); knots_.size() < parts && at <= driven + length; at = next())
+            for (double at = next(); knots_.size() < parts && at <= end; at = next())
             {
-                const PathPiece &after = at < driven + length ? piece : path.pieces[std::min(i + 1, last)];
-                add(advance(pose, piece, at - driven), {at, cost + costOfPiece * (at - driven) / length, piece, after});
+                drive(rest, at - driven);
+                add(pose, {at, cost, piece, at < end ? piece : path.pieces[std::min(i + 1, last)]});
             }
-            driven += length;
-            cost += costOfPiece;
-            pose = advance(pose, piece);
+            drive(rest, rest.driven());
         }
         add(pose, {driven, cost, path.pieces[last], path.pieces[last]});
         for (std::size_t k = 0; k < knots_.size(); ++k)
@@ -76,7 +82,10 @@ namespace parking::search
                 for (std::size_t to = knot + 1; to < count && to <= knot + tuning_.turnSpan; ++to)
                     addCurve(from, count + to);
             else if (knot + 1 < count)
-                links_.push_back({from, from + 1, knots_[knot + 1].cost - knots_[knot].cost});
+                // How the car comes to the knot says what it costs to go on from there.
+                links_.push_back(
+                    {from, from + 1,
+                     knots_[knot + 1].cost - knots_[knot].cost - cost_.join(knots_[knot].before, knots_[knot].after)});
             for (std::size_t other = knot > KNOTS_BACK ? knot - KNOTS_BACK : 1; other < count; ++other)
                 if (const std::size_t to = isTurned(from) ? 2 * count + other : count + other;
                     positionDistance(places_[from].pose, places_[to].pose) < reach)
@@ -127,19 +136,18 @@ namespace parking::search
         place.cost = taken.cost;
         place.from = taken.from;
         place.curve = taken.curve;
-        const bool isAlong = taken.curve == ALONG;
-        place.last =
-            isAlong ? knots_[taken.to % knots_.size()].before : free_[taken.curve].pieces[free_[taken.curve].count - 1];
+        const Knot &knot = knots_[taken.to % knots_.size()];
+        place.last = taken.curve == NO_CURVE ? knot.before : free_[taken.curve].pieces[free_[taken.curve].count - 1];
         for (std::size_t k = firstLink_[taken.to]; k < firstLink_[taken.to + 1]; ++k)
         {
             const Link &link = links_[k];
             const bool staysOnPath = !isTurned(link.from) && !isTurned(link.to);
             double cost = place.cost + link.least;
-            if (staysOnPath && !isAlong)
-                cost += cost_.join(place.last, knots_[link.from % knots_.size()].after);
+            if (staysOnPath)
+                cost += cost_.join(place.last, knot.after);
             if (!places_[link.to].isClosed)
                 offer({cost + places_[link.to].least, cost, link.from, link.to,
-                       staysOnPath ? Knowledge::Whole : Knowledge::Bound, ALONG});
+                       staysOnPath ? Knowledge::Whole : Knowledge::Bound, NO_CURVE});
         }
     }
 
@@ -150,7 +158,7 @@ namespace parking::search
         if (!isFree(to))
             return;
         const double most = mostCost_ - from.cost - to.least;
-        ++connectionCount_;
+        connectionCount_ += isLast ? 1 : 0;
         curves_.candidates(from.pose, to.pose, candidates_, most);
         order_.clear();
         const PathPiece *const before = offered.from != 0 ? &from.last : nullptr;
@@ -166,7 +174,7 @@ namespace parking::search
             return;
         if (!isLast)
         {
-            offerAgain(std::min_element(order_.begin(), order_.end())->first, Knowledge::Cheapest, ALONG);
+            offerAgain(std::min_element(order_.begin(), order_.end())->first, Knowledge::Cheapest, NO_CURVE);
             return;
         }
         offerFreeCurves(environment_, cost_, from.pose, to.pose, order_, CurveEnd::Start, most,
@@ -183,7 +191,7 @@ namespace parking::search
         offers_.clear();
         free_.clear();
         std::size_t checked = 0;
-        offer({places_[0].least, 0.0, 0, 0, Knowledge::Whole, ALONG});
+        offer({places_[0].least, 0.0, 0, 0, Knowledge::Whole, NO_CURVE});
         while (!offers_.empty() && !places_.back().isClosed)
         {
             std::pop_heap(offers_.begin(), offers_.end(), isDearer);
@@ -197,8 +205,12 @@ namespace parking::search
                 continue;
             }
             const bool isLast = next.knowledge == Knowledge::Cheapest;
-            if ((isLast && ++checked > tuning_.mostTurnCurves) || (stop && stop()))
+            if (stop && stop())
                 return false;
+            // Then only what is known to be free is followed to its end.
+            if (checked == tuning_.mostTurnCurves)
+                continue;
+            checked += isLast ? 1 : 0;
             look(next, isLast);
         }
         return places_.back().isClosed;
@@ -214,7 +226,7 @@ namespace parking::search
         for (auto place = way.rbegin(); place != way.rend(); ++place)
         {
             const Place &end = places_[*place];
-            if (end.curve == ALONG)
+            if (end.curve == NO_CURVE)
                 turned.extend(path.first(knots_[*place % count].driven).rest(knots_[end.from % count].driven));
             else
                 for (std::size_t k = 0; k < free_[end.curve].count; ++k)

@@ -20,10 +20,11 @@ namespace parking::search
         Where a way is as long as it is narrow, a search and shortening keep the heading with which they have come along
         it, and turn round where that has led them, however dear it is there. Here the path is cut at knots. At each the
         car may stand as on the path, or turned round on the same ground; it gets along the path, along the turned knots
-        by curves of bounded curvature, and from the ones to the others by such curves where it has room to turn. The
-        cheapest way through these is found by A* with lazy evaluation: bounds first, then the cost of the cheapest
-        curve, and only at last whether one is free (after B. Cohen, M. Phillips and M. Likhachev, "Planning single-arm
-        manipulations with n-arm robots", 2014). Free and drivable, with the path's own ends. Deterministic. */
+        by curves of bounded curvature, and from the ones to the others by such curves where it has room to turn. A
+        cheap way through these is found by A* with lazy evaluation: bounds first, then the cost of the cheapest curve,
+        and only at last whether one is free (after B. Cohen, M. Phillips and M. Likhachev, "Planning single-arm
+        manipulations with n-arm robots", 2014). It is the cheapest but for the joins: a pose is left from where it was
+        reached for the least, forwards or in reverse. Free and drivable, with the path's own ends. Deterministic. */
     class PathTurner
     {
     public:
@@ -39,7 +40,7 @@ namespace parking::search
         {
         }
 
-        /** \brief Replaces a path, which must not be empty, by the cheapest one found with a part that is driven the
+        /** \brief Replaces a path, which must not be empty, by a cheaper one with a part that is driven the
             other way round.
 
             \param mostCost a path that costs as much is of no use. As reckoned here: clearance is sampled, so that the
@@ -47,7 +48,7 @@ namespace parking::search
             \return whether it was replaced */
         bool pass(Path &path, double mostCost, const StopFunction &stop);
 
-        /** \brief Pairs of poses between which curves were looked for in all passes so far. */
+        /** \brief Pairs of poses between which curves were swept in all passes so far. */
         std::uint64_t connections() const
         {
             return connectionCount_;
@@ -72,9 +73,9 @@ namespace parking::search
             double least;      ///< that is left to the end of the path
             double cost{0.0};  ///< from its beginning, once it is closed
             bool isClosed{false};
-            std::size_t from{0};       ///< the place before
-            std::size_t curve{ALONG};  ///< by which curve
-            PathPiece last{};          ///< of that
+            std::size_t from{0};          ///< the place before
+            std::size_t curve{NO_CURVE};  ///< by which curve
+            PathPiece last{};             ///< of that
         };
 
         /** A way from one place to another. */
@@ -102,7 +103,7 @@ namespace parking::search
             std::size_t curve;
         };
 
-        static constexpr std::size_t ALONG = static_cast<std::size_t>(-1);  // not by a curve: along the path
+        static constexpr std::size_t NO_CURVE = static_cast<std::size_t>(-1);  // along the path, or none chosen yet
 
         bool isTurned(std::size_t place) const
         {

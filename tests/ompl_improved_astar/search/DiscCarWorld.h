@@ -37,6 +37,8 @@ namespace parking_test
         bool tellsRoom{true};
         bool acceptsPaths{true};
         std::uint64_t questions{0};
+        std::uint64_t lengthsAsked{0};  ///< of the questions, those about motions
+        mutable std::uint64_t turnsAsked{0};
         std::uint64_t pathsAsked{0};
         std::uint64_t roomsAsked{0};
 
@@ -74,6 +76,7 @@ namespace parking_test
         double freeLength(const parking::Pose &from, double curvature, double length) override
         {
             ++questions;
+            ++lengthsAsked;
             const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
             double farthest = 0.0;
             for (const double offset : offsets)
@@ -93,6 +96,12 @@ namespace parking_test
         bool isMotionFree(const parking::Pose & /*from*/, const parking::Pose &to) override
         {
             return isFree(to);  // cars do not ask
+        }
+
+        parking::Pose turnedRound(const parking::Pose &pose) const override
+        {
+            ++turnsAsked;
+            return MotionEnvironment::turnedRound(pose);
         }
 
         double roomAt(double x, double y) override

@@ -122,6 +122,27 @@ TEST(PathTurner, takesOnlyWhatCostsLess)
     EXPECT_TRUE(isSamePath(other, before));
 }
 
+/** What is near to an obstacle is priced where it is, not spread over the pieces of the path. */
+TEST(PathTurner, reckonsWhatAPathCostsForBeingNearToObstacles)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    DiscCarWorld world = laneBetweenRooms();
+    CostModel cost = model();
+    cost.preferredClearance = 0.5;
+    cost.clearanceCost = 2.0;
+    cost.reversePenalty = 0.5;
+    const Path before = turnAndReverse(10);
+    PathTurner turner(world, curves, cost, SearchTuning());
+    Path path = before;
+    ASSERT_TRUE(turner.pass(path, pathCost(cost, before, world), nullptr));
+    const double cheaper = pathCost(cost, path, world);
+    ASSERT_GT(pathCloseness(cost, path, world), 10.0);
+    Path same = before, other = before;
+    // Where pieces are cut their samples are others; there are 25 cm between these.
+    EXPECT_TRUE(turner.pass(same, cheaper + 2.0, nullptr));
+    EXPECT_FALSE(turner.pass(other, cheaper - 2.0, nullptr));
+}
+
 TEST(PathTurner, endsWhenItIsStoppedOrThePathIsNotAccepted)
 {
     const ReedsShepp curves(TURNING_RADIUS);
@@ -132,10 +153,11 @@ TEST(PathTurner, endsWhenItIsStoppedOrThePathIsNotAccepted)
     const double cost = pathCost(model(), before, world);
     Path path = before;
     PathTurner turner(world, curves, model(), SearchTuning());
-    EXPECT_FALSE(turner.pass(path, cost, nullptr));
+    std::uint64_t asked = 0;
+    EXPECT_FALSE(turner.pass(path, cost, [&asked] { return ++asked == 0; }));
     EXPECT_TRUE(isSamePath(path, before));
-    const std::uint64_t whole = turner.connections();
-    for (std::uint64_t calls = 0; calls < whole; calls += 5)
+    EXPECT_LE(turner.connections(), asked);
+    for (std::uint64_t calls = 0; calls < asked; calls += 5)
     {
         DiscCarWorld open = plain;
         PathTurner stopped(open, curves, model(), SearchTuning());
@@ -146,20 +168,37 @@ TEST(PathTurner, endsWhenItIsStoppedOrThePathIsNotAccepted)
     }
 }
 
+/** With a limit between none and enough it may know a way to the end when it is reached, and then takes it. */
 TEST(PathTurner, triesNoMoreCurvesThanItMay)
 {
     const ReedsShepp curves(TURNING_RADIUS);
-    DiscCarWorld world = laneBetweenRooms();
     const Path before = turnAndReverse(10);
-    SearchTuning tuning;
-    tuning.mostTurnCurves = 0;
-    Path path = before;
-    PathTurner turner(world, curves, model(), tuning);
-    const std::uint64_t asked = world.questions;
-    EXPECT_FALSE(turner.pass(path, pathCost(model(), before, world), nullptr));
-    EXPECT_TRUE(isSamePath(path, before));
-    // Only turned knots were looked at, no curve was swept.
-    EXPECT_LE(world.questions, asked + tuning.turnKnots + 1);
+    std::size_t turned = 0, left = 0;
+    std::uint64_t most = 0;
+    for (std::size_t curvesAtMost = 0; curvesAtMost <= 100; ++curvesAtMost)
+    {
+        SCOPED_TRACE(curvesAtMost);
+        DiscCarWorld world = laneBetweenRooms();
+        SearchTuning tuning;
+        tuning.mostTurnCurves = curvesAtMost;
+        Path path = before;
+        PathTurner turner(world, curves, model(), tuning);
+        const double cost = pathCost(model(), before, world);
+        const bool isTurned = turner.pass(path, cost, nullptr);
+        ASSERT_LE(turner.connections(), curvesAtMost);
+        most = std::max(most, turner.connections());
+        ASSERT_EQ(faultOf(path, world, {before.start}, {before.end()}, TURNING_RADIUS), "");
+        ASSERT_EQ(isSamePath(path, before), !isTurned);
+        ASSERT_TRUE(!isTurned || pathCost(model(), path, world) < cost);
+        ++(isTurned ? turned : left);
+        if (curvesAtMost == 0)
+        {
+            EXPECT_EQ(world.lengthsAsked, 0U);
+        }
+    }
+    EXPECT_GT(turned, 10U);
+    EXPECT_GT(left, 1U);
+    EXPECT_GT(most, 5U);
 }
 
 TEST(PathTurner, staysDrivableInAnyWorld)
@@ -173,15 +212,17 @@ TEST(PathTurner, staysDrivableInAnyWorld)
         const Path before = plannedPath(problem);
         if (before.cusps() == 0)
             continue;
-        const double cost = pathCost(model(), before, problem.world);
+        CostModel prices = model();
+        prices.reversePenalty = seed % 2 == 0 ? 0.0 : 0.4;
+        const double cost = pathCost(prices, before, problem.world);
         Path path = before, again = before;
-        const bool isTurned = PathTurner(problem.world, curves, model(), SearchTuning()).pass(path, cost, nullptr);
-        ASSERT_EQ(PathTurner(problem.world, curves, model(), SearchTuning()).pass(again, cost, nullptr), isTurned);
+        const bool isTurned = PathTurner(problem.world, curves, prices, SearchTuning()).pass(path, cost, nullptr);
+        ASSERT_EQ(PathTurner(problem.world, curves, prices, SearchTuning()).pass(again, cost, nullptr), isTurned);
         ASSERT_TRUE(isSamePath(path, again));
         if (isTurned)
         {
             ASSERT_EQ(faultOf(path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
-            ASSERT_LT(pathCost(model(), path, problem.world), cost + 1e-9);
+            ASSERT_LT(pathCost(prices, path, problem.world), cost + 1e-9);
         }
         else
         {
