@@ -94,6 +94,12 @@ namespace parking::search
            most, growing included. */
         std::size_t memory() const;
 
+        /** \brief Changes SearchParameters::maxMemory. */
+        void setMaxMemory(std::size_t bytes)
+        {
+            parameters_.maxMemory = bytes;
+        }
+
         /** \brief Has it stopped since it would take more than SearchParameters::maxMemory? */
         bool isFull() const
         {

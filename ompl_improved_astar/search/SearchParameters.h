@@ -5,6 +5,7 @@
 #include "ompl_improved_astar/search/SearchTuning.h"
 #include "parking_geometry/Box.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -24,6 +25,16 @@ namespace parking::search
         double at(double distance) const
         {
             return (distance > nearDistance ? far : near) + tieBreak;
+        }
+
+        /** \brief Both times \e factor, but weights above 1 no lower than 1, and others as they are. */
+        HeuristicWeights lowered(double factor) const
+        {
+            const auto lower = [factor](double weight)
+            {
+                return weight > 1.0 ? std::max(1.0, factor * weight) : weight;
+            };
+            return {lower(far), lower(near), nearDistance, tieBreak};
         }
     };
 

@@ -131,11 +131,11 @@ namespace parking::search
             Chosen by hand on random queries with seeds tuneX9, tuneF1 and tuneG1, and on the 62 problems.
             @{ */
         double dearTurns{1.15};       ///< a path with cusps that costs more than this times what it promised is tried
-        std::size_t turnKnots{40};    ///< of these no more parts than so many,
-        double turnKnotSpacing{1.0};  ///< and none shorter
+        std::size_t turnKnots{40};    ///< it is cut into no more parts than so many,
+        double turnKnotSpacing{1.0};  ///< about this long on short paths
         double turnReach{4.0};        ///< from where the car begins to turn round to where it has
         std::size_t turnSpan{3};      ///< parts that are driven the other way by one curve
-        std::size_t mostTurnCurves{300};  ///< that are tried, from pose to pose
+        std::size_t mostTurnCurves{300};  ///< pairs of poses between which curves are swept
         /** @} */
 
         /** \name Leading what was found past obstacles that it comes too near to
@@ -156,6 +156,18 @@ namespace parking::search
         double weightDecay{0.8};                ///< factor on the weights from round to round, down to 1
         std::uint64_t shorteningsPerRound{3};   ///< passes, each with other knots
         std::uint64_t leastRounds{50};          ///< before a search that finds nothing more may end
+        /** @} */
+
+        /** \name Beginning anew meanwhile, for as many expansions in each round
+
+            Chosen by hand on random queries with seeds tuneX11 and tuneF3, and on the 62 problems.
+            @{ */
+        double firstRestart{150.0};        ///< expansions of the first of these searches,
+        double longerRestarts{1.3};        ///< factor on them from search to search,
+        double mostOfRestart{1e6};         ///< up to so many
+        std::size_t restartsPerRound{10};  ///< that begin, and no more
+        double otherMotions{0.5};          ///< motions are longer or shorter by up to this share
+        double dearerToBeShortened{1.1};   ///< factor on the cost of the best path: what costs less is shortened
         /** @} */
     };
 

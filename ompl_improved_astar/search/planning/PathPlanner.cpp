@@ -12,6 +12,7 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        constexpr std::size_t PARTS_OF_MEMORY = 4;  // of which searches that begin anew may take one
 
         /** Where a path is cut to be shortened, in units of what the spacing is given in. */
         struct Knots
@@ -36,10 +37,18 @@ namespace parking::search
         search_.begin(environment, parameters_.search);
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
+        SearchParameters forRestarts = parameters_.search;
+        forRestarts.maxMemory /= PARTS_OF_MEMORY;
+        restarts_.begin(environment, forRestarts);
+        if (parameters_.anytime)
+        {
+            parameters_.search.maxMemory -= forRestarts.maxMemory;
+            search_.setMaxMemory(parameters_.search.maxMemory);
+        }
         starts_.clear();
         bestPath_ = {};
         bestCost_ = INFINITE;
-        costOfTurned_ = INFINITE;
+        costWhenTurned_ = INFINITE;
         shortenerConnections_ = 0;
         hasRoomySearch_ = false;
         goodEnough_ = false;
@@ -89,6 +98,13 @@ namespace parking::search
         const double radius = parameters_.search.turningRadius;
         return shorten(model, path, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
                        tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
+    }
+
+    void PathPlanner::shortenTwice(Path &path, double &cost)
+    {
+        const double coarsest = path.length() / parameters_.search.tuning.mostKnots;
+        shortenWhole(path, cost, coarsest);
+        shortenByOtherKnots(search_.cost(), path, cost, coarsest);
     }
 
     bool PathPlanner::shortenBest(double spacing, double offset)
@@ -189,21 +205,21 @@ namespace parking::search
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         // What has been tried is not tried again. A car that drives forwards only has no cusps.
-        if (!(cost < costOfTurned_) || path.cusps() == 0 || isTimeUp())
+        if (!(cost < costWhenTurned_) || path.cusps() == 0 || isTimeUp())
             return false;
         PathTurner turner(*environment_, *search_.model().curves(), search_.cost(), tuning);
         Path turned = path;
         const bool isTurned = turner.pass(turned, cost, stop_);
         if (!isTimeUp())
-            costOfTurned_ = cost;
+            costWhenTurned_ = cost;
         shortenerConnections_ += turner.connections();
         if (!isTurned)
             return false;
         double costOfTurned = pathCost(search_.cost(), turned, *environment_);
-        const double coarsest = turned.length() / tuning.mostKnots;
-        shortenWhole(turned, costOfTurned, coarsest);
-        shortenByOtherKnots(search_.cost(), turned, costOfTurned, coarsest);
-        if (!(costOfTurned < cost))
+        if (!isTimeUp())
+            shortenTwice(turned, costOfTurned);
+        const std::size_t mostCusps = std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
+        if (!(costOfTurned < cost) || turned.cusps() > mostCusps)
             return false;
         path = std::move(turned);
         cost = costOfTurned;
@@ -294,12 +310,7 @@ namespace parking::search
     void PathPlanner::thinkAgain(double expected)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        const auto lower = [&tuning](double weight)
-        {
-            return weight > 1.0 ? std::max(1.0, tuning.weightsOfAfterthought * weight) : weight;
-        };
-        weights_.far = lower(weights_.far);
-        weights_.near = lower(weights_.near);
+        weights_ = weights_.lowered(tuning.weightsOfAfterthought);
         search_.setWeights(weights_);
         const double excess = search_.bestPath().length() / expected - 1.0;
         const double more = tuning.afterthought * static_cast<double>(search_.expanded()) +
@@ -307,6 +318,23 @@ namespace parking::search
         goOn(tuning.leastAfterthought + static_cast<std::uint64_t>(more));
         if (search_.bestCost() > tuning.stillDear * expected)
             goOn(tuning.secondAfterthought);
+    }
+
+    bool PathPlanner::searchAnew()
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        const double factor = parameters_.shorten ? tuning.dearerToBeShortened : 1.0;
+        const std::uint64_t end = restarts_.expanded() + tuning.expansionsPerRound;
+        bool progress = false;
+        while (!goodEnough_ && restarts_.run(stop_, end, factor * bestCost_))
+        {
+            Path path = restarts_.path();
+            double cost = restarts_.cost();
+            if (parameters_.shorten && !isTimeUp())
+                shortenTwice(path, cost);
+            progress = take(path, cost) || progress;
+        }
+        return progress;
     }
 
     PathPlanner::Outcome PathPlanner::improve()
@@ -335,11 +363,9 @@ namespace parking::search
             }
             if (searching && !goodEnough_)
             {
-                const double least = std::max(1.0, weights_.far * tuning.weightDecay);
                 if (weights_.far > 1.0 || weights_.near > 1.0)
                 {
-                    weights_.far = least;
-                    weights_.near = std::max(1.0, weights_.near * tuning.weightDecay);
+                    weights_ = weights_.lowered(tuning.weightDecay);
                     search_.setWeights(weights_);
                 }
                 const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
@@ -348,6 +374,8 @@ namespace parking::search
                     progress = take(search_.bestPath(), search_.bestCost()) || progress;
                 searching = outcome != SearchOutcome::Exhausted;
             }
+            if (!goodEnough_ && !isTimeUp())
+                progress = searchAnew() || progress;
             if (isShortestPossible(bestPath_, bestCost_) || (!searching && !progress && round_ > tuning.leastRounds))
                 return Outcome::Solved;
         }
@@ -395,6 +423,7 @@ namespace parking::search
     SearchStatistics PathPlanner::statistics() const
     {
         SearchStatistics sum = search_.statistics();
+        sum += restarts_.statistics();
         if (hasRoomySearch_)
             sum += roomySearch_->statistics();
         sum.connections += shortenerConnections_;

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
+#include "ompl_improved_astar/search/planning/Restarts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
 
 #include <cstdint>
@@ -47,12 +48,14 @@ namespace parking::search
         {
             starts_.push_back(pose);
             search_.addStart(pose);
+            restarts_.addStart(pose);
         }
 
         /** \brief The same for a goal. */
         void addGoal(const Pose &pose)
         {
             search_.addGoal(pose);
+            restarts_.addGoal(pose);
         }
 
         /** \brief Plans; may be called again to go on after Stopped or when roots were added. */
@@ -104,7 +107,7 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
         std::uint64_t expanded() const
         {
-            return search_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0);
+            return search_.expanded() + restarts_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0);
         }
 
         /** \brief What search and shortening did in this query. */
@@ -125,6 +128,7 @@ namespace parking::search
                      CurveChoice choice);
         bool shortenWhole(Path &path, double &cost, double coarsest);
         bool shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest);
+        void shortenTwice(Path &path, double &cost);
         bool shortenBest(double spacing, double offset);
         /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
         bool turnRound(Path &path, double &cost);
@@ -133,11 +137,14 @@ namespace parking::search
         bool canLeaveWithRoom(const Pose &pose);
         void findRoom(Path &best, double &cost);
         bool isShortestPossible(const Path &path, double cost) const;
+        /** Looks for something cheaper by searches that begin anew. */
+        bool searchAnew();
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};
         PathPlannerParameters parameters_;
         Search search_;
+        Restarts restarts_;
         std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
         std::optional<RoomyEnvironment> roomy_;
         std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
@@ -145,7 +152,7 @@ namespace parking::search
         std::vector<Pose> starts_;
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
-        double costOfTurned_{std::numeric_limits<double>::infinity()};  // of the path that turnRound() tried last
+        double costWhenTurned_{std::numeric_limits<double>::infinity()};  // of the path that turnRound() tried last
         std::uint64_t shortenerConnections_{0};
         StopFunction stop_;
         ImprovementFunction improved_;

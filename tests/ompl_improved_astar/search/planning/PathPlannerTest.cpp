@@ -273,6 +273,66 @@ TEST(PathPlanner, anytimeReportsFallingCostsAndKeepsTheBest)
     EXPECT_GT(improvements, 5);
 }
 
+TEST(PathPlanner, anytimeTriesToTurnEachBestPathRoundOnce)
+{
+    int tried = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 16);
+        PathPlannerParameters parameters = parametersFor(problem);
+        parameters.anytime = true;
+        PathPlanner planner;
+        problem.begin(planner, parameters);
+        std::uint64_t best = 0;
+        planner.solve([&planner, asked = 0]() mutable { return planner.expanded() > 4000 || ++asked > 300000; },
+                      [&best](const Path & /*path*/, double /*cost*/)
+                      {
+                          ++best;
+                          return false;
+                      });
+        // The first solution may be tried before it is reported, and once more when it has become another one by then.
+        ASSERT_LE(problem.world.turnsAsked, (best + 1) * (parameters.search.tuning.turnKnots + 1));
+        tried += problem.world.turnsAsked > 0 ? 1 : 0;
+    }
+    EXPECT_GT(tried, 5);
+}
+
+TEST(PathPlanner, turningRoundKeepsToTheCuspsThatAPathMayHave)
+{
+    // Found among 6,000 of these problems: with cusps for nothing, turning round makes paths shorter by more of them.
+    struct Case
+    {
+        std::uint64_t seed;
+        std::uint32_t boxes;
+    };
+    int more = 0, kept = 0;
+    for (const Case &each : {Case{548, 10}, Case{482, 16}, Case{36, 24}, Case{718, 24}, Case{930, 24}})
+    {
+        SCOPED_TRACE(each.seed);
+        CarProblem problem = randomProblem(each.seed, each.boxes);
+        PathPlannerParameters parameters;
+        parameters.search = parametersIn(problem);
+        parameters.search.cost.gearChangePenalty = 0.0;
+        const auto cuspsOf = [&](double dearTurns)
+        {
+            parameters.search.tuning.dearTurns = dearTurns;
+            PathPlanner planner;
+            problem.begin(planner, parameters);
+            planner.solve(afterAsking(3000), nullptr);
+            return planner.bestPath().cusps();
+        };
+        const std::size_t cusps = cuspsOf(INFINITE);
+        more += cuspsOf(1.0) > cusps ? 1 : 0;
+        parameters.search.mostCusps = static_cast<std::uint8_t>(cusps);
+        const std::size_t before = cuspsOf(INFINITE);
+        ASSERT_LE(cuspsOf(1.0), std::max(before, cusps));
+        ++kept;
+    }
+    EXPECT_EQ(kept, 5);
+    EXPECT_GT(more, 0);
+}
+
 TEST(PathPlanner, endsWhenTheSolutionIsGoodEnough)
 {
     CarProblem problem = maze(2);
@@ -316,7 +376,7 @@ TEST(PathPlanner, theBoundHoldsForTheBestThatIsEverFound)
         parameters.anytime = true;
         PathPlanner longer;
         problem.begin(longer, parameters);
-        longer.solve(afterAsking(10000), nullptr);
+        longer.solve([&longer, asked = 0]() mutable { return longer.expanded() > 20000 || ++asked > 300000; }, nullptr);
         EXPECT_LE(cost / bound, longer.bestCost() + 1e-6);
         bounded += bound < INFINITE;
     }

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "parking_geometry/Pose.h"
+#include "parking_geometry/curves/Path.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Searches that begin anew, one after the other, each with motions of other lengths and other weights.
+
+        A search goes on in the trees that its first decisions have grown: what lies off them comes late, if at all. One
+        that begins anew is rid of them (after S. Richter, J. Thayer and W. Ruml, "The joy of forgetting: faster anytime
+        search via restarting", 2010), and one whose motions are longer or shorter sees other poses besides. Each search
+        may expand more nodes than the one before. Deterministic: equal queries, limits and expansions give equal paths.
+     */
+    class Restarts
+    {
+    public:
+        /** \brief Forgets everything; \e environment must outlive it. The searches differ from \e parameters in what
+            is said above. */
+        void begin(MotionEnvironment &environment, const SearchParameters &parameters);
+
+        /** \brief Adds a root, which must be free. The search under way, which does not know it, is ended. */
+        void addStart(const Pose &pose)
+        {
+            starts_.push_back(pose);
+            end();
+        }
+
+        /** \brief The same for a goal. */
+        void addGoal(const Pose &pose)
+        {
+            goals_.push_back(pose);
+            end();
+        }
+
+        /** \brief Goes on with the search under way and then begins others, until expanded() is that many.
+
+            \param mostCost a path that costs as much is of no use
+            \return whether there is a new path(), cheaper than those that the same search has found before; false also
+            when it is stopped, and when search after search ends early */
+        bool run(const StopFunction &stop, std::uint64_t mostExpansions, double mostCost);
+
+        /** \brief What run() has found. */
+        const Path &path() const
+        {
+            return search_->bestPath();
+        }
+
+        /** \brief What it costs. */
+        double cost() const
+        {
+            return search_->bestCost();
+        }
+
+        /** \brief Nodes expanded since begin(). */
+        std::uint64_t expanded() const
+        {
+            return ended_.expanded + (isUnderWay_ ? search_->expanded() : 0);
+        }
+
+        /** \brief What all searches did since begin(). */
+        SearchStatistics statistics() const;
+
+    private:
+        void end();
+        void beginNext(double mostCost);
+
+        MotionEnvironment *environment_{nullptr};
+        SearchParameters parameters_;
+        std::vector<Pose> starts_, goals_;
+        std::unique_ptr<Search> search_;  // made when the first begins
+        bool isUnderWay_{false};
+        HeuristicWeights weights_;  // of the search under way
+        std::uint64_t count_{0};    // of searches begun
+        std::uint64_t most_{0};     // expansions of the one under way
+        SearchStatistics ended_;    // what those before it did
+    };
+}  // namespace parking::search

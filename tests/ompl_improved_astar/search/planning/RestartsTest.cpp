@@ -1,0 +1,166 @@
+// Searches that begin anew: right and cheap enough paths, no more expansions than they may, the same in pieces.
+
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/Restarts.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    struct Found
+    {
+        double cost, length;
+        std::uint64_t expanded;
+    };
+
+    bool operator==(const Found &a, const Found &b)
+    {
+        return a.cost == b.cost && a.length == b.length && a.expanded == b.expanded;
+    }
+
+    /** Everything found with so many expansions, asked for in steps of so many; each must be right. */
+    std::vector<Found> findAll(CarProblem &problem, const SearchParameters &parameters, std::uint64_t most,
+                               std::uint64_t step, double mostCost = INFINITE)
+    {
+        Restarts restarts;
+        problem.begin(restarts, parameters);
+        std::vector<Found> found;
+        for (std::uint64_t end = step; end <= most; end += step)
+            while (restarts.run({}, end, mostCost))
+            {
+                EXPECT_EQ(faultOf(restarts.path(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+                EXPECT_NEAR(restarts.cost(), pathCost(parameters.cost, restarts.path(), problem.world), 1e-6);
+                EXPECT_LT(restarts.cost(), mostCost);
+                found.push_back({restarts.cost(), restarts.path().length(), restarts.expanded()});
+            }
+        EXPECT_LE(restarts.expanded(), most);
+        EXPECT_EQ(restarts.statistics().expanded, restarts.expanded());
+        return found;
+    }
+}  // namespace
+
+TEST(Restarts, findRightPathsOneAfterTheOtherTheSameInPieces)
+{
+    std::size_t several = 0, limited = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        const SearchParameters parameters = parametersIn(problem);
+        const std::vector<Found> whole = findAll(problem, parameters, 1200, 1200);
+        ASSERT_TRUE(findAll(problem, parameters, 1200, 1200) == whole);
+        ASSERT_TRUE(findAll(problem, parameters, 1200, 100) == whole);
+        if (whole.empty())
+            continue;
+        // Other motions lead to other paths, except where there is a single curve.
+        double least = INFINITE, most = 0.0;
+        for (const Found &each : whole)
+        {
+            least = std::min(least, each.cost);
+            most = std::max(most, each.cost);
+        }
+        several += least < most - 0.1 ? 1 : 0;
+        for (const Found &each : findAll(problem, parameters, 1200, 1200, 1.05 * least))
+            limited += each.cost < 1.05 * least ? 1 : 0;
+    }
+    EXPECT_GT(several, 20U);
+    EXPECT_GT(limited, 20U);
+}
+
+TEST(Restarts, searchTowardsRootsThatWereAdded)
+{
+    CarProblem problem{DiscCarWorld({{-20.0, -12.0}, {20.0, 12.0}}), {{-15.0, 0.0, 0.0}}, {{15.0, 0.0, 1.0}}};
+    Restarts restarts;
+    problem.begin(restarts, parametersIn(problem));
+    ASSERT_TRUE(restarts.run({}, 500, INFINITE));
+    const double cost = restarts.cost();
+    restarts.addGoal({-8.0, 0.0, 0.0});
+    ASSERT_TRUE(restarts.run({}, 1000, INFINITE));
+    EXPECT_NEAR(restarts.path().end().x, -8.0, 1e-6);
+    restarts.addStart({-9.0, 0.0, 0.0});
+    ASSERT_TRUE(restarts.run({}, 1500, INFINITE));
+    EXPECT_EQ(restarts.path().start.x, -9.0);
+    EXPECT_LT(restarts.cost(), 0.1 * cost);
+}
+
+TEST(Restarts, endWhenTheyAreStoppedOrHaveNoMemory)
+{
+    CarProblem problem = tightSlot();
+    Restarts restarts;
+    problem.begin(restarts, parametersIn(problem));
+    EXPECT_FALSE(restarts.run([] { return true; }, 100000, INFINITE));
+    EXPECT_LE(restarts.expanded(), 1U);
+    EXPECT_TRUE(restarts.run({}, 100000, INFINITE));
+    problem.begin(restarts, parametersIn(problem));
+    EXPECT_FALSE(restarts.run({}, 100000, 0.0));  // nothing is cheap enough
+    EXPECT_LE(restarts.expanded(), 100U);
+    CarProblem closed{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}};
+    closed.world.tellsRoom = false;
+    SearchParameters parameters = parametersIn(closed);
+    parameters.maxMemory = std::size_t{1} << 20;
+    closed.begin(restarts, parameters);
+    EXPECT_FALSE(restarts.run({}, 1000000, INFINITE));
+    EXPECT_GT(restarts.expanded(), 1000U);
+    EXPECT_LT(restarts.expanded(), 1000000U);
+}
+
+TEST(Restarts, letAnytimeFindCheaperPathsWithAsManyExpansions)
+{
+    double with = 0.0, without = 0.0;
+    std::size_t solved = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 16);
+        const auto cost = [&](std::size_t restartsPerRound)
+        {
+            PathPlannerParameters parameters;
+            parameters.search = parametersIn(problem);
+            parameters.search.tuning.restartsPerRound = restartsPerRound;
+            parameters.anytime = true;
+            PathPlanner planner;
+            problem.begin(planner, parameters);
+            planner.solve([&planner, asked = 0]() mutable { return planner.expanded() > 3000 || ++asked > 300000; },
+                          {});
+            if (planner.hasSolution())
+            {
+                EXPECT_EQ(faultOf(planner.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS),
+                          "");
+                EXPECT_EQ(planner.statistics().expanded, planner.expanded());
+            }
+            return planner.bestCost();
+        };
+        const double costWith = cost(SearchTuning().restartsPerRound);
+        if (costWith == INFINITE)
+            continue;
+        ++solved;
+        with += costWith;
+        without += cost(0);
+    }
+    EXPECT_GT(solved, 20U);
+    EXPECT_LT(with, 0.998 * without);
+}
+
+TEST(HeuristicWeights, areLoweredToOneAndNeverRaised)
+{
+    const HeuristicWeights given{3.0, 1.2, 7.0, 0.01};
+    const HeuristicWeights lower = given.lowered(0.5);
+    EXPECT_EQ(lower.far, 1.5);
+    EXPECT_EQ(lower.near, 1.0);
+    EXPECT_EQ(lower.nearDistance, 7.0);
+    EXPECT_EQ(lower.tieBreak, 0.01);
+    const HeuristicWeights low = HeuristicWeights{0.5, 1.0}.lowered(0.5);
+    EXPECT_EQ(low.far, 0.5);
+    EXPECT_EQ(low.near, 1.0);
+}
