@@ -124,8 +124,7 @@ namespace ompl::geometric
             query_->reason.clear();
             return report(query_->states, false);
         }
-        // Where memory is short, another search would take as much again.
-        if (parameters_.approximate && !query_->planner.search().isFull())
+        if (parameters_.approximate)
             if (const ob::PlannerStatus status = approach(ptc))
                 return status;
         return query_->outcome == PlanOutcome::Infeasible

@@ -386,8 +386,9 @@ namespace parking::search
         Search *search = &search_;
         if (search_.hasGoal() && !search_.hasSeenAllFromStart())
         {
-            // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it.
-            if (starts_.empty() || (stop && stop()))
+            // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it; but
+            // where memory is short, another search would take as much again.
+            if (starts_.empty() || search_.isFull() || (stop && stop()))
                 return search_.nearestPath(target, path);
             if (!approach_)
                 approach_ = std::make_unique<Search>();

@@ -18,7 +18,7 @@ namespace parking::search
     struct PathPlannerParameters
     {
         SearchParameters search;  ///< of the search
-        bool shorten{true};       ///< replace parts of solutions by shorter curves, where the model has curves
+        bool shorten{true};       ///< replace parts by cheaper curves and turn round elsewhere, where the model has curves
         bool anytime{false};      ///< keep improving until stopped
     };
 
@@ -64,8 +64,9 @@ namespace parking::search
         /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
             axles.
 
-            Spends what is left of the time on a search of its own, unless there is none left or everything has been
-            seen from the start: then what the frontiers have seen has to do. \return false when there is no start */
+            Spends what is left of the time on a search of its own, unless there is none left, or no memory, or
+            everything has been seen from the start: then what the frontiers have seen has to do. \return false when
+           there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         /** \brief Is there a path from a start to a goal? */

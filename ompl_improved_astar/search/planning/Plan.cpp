@@ -143,8 +143,7 @@ namespace parking::search
             result.suboptimalityBound = planner.suboptimalityBound();
             result.goal = nearest(request.goals, result.path.end());
         }
-        else if (request.parameters.approximate && !planner.search().isFull() &&
-                 planner.approximate(request.goals.front(), stop, result.path))
+        else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
         result.statistics = planner.statistics();
         result.loadingTime = planner.search().loadingTime();
