@@ -18,7 +18,7 @@ namespace parking::search
     struct PathPlannerParameters
     {
         SearchParameters search;  ///< of the search
-        bool shorten{true};       ///< replace parts by cheaper curves and turn round elsewhere, where the model has curves
+        bool shorten{true};       ///< replace parts by cheaper curves, turn round elsewhere; needs curves
         bool anytime{false};      ///< keep improving until stopped
     };
 
