@@ -176,7 +176,8 @@ namespace parking::planning
         search::PlanRequest request;
         request.starts = {task.from};
         request.goals = task.to;
-        request.car = {task.radius, false, checker.vehicle().inscribedRadius(checker.margin()), task.bounds};
+        request.car = search::carInSpace(checker.vehicle(), checker.margin(), task.bounds);
+        request.car.turningRadius = task.radius;
         request.parameters.bidirectional = task.bothSides;
         request.parameters.searchFrom = task.bothSides ? "goal" : "start";
         request.parameters.gearChangePenalty = task.gearChange;

@@ -46,14 +46,14 @@ namespace parking
                                        const Path &path, const QuickestTrajectoryOptions &options,
                                        const std::function<bool()> &interrupted)
         {
-            const Vehicle &car = checker.vehicle();
             search::PlanRequest request;
             // In reverse all the way from start to goal is forwards all the way from goal to start.
             const bool isTurned = taste.direction < 0;
             request.starts = {isTurned ? path.end() : path.start};
             request.goals = {isTurned ? path.start : path.end()};
-            request.car = {car.minTurningRadius() * taste.radius, options.forwardOnly || taste.direction != 0,
-                           car.inscribedRadius(checker.margin()), bounds};
+            request.car = search::carInSpace(checker.vehicle(), checker.margin(), bounds);
+            request.car.turningRadius *= taste.radius;
+            request.car.forwardOnly = options.forwardOnly || taste.direction != 0;
             request.parameters.gearChangePenalty = GEAR_CHANGE;
             request.parameters.reversePenalty = taste.reversePenalty;
             request.parameters.steeringChangePenalty = STEERING_CHANGE;

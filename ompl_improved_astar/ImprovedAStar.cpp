@@ -143,13 +143,14 @@ namespace ompl::geometric
         car.turningRadius = radius;
         car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
         car.bounds = bounds;
-        car.inscribedRadius = 0.0;
+        car.inscribedRadius = car.bodyRadius = 0.0;
         query_->turnsOnTheSpot = parking::search::turnsOnTheSpot(parameters_.motionModel);
         parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();
         if (footprint && !query_->turnsOnTheSpot)
         {
             const parking::FootprintChecker &checker = footprint->footprint();
             car.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
+            car.bodyRadius = checker.vehicle().bodyRadius(checker.margin());
             // The motion validator has the last word unless it asks the same questions of the same checker.
             const auto *validator = exactly<parking::SweptMotionValidator>(query_->validator);
             const bool swept = !query_->isPlain() && parameters_.steeringAngles == 3 && validator != nullptr &&

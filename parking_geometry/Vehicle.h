@@ -46,6 +46,13 @@ namespace parking
             return margin + std::min({0.5 * width, rearOverhang, wheelbase + frontOverhang});
         }
 
+        /** \brief Radius of the largest circle that lies within the body wherever its centre is, enlarged likewise: no
+            gap that the car drives through is narrower than twice this. */
+        double bodyRadius(double margin = 0.0) const
+        {
+            return margin + 0.5 * std::min(width, length());
+        }
+
         /** \brief Of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle). */
         double minTurningRadius() const;
 

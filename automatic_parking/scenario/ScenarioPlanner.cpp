@@ -69,11 +69,10 @@ namespace parking
         search::PlanRequest request;
         request.starts = {scenario_.start};
         request.goals = scenario_.goals;
-        request.car.turningRadius = scenario_.vehicle.minTurningRadius();
-        request.car.bounds = scenario_.bounds;
+        request.car = search::carInSpace(scenario_.vehicle, 0.0, scenario_.bounds);
         request.parameters = parameters;
-        if (!search::turnsOnTheSpot(parameters.motionModel))
-            request.car.inscribedRadius = scenario_.vehicle.inscribedRadius();
+        if (search::turnsOnTheSpot(parameters.motionModel))
+            request.car.inscribedRadius = request.car.bodyRadius = 0.0;
         return request;
     }
 

@@ -173,8 +173,7 @@ namespace parking
         request.goals = {to};
         request.parameters = query.settings.parameters;
         request.parameters.approximate = query.settings.allowApproximate && isLast;
-        request.car = {query.settings.vehicle.minTurningRadius(), false,
-                       query.settings.vehicle.inscribedRadius(query.settings.margin), query.bounds};
+        request.car = search::carInSpace(query.settings.vehicle, query.settings.margin, query.bounds);
         // Once here, since what is found at once is found without asking.
         bool cancelled = query.cancelled && query.cancelled();
         request.stop = [&]

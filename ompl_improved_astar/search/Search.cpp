@@ -66,6 +66,7 @@ namespace parking::search
         queueInTurn_ = 0;
         turnEnds_ = false;
         full_ = false;
+        looks_ = 0;
         loadingTime_ = 0.0;
         statistics_ = {};
         endDetours();

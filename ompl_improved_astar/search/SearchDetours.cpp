@@ -72,11 +72,11 @@ namespace parking::search
         if (detours_.size() <= number)
             detours_.push_back(std::make_unique<Detour>());
         const Guides &guides = this->guides(confined_);
-        const double inscribed = parameters_.inscribedRadius;
+        const double inscribed = parameters_.inscribedRadius, body = std::max(inscribed, parameters_.bodyRadius);
         const DetourDisc &disc = tuning.detours[number];
         Detour &detour = *detours_[number];
         detour.way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
-                         {inscribed, disc.wide * inscribed, disc.dear}, tuning.mostDetourCells);
+                         {inscribed, body + disc.wider * parameters_.turningRadius, disc.dear}, tuning.mostDetourCells);
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);

@@ -54,6 +54,7 @@ namespace parking::search
         double xyResolution{0.0};             ///< metres, side of a cell; 0: the motion model chooses
         unsigned int headingBins{72};         ///< cells of heading for steps of one metre
         double inscribedRadius{0.0};          ///< metres: no obstacle can be nearer to the rear axle than this
+        double bodyRadius{0.0};               ///< metres, of the largest disc within the car; at least the one above
         Box bounds;                           ///< what the grids search, and eagerObstacles looks at beforehand
         HeuristicWeights weights;             ///< how much estimates count
         bool bidirectional{true};             ///< search from the goal and the start; otherwise from one side only

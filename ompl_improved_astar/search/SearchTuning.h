@@ -8,8 +8,8 @@ namespace parking::search
     /** \brief A disc by whose way a detour leads. */
     struct DetourDisc
     {
-        double wide;  ///< its radius, in inscribed radii
-        double dear;  ///< a metre where it does not fit, but the inscribed disc does, counts as so many
+        double wider;  ///< than the largest disc within the car by so much, in turning radii
+        double dear;   ///< a metre where it does not fit, but the inscribed disc does, counts as so many
     };
 
     /** \brief The constants that the search was tuned with, none of which changes what is found free.
@@ -74,10 +74,10 @@ namespace parking::search
         std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
-        DetourDisc detours[2]{{2.5, 60.0}, {1.6, 600.0}};  ///< one after the other: the first keeps to where a car can
-                                                           ///< turn, the second to where it can drive
-        std::uint64_t nextDetour{300};                     ///< expansions with the first before there is the second
-        std::uint64_t extraTurns{4};                       ///< of a queue that comes nearer than it ever was
+        DetourDisc detours[2]{{0.45, 60.0}, {0.17, 600.0}};  ///< one after the other: the first keeps to where a car
+                                                             ///< can turn, the second to where it can drive
+        std::uint64_t nextDetour{300};                       ///< expansions with the first before there is the second
+        std::uint64_t extraTurns{4};                         ///< of a queue that comes nearer than it ever was
         double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:
@@ -165,7 +165,8 @@ namespace parking::search
         double firstRestart{150.0};        ///< expansions of the first of these searches,
         double longerRestarts{1.3};        ///< factor on them from search to search,
         double mostOfRestart{1e6};         ///< up to so many
-        std::size_t restartsPerRound{10};  ///< that begin, and no more
+        std::size_t restartsPerRound{10};  ///< no more searches than so many begin
+        double memoryOfRestarts{0.25};     ///< share of the memory that one may take
         double otherMotions{0.5};          ///< motions are longer or shorter by up to this share
         double dearerToBeShortened{1.1};   ///< factor on the cost of the best path: what costs less is shortened
         /** @} */

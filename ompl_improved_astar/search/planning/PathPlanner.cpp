@@ -12,7 +12,6 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr std::size_t PARTS_OF_MEMORY = 4;  // of which searches that begin anew may take one
 
         /** Where a path is cut to be shortened, in units of what the spacing is given in. */
         struct Knots
@@ -37,14 +36,7 @@ namespace parking::search
         search_.begin(environment, parameters_.search);
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
-        SearchParameters forRestarts = parameters_.search;
-        forRestarts.maxMemory /= PARTS_OF_MEMORY;
-        restarts_.begin(environment, forRestarts);
-        if (parameters_.anytime)
-        {
-            parameters_.search.maxMemory -= forRestarts.maxMemory;
-            search_.setMaxMemory(parameters_.search.maxMemory);
-        }
+        restarts_.begin(environment, parameters_.search);
         starts_.clear();
         bestPath_ = {};
         bestCost_ = INFINITE;
@@ -324,9 +316,10 @@ namespace parking::search
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         const double factor = parameters_.shorten ? tuning.dearerToBeShortened : 1.0;
-        const std::uint64_t end = restarts_.expanded() + tuning.expansionsPerRound;
+        const std::uint64_t expansions = restarts_.expanded() + tuning.expansionsPerRound;
+        const std::uint64_t searches = restarts_.searches() + tuning.restartsPerRound;
         bool progress = false;
-        while (!goodEnough_ && restarts_.run(stop_, end, factor * bestCost_))
+        while (!goodEnough_ && restarts_.run(stop_, expansions, searches, factor * bestCost_))
         {
             Path path = restarts_.path();
             double cost = restarts_.cost();
@@ -342,6 +335,11 @@ namespace parking::search
         const SearchTuning &tuning = parameters_.search.tuning;
         bool searching = true;
         const double radius = parameters_.search.turningRadius;
+        // From now on there are two searches that take memory.
+        const std::size_t memory = parameters_.search.maxMemory;
+        const auto share = static_cast<std::size_t>(tuning.memoryOfRestarts * static_cast<double>(memory));
+        restarts_.setMaxMemory(std::min(share, memory - std::min(memory, search_.memory())));
+        search_.setMaxMemory(memory - share);
         for (;; ++round_)
         {
             if (goodEnough_)

@@ -31,6 +31,16 @@ namespace parking::search
         }
     }  // namespace
 
+    CarInSpace carInSpace(const Vehicle &vehicle, double margin, const Box &bounds)
+    {
+        CarInSpace car;
+        car.turningRadius = vehicle.minTurningRadius();
+        car.inscribedRadius = vehicle.inscribedRadius(margin);
+        car.bodyRadius = vehicle.bodyRadius(margin);
+        car.bounds = bounds;
+        return car;
+    }
+
     PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car)
     {
         PathPlannerParameters result;
@@ -44,6 +54,7 @@ namespace parking::search
         search.forwardOnly = car.forwardOnly;
         search.mostCusps = car.mostCusps;
         search.inscribedRadius = car.inscribedRadius;
+        search.bodyRadius = car.bodyRadius;
         search.bounds = car.bounds;
         search.steeringAngles = parameters.steeringAngles;
         search.xyResolution = parameters.xyResolution;

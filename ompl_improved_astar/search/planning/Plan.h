@@ -25,7 +25,13 @@ namespace parking::search
         Box bounds;                   ///< of the rear axle's positions
         /** Changes of direction that a path may have. Shortening adds some where they are worth their cost. */
         std::uint8_t mostCusps{ANY_CUSPS};
+        /** Metres, of the largest disc within the car wherever its centre is: how wide a gap must be. Only guides the
+            search; 0: as inscribedRadius. */
+        double bodyRadius{0.0};
     };
+
+    /** \brief What a vehicle that keeps \e margin metres to all sides is to the search, at its sharpest turn. */
+    CarInSpace carInSpace(const Vehicle &vehicle, double margin, const Box &bounds);
 
     /** \brief What PathPlanner goes by, from the user's parameters and the car. */
     PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car);

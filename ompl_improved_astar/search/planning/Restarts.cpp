@@ -11,6 +11,8 @@ namespace parking::search
             unreasonable effectiveness of quasirandom sequences", 2018). */
         constexpr double STEPS[3]{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
 
+        constexpr std::uint64_t NEVER = std::uint64_t{1} << 62;  // expansions
+
         double fraction(std::uint64_t number, std::size_t dimension)
         {
             return std::fmod(0.5 + STEPS[dimension] * static_cast<double>(number), 1.0);
@@ -29,7 +31,7 @@ namespace parking::search
         starts_.clear();
         goals_.clear();
         isUnderWay_ = false;
-        count_ = 0;
+        searches_ = 0;
         ended_ = {};
     }
 
@@ -40,43 +42,52 @@ namespace parking::search
         isUnderWay_ = false;
     }
 
-    void Restarts::beginNext(double mostCost)
+    bool Restarts::beginNext(const StopFunction &stop, double mostCost)
     {
         if (!search_)
             search_ = std::make_unique<Search>();
         const SearchTuning &tuning = parameters_.tuning;
         SearchParameters parameters = parameters_;
         parameters.eagerObstacles = false;
-        ++count_;
-        const double longer = between(1.0 - tuning.otherMotions, 1.0 + tuning.otherMotions, fraction(count_, 0));
+        // A way is known: that there is none need not be proven.
+        parameters.tuning.enclosureAfter = NEVER;
+        const std::uint64_t number = searches_ + 1;
+        const double longer = between(1.0 - tuning.otherMotions, 1.0 + tuning.otherMotions, fraction(number, 0));
         parameters.tuning.coarsestStep *= longer;
         parameters.tuning.reach *= longer;
-        const auto weight = [this](double given)
+        const auto weight = [number](double given)
         {
-            return given > 1.0 ? between(1.0, given, fraction(count_, 1)) : given;
+            return given > 1.0 ? between(1.0, given, fraction(number, 1)) : given;
         };
         parameters.weights.far = weight(parameters_.weights.far);
         parameters.weights.near = weight(parameters_.weights.near);
         weights_ = parameters.weights;
-        parameters.spreadOut = parameters_.spreadOut && fraction(count_, 2) < 0.5;
+        parameters.spreadOut = parameters_.spreadOut && fraction(number, 2) < 0.5;
         search_->begin(*environment_, parameters);
         search_->setCostBound(mostCost);
         for (const Pose &start : starts_)
             search_->addStart(start);
         for (const Pose &goal : goals_)
+        {
+            // Each is joined with all starts.
+            if (stop && stop())
+                return false;
             search_->addGoal(goal);
+        }
         most_ = static_cast<std::uint64_t>(
-            std::min(tuning.mostOfRestart, tuning.firstRestart * std::pow(tuning.longerRestarts, count_ - 1.0)));
+            std::min(tuning.mostOfRestart, tuning.firstRestart * std::pow(tuning.longerRestarts, searches_)));
+        ++searches_;
         isUnderWay_ = true;
+        return true;
     }
 
-    bool Restarts::run(const StopFunction &stop, std::uint64_t mostExpansions, double mostCost)
+    bool Restarts::run(const StopFunction &stop, std::uint64_t mostExpansions, std::uint64_t mostSearches,
+                       double mostCost)
     {
-        // Searches that hardly get anywhere must not keep the others waiting.
-        for (std::size_t k = 0; k < parameters_.tuning.restartsPerRound && expanded() < mostExpansions; ++k)
+        while (expanded() < mostExpansions)
         {
-            if (!isUnderWay_)
-                beginNext(mostCost);
+            if (!isUnderWay_ && (searches_ >= mostSearches || !beginNext(stop, mostCost)))
+                return false;
             search_->setCostBound(mostCost);
             const std::uint64_t left = mostExpansions - expanded();
             const SearchOutcome outcome = search_->run(stop, std::min(most_, search_->expanded() + left));

@@ -6,6 +6,7 @@
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -22,9 +23,15 @@ namespace parking::search
     class Restarts
     {
     public:
-        /** \brief Forgets everything; \e environment must outlive it. The searches differ from \e parameters in what
-            is said above. */
+        /** \brief Forgets everything; \e environment must outlive it. The searches go by \e parameters but for what is
+            said above; every other one does not spread out, and none loads obstacles beforehand. */
         void begin(MotionEnvironment &environment, const SearchParameters &parameters);
+
+        /** \brief Changes SearchParameters::maxMemory of those that are yet to begin. */
+        void setMaxMemory(std::size_t bytes)
+        {
+            parameters_.maxMemory = bytes;
+        }
 
         /** \brief Adds a root, which must be free. The search under way, which does not know it, is ended. */
         void addStart(const Pose &pose)
@@ -40,12 +47,13 @@ namespace parking::search
             end();
         }
 
-        /** \brief Goes on with the search under way and then begins others, until expanded() is that many.
+        /** \brief Goes on with the search under way and then begins others, until expanded() or searches() is that
+           many.
 
             \param mostCost a path that costs as much is of no use
             \return whether there is a new path(), cheaper than those that the same search has found before; false also
-            when it is stopped, and when search after search ends early */
-        bool run(const StopFunction &stop, std::uint64_t mostExpansions, double mostCost);
+            when it is stopped */
+        bool run(const StopFunction &stop, std::uint64_t mostExpansions, std::uint64_t mostSearches, double mostCost);
 
         /** \brief What run() has found. */
         const Path &path() const
@@ -65,12 +73,18 @@ namespace parking::search
             return ended_.expanded + (isUnderWay_ ? search_->expanded() : 0);
         }
 
+        /** \brief Searches begun since begin(). */
+        std::uint64_t searches() const
+        {
+            return searches_;
+        }
+
         /** \brief What all searches did since begin(). */
         SearchStatistics statistics() const;
 
     private:
         void end();
-        void beginNext(double mostCost);
+        bool beginNext(const StopFunction &stop, double mostCost);
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
@@ -78,8 +92,8 @@ namespace parking::search
         std::unique_ptr<Search> search_;  // made when the first begins
         bool isUnderWay_{false};
         HeuristicWeights weights_;  // of the search under way
-        std::uint64_t count_{0};    // of searches begun
-        std::uint64_t most_{0};     // expansions of the one under way
-        SearchStatistics ended_;    // what those before it did
+        std::uint64_t searches_{0};
+        std::uint64_t most_{0};   // expansions of the one under way
+        SearchStatistics ended_;  // what those before it did
     };
 }  // namespace parking::search

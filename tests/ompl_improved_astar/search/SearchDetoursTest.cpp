@@ -32,6 +32,7 @@ namespace
         double depth{4.0};  // metres: from its middle to the aisle
         double aisle{5.5};  // metres: its width
         double lane{3.0};   // metres from the row: where the car stands in the aisle
+        double gap{2.05};   // metres between the cars
 
         Eigen::Vector2d halfWorld() const
         {
@@ -47,7 +48,7 @@ namespace
         const Eigen::Vector2d half = row.halfWorld();
         const double lane = row.depth + row.lane;
         CarProblem problem{DiscCarWorld({-half, half}), {{startX, -lane, 0.0}}, {{-10.0, lane, PI}}};
-        for (double x = -half.x(); x < half.x() - 7.0; x += 4.0)
+        for (double x = -half.x(); x < half.x() - 7.0; x += 1.95 + row.gap)
             problem.world.boxes.push_back({{x, -row.depth}, {x + 1.95, row.depth}});
         return problem;
     }
@@ -67,7 +68,8 @@ namespace
     Counts searched(Search &search, CarProblem &problem, bool detours, const Eigen::Vector2d &half,
                     SearchParameters parameters)
     {
-        parameters.inscribedRadius = problem.world.radius;
+        if (parameters.inscribedRadius == 0.0)
+            parameters.inscribedRadius = problem.world.radius;
         parameters.detours = detours;
         parameters.bounds = {-half, half};
         problem.begin(search, parameters);
@@ -175,7 +177,7 @@ TEST(SearchDetours, aSecondOneKeepsOutOfWhatTheFirstDoesNot)
 TEST(SearchDetours, theSecondOneFindsAislesThatAreNarrowToo)
 {
     SearchParameters bothWide = trapParameters();
-    bothWide.tuning.detours[1].wide = bothWide.tuning.detours[0].wide;
+    bothWide.tuning.detours[1].wider = bothWide.tuning.detours[0].wider;
     const Row row{80.0, 4.0, 4.2, 2.1};
     std::uint64_t with = 0, withoutSecond = 0;
     for (const double startX : PLACES)
@@ -188,6 +190,32 @@ TEST(SearchDetours, theSecondOneFindsAislesThatAreNarrowToo)
         withoutSecond += searched(rowOfCars(row, startX), true, row.halfWorld(), bothWide).expanded;
     }
     EXPECT_GT(withoutSecond, 5 * with);
+}
+
+// A short car with hardly anything behind its rear axle: a disc round that is far narrower than the car.
+TEST(SearchDetours, areAsWideAsTheCarAndNotAsWhatLiesRoundItsRearAxle)
+{
+    const Row row{60.0, 4.0, 3.7, 1.85, 2.8};
+    SearchParameters parameters = trapParameters();
+    std::uint64_t byCar = 0, byAxle = 0;
+    for (const double startX : PLACES)
+    {
+        SCOPED_TRACE(startX);
+        CarProblem problem = rowOfCars(row, startX);
+        problem.world.radius = 1.13;
+        problem.world.offsets = {0.55, 1.25, 1.95};
+        parameters.inscribedRadius = 0.58;
+        parameters.bodyRadius = problem.world.radius;
+        const Counts counts = searched(problem, true, row.halfWorld(), parameters);
+        EXPECT_TRUE(counts.solved);
+        EXPECT_LT(counts.expanded, 1500u);
+        byCar += counts.expanded;
+        parameters.bodyRadius = 0.0;
+        byAxle += searched(problem, true, row.halfWorld(), parameters).expanded;
+    }
+    EXPECT_GT(byAxle, 3 * byCar);
+    RecordProperty("byCar", static_cast<int>(byCar));
+    RecordProperty("byAxle", static_cast<int>(byAxle));
 }
 
 // Nothing of them is to be noticed before the search is stuck.

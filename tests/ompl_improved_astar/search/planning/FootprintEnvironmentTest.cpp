@@ -124,7 +124,7 @@ TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)
             PlanRequest request;
             request.starts = {{-15.0, 8.0, 0.5}};
             request.goals = {goal};
-            request.car = {vehicle.minTurningRadius(), false, vehicle.inscribedRadius(), bounds};
+            request.car = carInSpace(vehicle, 0.0, bounds);
             request.parameters.approximate = false;
             request.maxExpansions = 6000;
             const PlanResult result = plan(environment, request);

@@ -76,7 +76,9 @@ TEST(Plan, endsWhereItsMemoryEnds)
     for (const unsigned int megabytes : {16U, 32U})
     {
         request.parameters.maxMemoryMb = megabytes;
+        problem.world.questions = 0;
         const PlanResult result = plan(problem.world, request);
+        const std::uint64_t questions = problem.world.questions;
         EXPECT_EQ(result.outcome, PlanOutcome::Approximate) << "where it has got to";
         EXPECT_EQ(faultOf(result.path, problem.world, problem.starts, {result.path.end()}, TURNING_RADIUS), "");
         EXPECT_NE(result.reason.find(std::to_string(megabytes) + " MB"), std::string::npos) << result.reason;
@@ -86,8 +88,10 @@ TEST(Plan, endsWhereItsMemoryEnds)
         before = result.statistics.generated;
         PlanRequest exact = request;
         exact.parameters.approximate = false;
+        problem.world.questions = 0;
         const PlanResult none = plan(problem.world, exact);
-        EXPECT_EQ(none.statistics.generated, before) << "no other search, which would take as much memory again";
+        EXPECT_EQ(none.statistics.generated, before);
+        EXPECT_EQ(problem.world.questions, questions) << "no other search, which would take as much memory again";
         EXPECT_EQ(none.outcome, PlanOutcome::Timeout);
     }
 }
