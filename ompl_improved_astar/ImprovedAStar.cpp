@@ -140,17 +140,14 @@ namespace ompl::geometric
         query_->footprintEnvironment.reset();
 
         parking::search::CarInSpace &car = query_->car;
-        car.turningRadius = radius;
-        car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
+        car = {};
         car.bounds = bounds;
-        car.inscribedRadius = car.bodyRadius = 0.0;
         query_->turnsOnTheSpot = parking::search::turnsOnTheSpot(parameters_.motionModel);
         parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();
         if (footprint && !query_->turnsOnTheSpot)
         {
             const parking::FootprintChecker &checker = footprint->footprint();
-            car.inscribedRadius = checker.vehicle().inscribedRadius(checker.margin());
-            car.bodyRadius = checker.vehicle().bodyRadius(checker.margin());
+            car = parking::search::carInSpace(checker.vehicle(), checker.margin(), bounds);
             // The motion validator has the last word unless it asks the same questions of the same checker.
             const auto *validator = exactly<parking::SweptMotionValidator>(query_->validator);
             const bool swept = !query_->isPlain() && parameters_.steeringAngles == 3 && validator != nullptr &&
@@ -160,6 +157,9 @@ namespace ompl::geometric
                 footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
             environment = query_->footprintEnvironment.get();
         }
+        // Those of the space, which may be wider than the vehicle's.
+        car.turningRadius = radius;
+        car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
         try
         {
             query_->planner.begin(*environment, parking::search::plannerParameters(parameters_, car));

@@ -3,6 +3,7 @@
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace parking
@@ -23,6 +24,13 @@ namespace parking
                          zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres from 0.01 to 50");
         }
     }  // namespace
+
+    double Vehicle::turningLane(double margin) const
+    {
+        const double half = 0.5 * width + margin, farthest = margin + std::max(rearOverhang, wheelbase + frontOverhang);
+        const double radius = minTurningRadius();
+        return std::hypot(radius + half, farthest) - std::max(0.0, radius - half);
+    }
 
     double Vehicle::minTurningRadius() const
     {

@@ -53,6 +53,10 @@ namespace parking
             return margin + 0.5 * std::min(width, length());
         }
 
+        /** \brief Width of the lane that the body, enlarged likewise, covers while it drives in a circle at full lock.
+         */
+        double turningLane(double margin = 0.0) const;
+
         /** \brief Of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle). */
         double minTurningRadius() const;
 

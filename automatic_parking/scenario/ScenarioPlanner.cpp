@@ -72,7 +72,7 @@ namespace parking
         request.car = search::carInSpace(scenario_.vehicle, 0.0, scenario_.bounds);
         request.parameters = parameters;
         if (search::turnsOnTheSpot(parameters.motionModel))
-            request.car.inscribedRadius = request.car.bodyRadius = 0.0;
+            request.car.inscribedRadius = 0.0;  // circles, which turn on the spot
         return request;
     }
 

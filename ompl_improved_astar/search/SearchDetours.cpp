@@ -74,9 +74,11 @@ namespace parking::search
         const Guides &guides = this->guides(confined_);
         const double inscribed = parameters_.inscribedRadius, body = std::max(inscribed, parameters_.bodyRadius);
         const DetourDisc &disc = tuning.detours[number];
+        const double wide =
+            std::max(body + disc.wider * parameters_.turningRadius, disc.lanes * parameters_.turningLane);
         Detour &detour = *detours_[number];
         detour.way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
-                         {inscribed, body + disc.wider * parameters_.turningRadius, disc.dear}, tuning.mostDetourCells);
+                         {inscribed, wide, disc.dear}, tuning.mostDetourCells);
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);

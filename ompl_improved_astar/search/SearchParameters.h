@@ -55,6 +55,7 @@ namespace parking::search
         unsigned int headingBins{72};         ///< cells of heading for steps of one metre
         double inscribedRadius{0.0};          ///< metres: no obstacle can be nearer to the rear axle than this
         double bodyRadius{0.0};               ///< metres, of the largest disc within the car; at least the one above
+        double turningLane{0.0};              ///< metres, width of what the car covers at full lock; 0: unknown
         Box bounds;                           ///< what the grids search, and eagerObstacles looks at beforehand
         HeuristicWeights weights;             ///< how much estimates count
         bool bidirectional{true};             ///< search from the goal and the start; otherwise from one side only

@@ -8,7 +8,8 @@ namespace parking::search
     /** \brief A disc by whose way a detour leads. */
     struct DetourDisc
     {
-        double wider;  ///< than the largest disc within the car by so much, in turning radii
+        double wider;  ///< than the largest disc within the car by so much, in turning radii,
+        double lanes;  ///< but at least so many times as wide as the lane that the car covers at full lock
         double dear;   ///< a metre where it does not fit, but the inscribed disc does, counts as so many
     };
 
@@ -74,10 +75,11 @@ namespace parking::search
         std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
-        DetourDisc detours[2]{{0.45, 60.0}, {0.17, 600.0}};  ///< one after the other: the first keeps to where a car
-                                                             ///< can turn, the second to where it can drive
-        std::uint64_t nextDetour{300};                       ///< expansions with the first before there is the second
-        std::uint64_t extraTurns{4};                         ///< of a queue that comes nearer than it ever was
+        DetourDisc detours[2]{{0.45, 0.67, 60.0},
+                              {0.17, 0.43, 600.0}};  ///< one after the other: the first keeps to where a car
+                                                     ///< can turn, the second to where it can drive
+        std::uint64_t nextDetour{300};               ///< expansions with the first before there is the second
+        std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
         double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:

@@ -6,9 +6,11 @@
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +136,43 @@ TEST(Vehicle, FootprintHasItsCornersInOrder)
     EXPECT_TRUE(body[3].isApprox(Eigen::Vector2d(9.5, 21.0)));   // rear left
     const std::array<Eigen::Vector2d, 4> turned = car.footprint({0.0, 0.0, 0.5 * PI});
     EXPECT_TRUE(turned[1].isApprox(Eigen::Vector2d(1.0, 4.0)));
+}
+
+/** By points of the outline: what lies between them is off by less than their distance. */
+TEST(Vehicle, RoomThatTheBodyNeedsIsThatOfItsOutline)
+{
+    Vehicle tractor;  // hardly anything in front of the rear axle, which turns nearly on the spot
+    tractor.wheelbase = 0.5;
+    tractor.frontOverhang = 0.1;
+    tractor.rearOverhang = 1.0;
+    tractor.width = 0.8;
+    tractor.maxSteeringAngle = 0.9;
+    Vehicle stiff;
+    stiff.maxSteeringAngle = 0.2;
+    for (const Vehicle &vehicle : {Vehicle(), tractor, stiff})
+        for (const double margin : {0.0, 0.2})
+        {
+            SCOPED_TRACE(vehicle.width + margin);
+            const double rear = -vehicle.rearOverhang - margin, front = rear + vehicle.length() + 2.0 * margin,
+                         half = 0.5 * vehicle.width + margin, radius = vehicle.minTurningRadius();
+            const double middle = 0.5 * (rear + front);
+            double outer = 0.0, inner = 1e9, round = 1e9;
+            const int points = 4000;
+            for (int i = 0; i <= points; ++i)
+            {
+                const double x = rear + (front - rear) * i / points, y = half * (2.0 * i / points - 1.0);
+                for (const auto &[px, py] : {std::pair{x, -half}, {x, half}, {rear, y}, {front, y}})
+                {
+                    outer = std::max(outer, std::hypot(px, py - radius));
+                    inner = std::min(inner, std::hypot(px, py - radius));
+                    round = std::min(round, std::hypot(px - middle, py));
+                }
+            }
+            const bool turnsAboutItself = radius < half && rear < 0.0 && front > 0.0;
+            EXPECT_NEAR(vehicle.turningLane(margin), outer - (turnsAboutItself ? 0.0 : inner), 1e-3);
+            EXPECT_NEAR(vehicle.bodyRadius(margin), round, 1e-3);
+            EXPECT_GE(vehicle.bodyRadius(margin), vehicle.inscribedRadius(margin));
+        }
 }
 
 TEST(Vehicle, FootprintMovesRigidlyWithItsPose)

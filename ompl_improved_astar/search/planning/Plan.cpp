@@ -37,6 +37,7 @@ namespace parking::search
         car.turningRadius = vehicle.minTurningRadius();
         car.inscribedRadius = vehicle.inscribedRadius(margin);
         car.bodyRadius = vehicle.bodyRadius(margin);
+        car.turningLane = vehicle.turningLane(margin);
         car.bounds = bounds;
         return car;
     }
@@ -55,6 +56,7 @@ namespace parking::search
         search.mostCusps = car.mostCusps;
         search.inscribedRadius = car.inscribedRadius;
         search.bodyRadius = car.bodyRadius;
+        search.turningLane = car.turningLane;
         search.bounds = car.bounds;
         search.steeringAngles = parameters.steeringAngles;
         search.xyResolution = parameters.xyResolution;

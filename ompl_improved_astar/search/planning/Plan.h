@@ -28,6 +28,8 @@ namespace parking::search
         /** Metres, of the largest disc within the car wherever its centre is: how wide a gap must be. Only guides the
             search; 0: as inscribedRadius. */
         double bodyRadius{0.0};
+        /** Metres, width of the lane that the car covers at full lock. Only guides the search; 0: unknown. */
+        double turningLane{0.0};
     };
 
     /** \brief What a vehicle that keeps \e margin metres to all sides is to the search, at its sharpest turn. */
