@@ -301,35 +301,34 @@ TEST(PathPlanner, anytimeTriesToTurnEachBestPathRoundOnce)
 
 TEST(PathPlanner, turningRoundKeepsToTheCuspsThatAPathMayHave)
 {
-    // Found among 6,000 of these problems: with cusps for nothing, turning round makes paths shorter by more of them.
+    // Cusps cost nothing here. Of these problems, found among 22,500 with one to three cusps, each path would get more.
     struct Case
     {
         std::uint64_t seed;
         std::uint32_t boxes;
+        std::uint8_t mostCusps;
     };
-    int more = 0;
-    for (const Case &each : {Case{548, 10}, Case{482, 16}, Case{36, 24}, Case{718, 24}, Case{930, 24}})
+    const Case cases[]{{30, 10, 1},   {132, 10, 1},  {328, 10, 1}, {1520, 10, 1},
+                       {1654, 10, 1}, {2493, 10, 1}, {845, 16, 1}, {877, 10, 2}};
+    for (const Case &each : cases)
     {
         SCOPED_TRACE(each.seed);
         CarProblem problem = randomProblem(each.seed, each.boxes);
         PathPlannerParameters parameters;
         parameters.search = parametersIn(problem);
         parameters.search.cost.gearChangePenalty = 0.0;
+        parameters.search.mostCusps = each.mostCusps;
         const auto cuspsOf = [&](double dearTurns)
         {
             parameters.search.tuning.dearTurns = dearTurns;
             PathPlanner planner;
             problem.begin(planner, parameters);
             planner.solve(afterAsking(3000), nullptr);
+            EXPECT_TRUE(planner.hasSolution());
             return planner.bestPath().cusps();
         };
-        const std::size_t cusps = cuspsOf(INFINITE);
-        more += cuspsOf(1.0) > cusps ? 1 : 0;
-        parameters.search.mostCusps = static_cast<std::uint8_t>(cusps);
-        const std::size_t before = cuspsOf(INFINITE);
-        ASSERT_LE(cuspsOf(1.0), std::max(before, cusps));
+        ASSERT_LE(cuspsOf(1.0), std::max<std::size_t>(cuspsOf(INFINITE), each.mostCusps));
     }
-    EXPECT_GT(more, 0);
 }
 
 TEST(PathPlanner, endsWhenTheSolutionIsGoodEnough)
