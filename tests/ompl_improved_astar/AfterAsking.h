@@ -2,6 +2,8 @@
 
 #include "ompl_improved_astar/search/SearchParameters.h"
 
+#include <cstdint>
+
 namespace parking_test
 {
     /** \brief Stops what is asked for the so-many-th time and always from then on, so that a search that would never
@@ -11,6 +13,16 @@ namespace parking_test
         return [times, asked = 0]() mutable
         {
             return ++asked > times;
+        };
+    }
+
+    /** \brief Stops once \e planner, which must outlive it, has expanded more nodes than that, or as afterAsking(). */
+    template <class Planner>
+    parking::search::StopFunction afterExpanding(const Planner &planner, std::uint64_t most)
+    {
+        return [&planner, most, asked = afterAsking()]
+        {
+            return planner.expanded() > most || asked();
         };
     }
 }  // namespace parking_test

@@ -64,6 +64,8 @@ TEST(SearchSpreading, findsWhereToTurnRound)
             EXPECT_EQ(waiting(search), 0u);
             sooner += with < search.expanded() ? 1 : 0;
             later += with > search.expanded() ? 1 : 0;
+            for (const bool spreadOut : {true, false})
+                EXPECT_TRUE(isSolved(search, problem, parametersIn(problem, spreadOut), MOST_EXPANSIONS));
         }
     EXPECT_GT(sooner, 3 * later);
     EXPECT_GT(sooner, 30);

@@ -286,7 +286,7 @@ TEST(PathPlanner, anytimeTriesToTurnEachBestPathRoundOnce)
         PathPlanner planner;
         problem.begin(planner, parameters);
         std::uint64_t best = 0;
-        planner.solve([&planner, asked = 0]() mutable { return planner.expanded() > 4000 || ++asked > 300000; },
+        planner.solve(afterExpanding(planner, 4000),
                       [&best](const Path & /*path*/, double /*cost*/)
                       {
                           ++best;
@@ -374,7 +374,7 @@ TEST(PathPlanner, theBoundHoldsForTheBestThatIsEverFound)
         parameters.anytime = true;
         PathPlanner longer;
         problem.begin(longer, parameters);
-        longer.solve([&longer, asked = 0]() mutable { return longer.expanded() > 20000 || ++asked > 300000; }, nullptr);
+        longer.solve(afterExpanding(longer, 20000), nullptr);
         EXPECT_LE(cost / bound, longer.bestCost() + 1e-6);
         bounded += bound < INFINITE;
     }

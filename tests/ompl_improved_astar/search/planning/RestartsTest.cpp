@@ -137,8 +137,7 @@ TEST(Restarts, letAnytimeFindCheaperPathsWithAsManyExpansions)
             parameters.anytime = true;
             PathPlanner planner;
             problem.begin(planner, parameters);
-            planner.solve([&planner, asked = 0]() mutable { return planner.expanded() > 3000 || ++asked > 300000; },
-                          {});
+            planner.solve(afterExpanding(planner, 3000), {});
             if (planner.hasSolution())
             {
                 EXPECT_EQ(faultOf(planner.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS),
