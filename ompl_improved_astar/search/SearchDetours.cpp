@@ -42,7 +42,7 @@ namespace parking::search
             guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.detours))
             return false;
         if (detoursTaken() > 0)
-            return statistics_.expanded >= detoursSince_ + detoursTaken() * tuning.nextDetour;
+            return roomIsKnown_ && statistics_.expanded >= detoursSince_ + detoursTaken() * tuning.nextDetour;
         // A side that has run dry comes no nearer, and gets no turns any more.
         const Frontier &stuck = frontier(confined_);
         return statistics_.expanded >= tuning.leastExpansions &&
@@ -86,6 +86,8 @@ namespace parking::search
             *std::min_element(stuck.roots().begin(), stuck.roots().end(),
                               [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
         detour.root = stuck.node(nearest).pose;
+        // Else all discs take the same way.
+        roomIsKnown_ = environment_->roomAt(detour.root.x, detour.root.y) < INFINITE;
         detour.fromRoot = detour.way.distance(detour.root.x, detour.root.y);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)

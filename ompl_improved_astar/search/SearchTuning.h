@@ -42,9 +42,11 @@ namespace parking::search
 
         /** \name Way round the obstacles
             @{ */
-        double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way
-        double cellOfLongWays{1.0 / 120.0};  ///< of the straight distance; the larger of both
-        double coarsestCell{2.5};            ///< but at most so many times heuristicCell (see docs/planner.md)
+        double heuristicCell{1.0 / 6.0};     ///< side of a cell of the disc's way,
+        double cellOfBody{0.35};             ///< but at least so many times the largest disc within the car,
+        double cellOfLongWays{1.0 / 120.0};  ///< and on long ways so many times the straight distance,
+        double coarsestCell{2.5};            ///< up to so many times what it would be else (see docs/planner.md),
+        double cellOfLongest{1.0 / 1000.0};  ///< unless it is less than so many times that distance
         std::uint64_t mostCells{4000000};    ///< looked at: a world without walls must not fill the memory
         /** @} */
 
@@ -75,10 +77,11 @@ namespace parking::search
         std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
-        DetourDisc detours[2]{{0.45, 0.67, 60.0},
-                              {0.17, 0.43, 600.0}};  ///< one after the other: the first keeps to where a car
-                                                     ///< can turn, the second to where it can drive
-        std::uint64_t nextDetour{300};               ///< expansions with the first before there is the second
+        DetourDisc detours[3]{{0.45, 0.67, 60.0},
+                              {0.3, 1.0, 60.0},
+                              {0.17, 0.43, 600.0}};  ///< one after the other: the first two keep to where a car can
+                                                     ///< turn, the last to where it can drive
+        std::uint64_t nextDetour{150};               ///< expansions before there is the next
         std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
         double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at

@@ -55,11 +55,15 @@ namespace parking::search
         for (const Pose &root : query.roots)
             for (const Pose &target : query.targets)
                 farthest = std::max(farthest, positionDistance(root, target));
-        const double cell = parameters.tuning.heuristicCell * parameters.turningRadius;
+        const SearchTuning &tuning = parameters.tuning;
+        const double cell = std::max(tuning.heuristicCell * parameters.turningRadius,
+                                     tuning.cellOfBody * std::max(parameters.inscribedRadius, parameters.bodyRadius));
+        const double cellOfLongWays = std::clamp(tuning.cellOfLongWays * farthest, cell, tuning.coarsestCell * cell);
         const Pose &toward = query.roots.empty() ? query.targets.front() : query.roots.front();
-        reset(query.environment,
-              std::clamp(parameters.tuning.cellOfLongWays * farthest, cell, parameters.tuning.coarsestCell * cell),
-              disc, {toward.x, toward.y}, query.stop);
+        // Else a way of many cells would lie beyond the reach of the grid, or of mostCells, and there would be no
+        // guide.
+        reset(query.environment, std::max(cellOfLongWays, tuning.cellOfLongest * farthest), disc, {toward.x, toward.y},
+              query.stop);
         mostCells_ = mostCells;
         for (const Pose &target : query.targets)
             addTarget(target.x, target.y);

@@ -174,22 +174,22 @@ TEST(SearchDetours, aSecondOneKeepsOutOfWhatTheFirstDoesNot)
 
 // Where a disc with room to turn does not fit into the aisle either, it knows nothing better than the gaps: the way
 // through them is as dear and shorter.
-TEST(SearchDetours, theSecondOneFindsAislesThatAreNarrowToo)
+TEST(SearchDetours, narrowerOnesFindAislesThatAreNarrowToo)
 {
-    SearchParameters bothWide = trapParameters();
-    bothWide.tuning.detours[1].wider = bothWide.tuning.detours[0].wider;
+    SearchParameters allWide = trapParameters();
+    allWide.tuning.detours[2] = allWide.tuning.detours[1] = allWide.tuning.detours[0];
     const Row row{80.0, 4.0, 4.2, 2.1};
-    std::uint64_t with = 0, withoutSecond = 0;
+    std::uint64_t with = 0, withoutNarrow = 0;
     for (const double startX : PLACES)
     {
         SCOPED_TRACE(startX);
-        const Counts both = searched(rowOfCars(row, startX), true, row.halfWorld());
-        EXPECT_TRUE(both.solved);
-        EXPECT_LT(both.expanded, 1000u);
-        with += both.expanded;
-        withoutSecond += searched(rowOfCars(row, startX), true, row.halfWorld(), bothWide).expanded;
+        const Counts all = searched(rowOfCars(row, startX), true, row.halfWorld());
+        EXPECT_TRUE(all.solved);
+        EXPECT_LT(all.expanded, 1000u);
+        with += all.expanded;
+        withoutNarrow += searched(rowOfCars(row, startX), true, row.halfWorld(), allWide).expanded;
     }
-    EXPECT_GT(withoutSecond, 5 * with);
+    EXPECT_GT(withoutNarrow, 5 * with);
 }
 
 // A short car with hardly anything behind its rear axle: a disc round that is far narrower than the car.
@@ -213,7 +213,7 @@ TEST(SearchDetours, areAsWideAsTheCarAndNotAsWhatLiesRoundItsRearAxle)
         parameters.bodyRadius = 0.0;
         byAxle += searched(problem, true, row.halfWorld(), parameters).expanded;
     }
-    EXPECT_GT(byAxle, 3 * byCar);
+    EXPECT_GT(2 * byAxle, 3 * byCar);
     RecordProperty("byCar", static_cast<int>(byCar));
     RecordProperty("byAxle", static_cast<int>(byAxle));
 }

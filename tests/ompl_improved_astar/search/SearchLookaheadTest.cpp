@@ -96,6 +96,26 @@ TEST(SearchLookahead, crossesOpenWaysInAFewExpansions)
     }
 }
 
+TEST(SearchLookahead, crossesLongOpenWaysWithCarsThatNearlyTurnOnTheSpot)
+{
+    // A thousand of their turning radii: cells in proportion to these alone would be too many to find the way at all.
+    for (const double turningRadius : {0.3, 0.4})
+    {
+        SCOPED_TRACE(turningRadius);
+        CarProblem problem = lanesToDrive({3, 450.0, 30.0}, {6.0, 15.0, 0.0}, {440.0, 75.0, 0.0});
+        problem.world.radius = 0.4;
+        problem.world.offsets = {-0.6, 0.0, 0.2};
+        SearchParameters parameters = parametersIn(problem);
+        parameters.turningRadius = turningRadius;
+        parameters.bodyRadius = problem.world.radius;
+        Search search;
+        problem.begin(search, parameters);
+        search.run({}, 1000);
+        ASSERT_TRUE(search.hasSolution());
+        EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, turningRadius, false), "");
+    }
+}
+
 TEST(SearchLookahead, drivesInReverseWhereTheCarFacesAway)
 {
     const CarProblem problem = lanesToDrive({3}, PI);

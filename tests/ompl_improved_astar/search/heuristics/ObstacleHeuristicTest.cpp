@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+using parking::Pose;
 using namespace parking::search;
 using namespace parking_test;
 
@@ -438,4 +439,32 @@ TEST(ObstacleHeuristic, targetsBeyondTheGridsReachProveNothing)
     HeuristicIn heuristic(world, 0.03, {0.1}, {0.0, 0.0});
     heuristic.addTarget(500.0, 0.0);
     EXPECT_LT(heuristic.lowerBound({0.0, 0.0, 0.0}), 500.0) << "infinite would say that there is no way";
+}
+
+TEST(ObstacleHeuristic, knowsWaysOfManyHundredMetresOfSmallCarsToo)
+{
+    constexpr double LENGTH = 900.0, WALL = 440.0, GAP = 8.0;
+    const Pose from{10.0, 10.0, 0.0}, to{LENGTH - 10.0, 10.0, 0.0};
+    const std::vector<Pose> roots{from}, targets{to};
+    const StopFunction never;
+    for (const double turningRadius : {0.1, 0.4, 1.0, 3.0, 10.0})
+        for (const double body : {0.0, 0.4})
+        {
+            SCOPED_TRACE(turningRadius);
+            SCOPED_TRACE(body);
+            DiscCarWorld world({{0.0, 0.0}, {LENGTH, 80.0}}, {{{WALL, 0.0}, {WALL + 1.0, 80.0 - GAP}}});
+            SearchParameters parameters;
+            parameters.turningRadius = turningRadius;
+            parameters.inscribedRadius = 0.2;
+            parameters.bodyRadius = body;
+            parameters.bounds = world.inside;
+            ObstacleHeuristic heuristic;
+            heuristic.begin({world, parameters, Side::Start, roots, targets, never});
+            const double through = 80.0 - GAP - from.y;
+            const double shortest = std::hypot(WALL - from.x, through) + std::hypot(to.x - WALL, through);
+            const double way = heuristic.distance(from.x, from.y);
+            EXPECT_GT(way, 0.98 * shortest);
+            EXPECT_LT(way, 1.09 * shortest) << "the eight directions add 8.3 % at most";
+            EXPECT_LT(heuristic.cells(), parameters.tuning.mostCells / 10);
+        }
 }
