@@ -22,6 +22,7 @@ namespace parking::search
         environment_ = &environment;
         parameters_ = parameters;
         parameters_.cost.fullLockCurvature = 1.0 / parameters.turningRadius;
+        parameters_.bodyRadius = std::max(parameters.bodyRadius, parameters.inscribedRadius);
         // Made anew only when they are others: models and heuristics keep their memory.
         if (!model_ || modelName_ != parameters.motionModel)
             model_ = motionModels().make(parameters.motionModel);

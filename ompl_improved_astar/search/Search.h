@@ -376,7 +376,6 @@ namespace parking::search
         std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
-        bool roomIsKnown_{false};                       // where the newest detour begins
         Side explored_{Side::Goal};                     // the frontier that was explored last
         std::vector<Successor> motions_;                // towards a pose, one after the other
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed

@@ -41,8 +41,13 @@ namespace parking::search
         if (!parameters_.detours || !traits_.joinsAfar || hasTarget_ || hasSolution() ||
             guides(confined_).targets.empty() || detoursTaken() == std::size(tuning.detours))
             return false;
-        if (detoursTaken() > 0)
-            return roomIsKnown_ && statistics_.expanded >= detoursSince_ + detoursTaken() * tuning.nextDetour;
+        if (const std::size_t taken = detoursTaken(); taken > 0)
+        {
+            // Where nothing is known of the room, all discs take the same way.
+            const Pose &root = detours_[taken - 1]->root;
+            return statistics_.expanded >= detoursSince_ + taken * tuning.nextDetour &&
+                   environment_->roomAt(root.x, root.y) < INFINITE;
+        }
         // A side that has run dry comes no nearer, and gets no turns any more.
         const Frontier &stuck = frontier(confined_);
         return statistics_.expanded >= tuning.leastExpansions &&
@@ -72,13 +77,12 @@ namespace parking::search
         if (detours_.size() <= number)
             detours_.push_back(std::make_unique<Detour>());
         const Guides &guides = this->guides(confined_);
-        const double inscribed = parameters_.inscribedRadius, body = std::max(inscribed, parameters_.bodyRadius);
         const DetourDisc &disc = tuning.detours[number];
-        const double wide =
-            std::max(body + disc.wider * parameters_.turningRadius, disc.lanes * parameters_.turningLane);
+        const double wide = std::max(parameters_.bodyRadius + disc.wider * parameters_.turningRadius,
+                                     disc.lanes * parameters_.turningLane);
         Detour &detour = *detours_[number];
         detour.way.begin({*environment_, parameters_, confined_, guides.roots, guides.targets, stop_},
-                         {inscribed, wide, disc.dear}, tuning.mostDetourCells);
+                         {parameters_.inscribedRadius, wide, disc.dear}, tuning.mostDetourCells);
         detour.best = NO_NODE;
         detour.nearest = INFINITE;
         Frontier &stuck = frontier(confined_);
@@ -86,8 +90,6 @@ namespace parking::search
             *std::min_element(stuck.roots().begin(), stuck.roots().end(),
                               [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
         detour.root = stuck.node(nearest).pose;
-        // Else all discs take the same way.
-        roomIsKnown_ = environment_->roomAt(detour.root.x, detour.root.y) < INFINITE;
         detour.fromRoot = detour.way.distance(detour.root.x, detour.root.y);
         stuck.setQueues(stuck.queues() + 1);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
