@@ -56,8 +56,8 @@ namespace parking::search
             for (const Pose &target : query.targets)
                 farthest = std::max(farthest, positionDistance(root, target));
         const SearchTuning &tuning = parameters.tuning;
-        const double cell = std::max(tuning.heuristicCell * parameters.turningRadius,
-                                     tuning.cellOfBody * parameters.bodyRadius);
+        const double cell =
+            std::max(tuning.heuristicCell * parameters.turningRadius, tuning.cellOfBody * parameters.bodyRadius);
         const double cellOfLongWays = std::clamp(tuning.cellOfLongWays * farthest, cell, tuning.coarsestCell * cell);
         const Pose &toward = query.roots.empty() ? query.targets.front() : query.roots.front();
         // Else a way of many cells would lie beyond the reach of the grid, or of mostCells, and there would be no

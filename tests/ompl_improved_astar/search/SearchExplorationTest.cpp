@@ -73,8 +73,8 @@ TEST(SearchExploration, findsWhatNoGuideShows)
     EXPECT_LT(10 * with, 7 * without);
 }
 
-// Where nothing is known of the room, no disc shows another way, either. Of 600 such fields 171 take 60 expansions or more; these
-// four are not solved without it, and one (seed 187) hardly is without and not at all with it.
+// Where nothing is known of the room, no disc shows another way, either. Of 600 such fields 171 take 60 expansions or
+// more; these four are not solved without it, and one (seed 187) hardly is without and not at all with it.
 TEST(SearchExploration, findsWaysWithoutDiscs)
 {
     for (const std::uint64_t seed : {210u, 317u, 421u, 561u})
