@@ -233,7 +233,8 @@ namespace parking::search
         own.countTurn(queue, level);
         if (own.queues() > 1)
             own.noteEstimate(queue, entry.h, parameters_.tuning.extraTurns);
-        expand(own, level, entry.node, entry.f);
+        // Queues of detours are in another order than by cost.
+        expand(own, level, entry.node, queue == 0 ? entry.f : priority(own, node));
     }
 
     void Search::expand(Frontier &own, std::size_t level, NodeIndex index, double cost)

@@ -90,8 +90,8 @@ namespace parking::search
         SearchOutcome run(const StopFunction &stop,
                           std::uint64_t mostExpansions = std::numeric_limits<std::uint64_t>::max());
 
-        /** \brief Bytes that nodes, cells, open lists, the ways round obstacles and the tables of the model take at
-           most, growing included. */
+        /** \brief Bytes that nodes, cells, open lists, the ways round obstacles, proofs and the tables of the model
+           take at most, growing included. */
         std::size_t memory() const;
 
         /** \brief Changes SearchParameters::maxMemory. */
@@ -289,12 +289,8 @@ namespace parking::search
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
-        double priority(const Frontier &own, const Node &node, double ahead) const;
         /** Its priority in the first queue, as it was when it was put there. */
-        double priority(const Frontier &own, const Node &node) const
-        {
-            return priority(own, node, node.h) + node.wait;
-        }
+        double priority(const Frontier &own, const Node &node) const;
         bool spreadsOut() const;
         float waitOf(const Frontier &own, const Node &node) const;
         bool hasToGoOnWaiting(const Frontier &own, const Node &node) const;

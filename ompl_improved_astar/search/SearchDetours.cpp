@@ -123,9 +123,9 @@ namespace parking::search
     {
         const SearchTuning &tuning = parameters_.tuning;
         bodyCells_.reset();
-        if (parameters_.inscribedRadius <= 0.0)
+        if (parameters_.bodyRadius <= 0.0)
             return;
-        const double side = tuning.enclosureCells[enclosureLevel_] * parameters_.inscribedRadius;
+        const double side = tuning.enclosureCells[enclosureLevel_] * parameters_.bodyRadius;
         const int headings = tuning.enclosureHeadings[enclosureLevel_];
         bodyCells_ = environment_->bodyCells(side, headings);
         if (!bodyCells_)
@@ -166,6 +166,7 @@ namespace parking::search
         const std::size_t columns =
             1 + (statistics_.expanded - detoursSince_ - tuning.enclosureAfter) / tuning.expansionsPerColumn;
         bool isConnected = false, isOver = true;
+        std::size_t bytes = 0;
         for (Enclosure &enclosure : enclosures_)
         {
             const Enclosure::Verdict verdict = enclosure.widen(columns);
@@ -173,12 +174,14 @@ namespace parking::search
                 proof_ = Exhaustion::Enclosed;
             isConnected = isConnected || verdict == Enclosure::Verdict::Connected;
             isOver = isOver && verdict != Enclosure::Verdict::Unknown;
+            bytes += enclosure.bytes();
         }
-        if (!isConnected && !isOver)
+        const bool isTooLarge = static_cast<double>(bytes) > tuning.memoryOfEnclosures * parameters_.maxMemory;
+        if (proof_ == Exhaustion::None && !isConnected && !isOver && !isTooLarge)
             return;
         bodyCells_.reset();
-        if (++enclosureLevel_ == std::size(tuning.enclosureCells))
-            enclosures_.clear();
+        enclosures_.clear();
+        ++enclosureLevel_;
     }
 
     void Search::pushToDetour(std::size_t detour, std::size_t level, NodeIndex index)
@@ -186,7 +189,9 @@ namespace parking::search
         Frontier &own = frontier(confined_);
         const Node &node = own.node(index);
         const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay, queueInTurn_ == detour + 1);
-        own.push(1 + detour, level, priority(own, node, ahead), ahead, index);
+        // Greedily: with the cost so far the queue floods what is cheap before it drives where there is less room than
+        // preferred.
+        own.push(1 + detour, level, ahead, ahead, index);
     }
 
     void Search::beginExploration()

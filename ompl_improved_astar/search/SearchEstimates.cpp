@@ -174,16 +174,18 @@ namespace parking::search
         return node.g + (boundIsKept_ && traits_.aims ? admissible(side, node.pose) : node.h) < costBound_;
     }
 
-    double Search::priority(const Frontier &own, const Node &node, double ahead) const
+    double Search::priority(const Frontier &own, const Node &node) const
     {
         // What is estimated to an aim that moves must not depend on where it is now. Where both weights are equal no
         // distance matters.
-        if (hasTarget_ || traits_.aims || traits_.complete || parameters_.weights.far == parameters_.weights.near)
-            return node.g + parameters_.weights.at(ahead) * ahead;
-        double nearest = INFINITE;
-        for (const Pose &target : guides(own.side()).targets)
-            nearest = std::min(nearest, positionDistance(node.pose, target));
-        return node.g + parameters_.weights.at(nearest) * ahead;
+        double distance = node.h;
+        if (!hasTarget_ && !traits_.aims && !traits_.complete && parameters_.weights.far != parameters_.weights.near)
+        {
+            distance = INFINITE;
+            for (const Pose &target : guides(own.side()).targets)
+                distance = std::min(distance, positionDistance(node.pose, target));
+        }
+        return node.g + parameters_.weights.at(distance) * node.h + node.wait;
     }
 
     bool Search::spreadsOut() const

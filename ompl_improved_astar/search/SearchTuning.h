@@ -92,15 +92,17 @@ namespace parking::search
 
         /** \name Proving that there is no way, when the search stays stuck
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner.md names. The cells of the second
-           try are finer.
+            Chosen by hand on random queries with the tuning seeds that docs/planner.md names. Each try has finer cells
+            than the one before: coarse ones soon get to the end of large yards, fine ones close gaps that are only a
+            little too narrow.
             @{ */
-        std::uint64_t enclosureAfter{800};      ///< expansions with detours before the proof begins
-        std::uint64_t expansionsPerColumn{10};  ///< an expansion is worth a column of cells at each end, and one more
-                                                ///< for each so many that came before it
-        std::size_t mostColumns{200000};        ///< at each end
-        double enclosureCells[2]{0.2, 0.1};     ///< side of a cell, in inscribed radii
-        int enclosureHeadings[2]{72, 120};      ///< cells round the circle
+        std::uint64_t enclosureAfter{400};        ///< expansions with detours before the proof begins
+        std::uint64_t expansionsPerColumn{10};    ///< an expansion is worth a column of cells at each end, and one
+                                                  ///< more for each so many that came before it
+        std::size_t mostColumns{500000};          ///< at each end,
+        double memoryOfEnclosures{0.25};          ///< and no more than this share of the memory for both
+        double enclosureCells[3]{0.5, 0.2, 0.1};  ///< side of a cell, in radii of the largest disc within the car
+        int enclosureHeadings[3]{32, 72, 120};    ///< cells round the circle
         /** @} */
 
         /** \name Thinking again after the first solution

@@ -26,7 +26,7 @@ namespace parking::search
         /** Changes of direction that a path may have. Shortening adds some where they are worth their cost. */
         std::uint8_t mostCusps{ANY_CUSPS};
         /** Metres, of the largest disc within the car wherever its centre is: how wide a gap must be. Only guides the
-            search; 0: as inscribedRadius. */
+            search and sizes the cells of proofs; 0: as inscribedRadius. */
         double bodyRadius{0.0};
         /** Metres, width of the lane that the car covers at full lock. Only guides the search; 0: unknown. */
         double turningLane{0.0};

@@ -74,10 +74,10 @@ TEST(SearchExploration, findsWhatNoGuideShows)
 }
 
 // Where nothing is known of the room, no disc shows another way, either. Of 600 such fields 171 take 60 expansions or
-// more; these four are not solved without it, and one (seed 187) hardly is without and not at all with it.
+// more; these three are not solved without it, and one (seed 446) only without it.
 TEST(SearchExploration, findsWaysWithoutDiscs)
 {
-    for (const std::uint64_t seed : {210u, 317u, 421u, 561u})
+    for (const std::uint64_t seed : {185u, 260u, 574u})
     {
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed, 14);

@@ -89,24 +89,34 @@ namespace
         return seen;
     }
 
-    /** The goal's yard opens to the start's field by a corridor of this width with a right-angled bend in it. */
-    PlanResult throughBentCorridor(double width)
+    /** The usual car on axles that stand as much farther back as leaves so much behind the rear one. */
+    Vehicle shiftedForward(double rearOverhang)
     {
-        const Box bounds{{0.0, 0.0}, {40.0, 30.0}};
+        Vehicle car;
+        car.frontOverhang += car.rearOverhang - rearOverhang;
+        car.rearOverhang = rearOverhang;
+        return car;
+    }
+
+    /** The goal's yard opens to the start's field by a corridor of this width with a right-angled bend in it. Yard and
+        field reach \e farther beyond the corridor's walls than 10 m. */
+    PlanResult throughBentCorridor(double width, const Vehicle &car = {}, double farther = 0.0)
+    {
+        const double left = -farther, right = 40.0 + farther, bottom = -farther, top = 30.0 + farther;
+        const Box bounds{{left, bottom}, {right, top}};
         // The corridor goes up from the yard at the bottom and then right, to the field.
         const std::vector<Polygon> walls = {
-            {{0.0, 12.0}, {10.0, 12.0}, {10.0, 30.0}, {0.0, 30.0}},
-            {{10.0 + width, 12.0}, {40.0, 12.0}, {40.0, 18.0}, {10.0 + width, 18.0}},
-            {{10.0, 18.0 + width}, {22.0, 18.0 + width}, {22.0, 30.0}, {10.0, 30.0}},
+            {{left, 12.0}, {10.0, 12.0}, {10.0, top}, {left, top}},
+            {{10.0 + width, 12.0}, {right, 12.0}, {right, 18.0}, {10.0 + width, 18.0}},
+            {{10.0, 18.0 + width}, {22.0, 18.0 + width}, {22.0, top}, {10.0, top}},
         };
-        const FootprintChecker checker(ObstacleSet::fromPolygons(walls, bounds), Vehicle());
+        constexpr double FIELD_RESOLUTION = 0.1;  // that of a large world would be coarser than the corridor
+        const FootprintChecker checker(ObstacleSet::fromPolygons(walls, bounds), car, 0.0, {}, FIELD_RESOLUTION);
         FootprintEnvironment environment(checker, bounds, 1e-3);
         PlanRequest request;
         request.starts = {{30.0, 24.0, PI}};
         request.goals = {{20.0, 6.0, 0.0}};
-        request.car.turningRadius = Vehicle().minTurningRadius();
-        request.car.inscribedRadius = 0.9;
-        request.car.bounds = bounds;
+        request.car = carInSpace(car, 0.0, bounds);
         request.parameters.approximate = false;
         request.maxExpansions = 30000;
         return plan(environment, request);
@@ -216,9 +226,7 @@ TEST(Enclosure, endsASearchOneSideOfWhichRunsDry)
     PlanRequest request;
     request.starts = {{-12.0, 5.0, 0.0}};
     request.goals = {{0.0, 0.0, 0.0}};
-    request.car.turningRadius = car.minTurningRadius();
-    request.car.inscribedRadius = car.rearOverhang;
-    request.car.bounds = bounds;
+    request.car = carInSpace(car, 0.0, bounds);
     request.parameters.approximate = false;
     request.maxExpansions = 30000;
     const PlanResult result = plan(environment, request);
@@ -234,5 +242,28 @@ TEST(Enclosure, endsASearchThatTheDiscCannotEnd)
     EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
     EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
     const PlanResult wide = throughBentCorridor(4.6);
+    EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
+}
+
+/** The size of the cells goes by the whole car, not by what little lies behind its rear axle. */
+TEST(Enclosure, endsItForCarsWithHardlyAnythingBehindTheRearAxle)
+{
+    const PlanResult narrow = throughBentCorridor(2.1, shiftedForward(0.05));
+    EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
+    EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
+    EXPECT_LT(narrow.statistics.expanded, 1500u);
+    const PlanResult wide = throughBentCorridor(4.6, shiftedForward(0.05));
+    EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
+}
+
+/** A yard of 5.5 hectares and a field of 2.7: only coarse cells get to their end, and they suffice where only a disc
+   far smaller than the car gets through. */
+TEST(Enclosure, seesLargeYardsToTheirEnd)
+{
+    constexpr double FARTHER = 150.0;
+    const PlanResult narrow = throughBentCorridor(1.1, shiftedForward(0.5), FARTHER);
+    EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
+    EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
+    const PlanResult wide = throughBentCorridor(4.6, shiftedForward(0.5), FARTHER);
     EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
 }
