@@ -309,30 +309,51 @@ namespace
             CellWorld &world_;
         };
     };
+
+    /** The goal is in a room whose door, beside the rear axle, is for a disc only. */
+    CellWorld roomForADisc()
+    {
+        CellWorld world({{0.0, 0.0}, {80.0, 40.0}}, {{{0.0, 19.0}, {74.0, 20.0}},
+                                                     {{2.0, 32.0}, {3.4, 33.0}},
+                                                     {{5.4, 32.0}, {9.0, 33.0}},
+                                                     {{2.0, 27.0}, {9.0, 28.0}},
+                                                     {{2.0, 28.0}, {3.0, 32.0}},
+                                                     {{8.0, 28.0}, {9.0, 32.0}}});
+        world.radius = 0.9;
+        return world;
+    }
+
+    /** Searches in vain, with so much of the memory for proofs. */
+    void searchInVain(CellWorld &world, double memoryOfEnclosures)
+    {
+        SearchParameters parameters = carParameters();
+        parameters.inscribedRadius = world.radius;
+        parameters.bounds = world.inside;
+        parameters.tuning.memoryOfEnclosures = memoryOfEnclosures;
+        Search search;
+        search.begin(world, parameters);
+        search.addStart({6.0, 10.0, 0.0});
+        search.addGoal({4.4, 30.0, 0.0});
+        search.run({}, MOST_EXPANSIONS);
+        EXPECT_FALSE(search.hasSolution());
+        EXPECT_EQ(search.expanded(), MOST_EXPANSIONS);
+        EXPECT_EQ(world.begun, 3) << "coarse cells, then finer ones";
+    }
 }  // namespace
 
 // A proof that will not succeed costs little: the cells are followed along the disc's way, here once round the end of a
-// wall. Straight towards the other end first it would be 430,000 cells, in all directions 590,000.
+// wall.
 TEST(SearchDetours, theProofFollowsTheDiscsWay)
 {
-    const Box inside{{0.0, 0.0}, {80.0, 40.0}};
-    // The goal is in a room whose door, beside the rear axle, is for a disc only.
-    CellWorld world(inside, {{{0.0, 19.0}, {74.0, 20.0}},
-                             {{2.0, 32.0}, {3.4, 33.0}},
-                             {{5.4, 32.0}, {9.0, 33.0}},
-                             {{2.0, 27.0}, {9.0, 28.0}},
-                             {{2.0, 28.0}, {3.0, 32.0}},
-                             {{8.0, 28.0}, {9.0, 32.0}}});
-    world.radius = 0.9;
-    SearchParameters parameters = carParameters();
-    parameters.inscribedRadius = world.radius;
-    parameters.bounds = inside;
-    Search search;
-    search.begin(world, parameters);
-    search.addStart({6.0, 10.0, 0.0});
-    search.addGoal({4.4, 30.0, 0.0});
-    search.run({}, MOST_EXPANSIONS);
-    EXPECT_FALSE(search.hasSolution());
-    EXPECT_EQ(world.begun, 3) << "coarse cells, then finer ones";
+    CellWorld world = roomForADisc();
+    searchInVain(world, SearchTuning().memoryOfEnclosures);
     EXPECT_LT(world.asked, 20000u);
+    EXPECT_GT(world.asked, 1000u);
+}
+
+TEST(SearchDetours, theProofIsGivenUpBeforeItFillsTheMemory)
+{
+    CellWorld world = roomForADisc();
+    searchInVain(world, 0.0);
+    EXPECT_LT(world.asked, 10u);
 }
