@@ -233,17 +233,16 @@ namespace parking::search
         own.countTurn(queue, level);
         if (own.queues() > 1)
             own.noteEstimate(queue, entry.h, parameters_.tuning.extraTurns);
-        // Queues of detours are in another order than by cost.
-        expand(own, level, entry.node, queue == 0 ? entry.f : priority(own, node));
+        expand(own, level, entry.node);
     }
 
-    void Search::expand(Frontier &own, std::size_t level, NodeIndex index, double cost)
+    void Search::expand(Frontier &own, std::size_t level, NodeIndex index)
     {
         turnEnds_ = true;
         const bool first = !own.node(index).isExpanded();
         own.node(index).next = static_cast<std::uint8_t>(level + 1);
         if (first)
-            close(own, index, cost);
+            close(own, index, priority(own, own.node(index)));
         if (first && !traits_.joinsAfar)
         {
             joinAround(own, index);

@@ -261,7 +261,7 @@ namespace parking::search
         bool isHopeless() const;
         bool chooseSide(Side &side);
         void step(Frontier &own);
-        void expand(Frontier &own, std::size_t level, NodeIndex index, double cost);
+        void expand(Frontier &own, std::size_t level, NodeIndex index);
         bool finishExpansion();
         void noteExhaustion(Frontier &own) const;
         void endTurn();

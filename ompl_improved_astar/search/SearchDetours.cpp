@@ -130,8 +130,7 @@ namespace parking::search
         bodyCells_ = environment_->bodyCells(side, headings);
         if (!bodyCells_)
             return;
-        if (enclosures_.empty())
-            enclosures_ = std::vector<Enclosure>(2);
+        enclosures_ = std::vector<Enclosure>(2);
         for (const Side each : {Side::Start, Side::Goal})
             enclosures_[static_cast<std::size_t>(each)].begin(
                 *bodyCells_, frontier(each).rootPoses(), frontier(opposite(each)).rootPoses(), side, headings,
@@ -177,7 +176,7 @@ namespace parking::search
             bytes += enclosure.bytes();
         }
         const bool isTooLarge = static_cast<double>(bytes) > tuning.memoryOfEnclosures * parameters_.maxMemory;
-        if (proof_ == Exhaustion::None && !isConnected && !isOver && !isTooLarge)
+        if (!isConnected && !isOver && !isTooLarge)
             return;
         bodyCells_.reset();
         enclosures_.clear();
@@ -230,7 +229,7 @@ namespace parking::search
                 if (node.next != next.level || !mayImprove(side, node))
                     continue;
                 explored_ = side;
-                expand(own, next.level, next.node, priority(own, node));
+                expand(own, next.level, next.node);
                 return true;
             }
         }

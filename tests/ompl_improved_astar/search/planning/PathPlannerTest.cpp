@@ -307,9 +307,10 @@ TEST(PathPlanner, turningRoundKeepsToTheCuspsThatAPathMayHave)
         std::uint64_t seed;
         std::uint32_t boxes;
         std::uint8_t mostCusps;
+        int questions{3000};  // in which it is solved
     };
-    const Case cases[]{{30, 10, 1},   {328, 10, 1}, {1520, 10, 1}, {1654, 10, 1},
-                       {2493, 10, 1}, {845, 16, 1}, {877, 10, 2}};
+    const Case cases[]{{30, 10, 1},   {132, 10, 1, 100000}, {328, 10, 1}, {1520, 10, 1},
+                       {1654, 10, 1}, {2493, 10, 1},        {845, 16, 1}, {877, 10, 2}};
     for (const Case &each : cases)
     {
         SCOPED_TRACE(each.seed);
@@ -323,7 +324,7 @@ TEST(PathPlanner, turningRoundKeepsToTheCuspsThatAPathMayHave)
             parameters.search.tuning.dearTurns = dearTurns;
             PathPlanner planner;
             problem.begin(planner, parameters);
-            planner.solve(afterAsking(3000), nullptr);
+            planner.solve(afterAsking(each.questions), nullptr);
             EXPECT_TRUE(planner.hasSolution());
             return planner.bestPath().cusps();
         };

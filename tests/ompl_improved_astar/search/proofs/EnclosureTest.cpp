@@ -121,6 +121,12 @@ namespace
         request.maxExpansions = 30000;
         return plan(environment, request);
     }
+
+    void expectEnclosed(const PlanResult &result)
+    {
+        EXPECT_EQ(result.outcome, PlanOutcome::Infeasible);
+        EXPECT_NE(result.reason.find("sideways"), std::string::npos) << result.reason;
+    }
 }  // namespace
 
 TEST(Enclosure, agreesWithAFloodOfSingleCells)
@@ -230,8 +236,7 @@ TEST(Enclosure, endsASearchOneSideOfWhichRunsDry)
     request.parameters.approximate = false;
     request.maxExpansions = 30000;
     const PlanResult result = plan(environment, request);
-    EXPECT_EQ(result.outcome, PlanOutcome::Infeasible);
-    EXPECT_NE(result.reason.find("sideways"), std::string::npos) << result.reason;
+    expectEnclosed(result);
     EXPECT_LT(result.statistics.expanded, 2000u);
 }
 
@@ -239,8 +244,7 @@ TEST(Enclosure, endsASearchOneSideOfWhichRunsDry)
 TEST(Enclosure, endsASearchThatTheDiscCannotEnd)
 {
     const PlanResult narrow = throughBentCorridor(2.1);
-    EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
-    EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
+    expectEnclosed(narrow);
     const PlanResult wide = throughBentCorridor(4.6);
     EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
 }
@@ -249,21 +253,19 @@ TEST(Enclosure, endsASearchThatTheDiscCannotEnd)
 TEST(Enclosure, endsItForCarsWithHardlyAnythingBehindTheRearAxle)
 {
     const PlanResult narrow = throughBentCorridor(2.1, shiftedForward(0.05));
-    EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
-    EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
+    expectEnclosed(narrow);
     EXPECT_LT(narrow.statistics.expanded, 1500u);
     const PlanResult wide = throughBentCorridor(4.6, shiftedForward(0.05));
     EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
 }
 
-/** A yard of 5.5 hectares and a field of 2.7: only coarse cells get to their end, and they suffice where only a disc
-   far smaller than the car gets through. */
+/** A yard of 5.5 hectares and a field of 2.7: only coarse cells get to their end. They suffice where only a disc far
+    smaller than the car gets through. */
 TEST(Enclosure, seesLargeYardsToTheirEnd)
 {
     constexpr double FARTHER = 150.0;
     const PlanResult narrow = throughBentCorridor(1.1, shiftedForward(0.5), FARTHER);
-    EXPECT_EQ(narrow.outcome, PlanOutcome::Infeasible);
-    EXPECT_NE(narrow.reason.find("sideways"), std::string::npos) << narrow.reason;
+    expectEnclosed(narrow);
     const PlanResult wide = throughBentCorridor(4.6, shiftedForward(0.5), FARTHER);
     EXPECT_EQ(wide.outcome, PlanOutcome::Solved) << wide.reason;
 }
