@@ -188,9 +188,8 @@ namespace parking::search
         Frontier &own = frontier(confined_);
         const Node &node = own.node(index);
         const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay, queueInTurn_ == detour + 1);
-        // Greedily: with the cost so far the queue floods what is cheap before it drives where there is less room than
-        // preferred.
-        own.push(1 + detour, level, ahead, ahead, index);
+        const double behind = parameters_.tuning.costOfDetours * node.g;
+        own.push(1 + detour, level, behind + parameters_.weights.at(ahead) * ahead, ahead, index);
     }
 
     void Search::beginExploration()

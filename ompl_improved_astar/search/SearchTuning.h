@@ -83,7 +83,9 @@ namespace parking::search
                                                      ///< turn, the last to where it can drive
         std::uint64_t nextDetour{150};               ///< expansions before there is the next
         std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
-        double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
+        double costOfDetours{0.0};  ///< factor on the cost so far in their queues: with it they flood what is cheap
+                                    ///< before they drive where there is less room than preferred
+        double noWay{1.2};          ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:
         double exploredPlace{1.4};              ///< it is where there were the fewest, by squares with this side

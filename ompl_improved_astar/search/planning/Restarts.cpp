@@ -51,6 +51,8 @@ namespace parking::search
         parameters.eagerObstacles = false;
         // A way is known: that there is none need not be proven.
         parameters.tuning.enclosureAfter = NEVER;
+        // Nor need another be found at any cost.
+        parameters.tuning.costOfDetours = 1.0;
         const std::uint64_t number = searches_ + 1;
         const double longer = between(1.0 - tuning.otherMotions, 1.0 + tuning.otherMotions, fraction(number, 0));
         parameters.tuning.coarsestStep *= longer;
