@@ -57,6 +57,7 @@ namespace parking::search
         exhaustion_ = Exhaustion::None;
         hasTarget_ = false;
         nearest_ = INFINITE;
+        nearestOfDisc_ = 0.0;
         nearestSince_ = 0;
         sideTurn_ = 0;
         bestCost_ = costBound_ = INFINITE;
@@ -108,8 +109,12 @@ namespace parking::search
         if (proof_ != Exhaustion::None)
             return true;
         if (hasTarget_)
+        {
+            const bool isNearEnough = nearest_ <= nearestOfDisc_ + tuning.nearEnough * parameters_.turningRadius;
+            const std::uint64_t patience = isNearEnough ? tuning.patienceThere : tuning.patience + nearestSince_ / 2;
             return nearest_ <= tuning.leastProgress ||
-                   (!traits_.complete && statistics_.expanded > nearestSince_ + tuning.patience + nearestSince_ / 2);
+                   (!traits_.complete && statistics_.expanded > nearestSince_ + patience);
+        }
         if (hasSolution() || !parameters_.bidirectional || traits_.complete)
             return false;
         // With one side seen completely, the other gets as many expansions again: its joins may still reach a root that

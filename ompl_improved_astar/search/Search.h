@@ -352,6 +352,7 @@ namespace parking::search
         bool hasTarget_{false};
         Pose target_;
         double nearest_{std::numeric_limits<double>::infinity()};
+        double nearestOfDisc_{0.0};  // metres from the target to where the inscribed disc comes
         std::uint64_t nearestSince_{0};
         std::uint64_t sideTurn_{0};
         double bestCost_{std::numeric_limits<double>::infinity()};

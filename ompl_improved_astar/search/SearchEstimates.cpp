@@ -81,6 +81,7 @@ namespace parking::search
         flood.obstacles.begin({*environment_, parameters_, Side::Goal, flood.roots, flood.targets, stop_});
         flood.roundObstacles = true;
         const Eigen::Vector2d place = flood.obstacles.nearestReachable({target_.x, target_.y});
+        nearestOfDisc_ = (place - Eigen::Vector2d(target_.x, target_.y)).norm();
         way.targets.assign(1, {place.x(), place.y(), 0.0});
         way.obstacles.begin({*environment_, parameters_, Side::Start, way.roots, way.targets, stop_});
         way.roundObstacles = true;

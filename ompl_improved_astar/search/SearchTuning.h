@@ -38,6 +38,9 @@ namespace parking::search
         double confined{0.15};  ///< curves from a node that can move less than this part of their length are not tried
         std::uint64_t patience{3000};  ///< expansions without progress after which a hopeless search ends
         double leastProgress{1e-3};    ///< metres: nearer by less is no progress
+        double nearEnough{1.0 / 3.0};  ///< a search for the place nearest to an unreachable goal that is no more than
+                                       ///< so much farther from it than the inscribed disc gets
+        std::uint64_t patienceThere{400};  ///< ends after so many (chosen on queries of seeds otherT1 and invT1)
         /** @} */
 
         /** \name Way round the obstacles

@@ -42,7 +42,7 @@ namespace parking::search
         bestCost_ = INFINITE;
         costWhenTurned_ = INFINITE;
         shortenerConnections_ = 0;
-        hasRoomySearch_ = false;
+        hasRoomySearch_ = hasApproach_ = false;
         goodEnough_ = false;
         round_ = 0;
         weights_ = parameters.search.weights;
@@ -391,6 +391,7 @@ namespace parking::search
             if (!approach_)
                 approach_ = std::make_unique<Search>();
             search = approach_.get();
+            hasApproach_ = true;
             search->begin(*environment_, parameters_.search);
             for (const Pose &start : starts_)
                 search->addStart(start);
@@ -423,6 +424,8 @@ namespace parking::search
     {
         SearchStatistics sum = search_.statistics();
         sum += restarts_.statistics();
+        if (hasApproach_)
+            sum += approach_->statistics();
         if (hasRoomySearch_)
             sum += roomySearch_->statistics();
         sum.connections += shortenerConnections_;

@@ -108,7 +108,8 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
         std::uint64_t expanded() const
         {
-            return search_.expanded() + restarts_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0);
+            return search_.expanded() + restarts_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0) +
+                   (hasApproach_ ? approach_->expanded() : 0);
         }
 
         /** \brief What search and shortening did in this query. */
@@ -147,6 +148,7 @@ namespace parking::search
         Search search_;
         Restarts restarts_;
         std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
+        bool hasApproach_{false};           // in this query
         std::optional<RoomyEnvironment> roomy_;
         std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
         bool hasRoomySearch_{false};           // in this query

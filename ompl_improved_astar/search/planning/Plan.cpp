@@ -90,8 +90,7 @@ namespace parking::search
                        " m, which is smaller than the car, gets from the start to the goal";
             case Exhaustion::Enclosed:
                 return "obstacles are in the way: even if it could move sideways and turn on the spot, the car would "
-                       "not "
-                       "get from the start to the goal";
+                       "not get from the start to the goal";
             case Exhaustion::SearchedOut:
                 return "nothing is left to try: every motion of the motion model, down to its finest resolution, has "
                        "been followed from one end";
