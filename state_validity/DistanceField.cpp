@@ -13,7 +13,7 @@ namespace parking
     namespace
     {
         constexpr double MAX_CELLS = 268435456.0;         // 2^28: a gigabyte of floats
-        constexpr double CHOSEN_CELLS = 250000.0;         // of a polygon world when the caller leaves the choice
+        constexpr double CHOSEN_CELLS = 1e6;              // of a polygon world when the caller leaves the choice
         constexpr double FINEST_CHOSEN_RESOLUTION = 0.1;  // metres
 
         constexpr std::uint8_t FREE = 0, TOUCHED = 1, INSIDE = 2;
