@@ -381,9 +381,7 @@ namespace parking::search
                 bytes += guides.obstacles.bytes();
         for (std::size_t i = 0; i < detoursTaken(); ++i)
             bytes += detours_[i]->way.bytes();
-        for (const Enclosure &enclosure : enclosures_)
-            bytes += enclosure.bytes();
-        return bytes;
+        return bytes + bytesOfEnclosures();
     }
 
     bool Search::outgrowsMemory()

@@ -334,6 +334,7 @@ namespace parking::search
         void beginEnclosures();
         double wayAhead(Side side, double x, double y);
         void widenEnclosures();
+        std::size_t bytesOfEnclosures() const;
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;

@@ -137,6 +137,14 @@ namespace parking::search
                 tuning.mostColumns, [this, each](double x, double y) { return wayAhead(each, x, y); });
     }
 
+    std::size_t Search::bytesOfEnclosures() const
+    {
+        std::size_t bytes = 0;
+        for (const Enclosure &enclosure : enclosures_)
+            bytes += enclosure.bytes();
+        return bytes;
+    }
+
     double Search::wayAhead(Side side, double x, double y)
     {
         constexpr double FARTHER = 1e6;  // metres: than any way that the disc knows
@@ -165,7 +173,6 @@ namespace parking::search
         const std::size_t columns =
             1 + (statistics_.expanded - detoursSince_ - tuning.enclosureAfter) / tuning.expansionsPerColumn;
         bool isConnected = false, isOver = true;
-        std::size_t bytes = 0;
         for (Enclosure &enclosure : enclosures_)
         {
             const Enclosure::Verdict verdict = enclosure.widen(columns);
@@ -173,9 +180,9 @@ namespace parking::search
                 proof_ = Exhaustion::Enclosed;
             isConnected = isConnected || verdict == Enclosure::Verdict::Connected;
             isOver = isOver && verdict != Enclosure::Verdict::Unknown;
-            bytes += enclosure.bytes();
         }
-        const bool isTooLarge = static_cast<double>(bytes) > tuning.memoryOfEnclosures * parameters_.maxMemory;
+        const bool isTooLarge = static_cast<double>(bytesOfEnclosures()) >
+                                tuning.memoryOfEnclosures * static_cast<double>(parameters_.maxMemory);
         if (!isConnected && !isOver && !isTooLarge)
             return;
         bodyCells_.reset();

@@ -187,8 +187,7 @@ TEST(SearchDetours, narrowerOnesFindAislesThatAreNarrowToo)
     expectFarMoreExpansions({80.0, 4.0, 4.2, 2.1}, allWide);
 }
 
-// The aisles leave less room than preferred. Queues that count the cost so far look at what is cheaper first: none of
-// these is solved then.
+// The aisles leave less room than preferred. Queues that count the cost so far look at what is cheaper first.
 TEST(SearchDetours, goOnWhereItIsDear)
 {
     SearchParameters parameters = trapParameters();
@@ -201,6 +200,9 @@ TEST(SearchDetours, goOnWhereItIsDear)
         const Counts counts = searched(rowOfCars(row, startX), true, row.halfWorld(), parameters);
         EXPECT_TRUE(counts.solved);
         EXPECT_LT(counts.expanded, 500u);
+        SearchParameters counting = parameters;
+        counting.tuning.costOfDetours = 1.0;
+        EXPECT_FALSE(searched(rowOfCars(row, startX), true, row.halfWorld(), counting).solved);
     }
 }
 
