@@ -141,7 +141,9 @@ namespace ompl::geometric
             expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
             return ptc();
         };
-        if (!query_->planner.approximate(target, stop, nearest))
+        const bool hasPath = query_->planner.approximate(target, stop, nearest);
+        expanded_ = query_->planner.expanded();
+        if (!hasPath)
             return ob::PlannerStatus::TIMEOUT;
         std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
         // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the

@@ -56,9 +56,6 @@ namespace parking::search
         proof_ = Exhaustion::None;
         exhaustion_ = Exhaustion::None;
         hasTarget_ = false;
-        nearest_ = INFINITE;
-        nearestOfDisc_ = 0.0;
-        nearestSince_ = 0;
         sideTurn_ = 0;
         bestCost_ = costBound_ = INFINITE;
         bestPath_ = {};
@@ -71,11 +68,13 @@ namespace parking::search
         looks_ = 0;
         loadingTime_ = 0.0;
         statistics_ = {};
+        forgetNearest();
         endDetours();
     }
 
     void Search::addRoot(Side side, const Pose &pose)
     {
+        forgetNearest();
         const NodeIndex index = frontier(side).addRoot(pose);
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
@@ -90,9 +89,18 @@ namespace parking::search
 
     void Search::setTarget(const Pose &target)
     {
+        if (!hasTarget_ || positionDistance(target, target_) > 0.0)
+            forgetNearest();
         hasTarget_ = true;
         target_ = target;
         prepared_ = false;
+    }
+
+    void Search::forgetNearest()
+    {
+        nearest_ = INFINITE;
+        nearestOfDisc_ = 0.0;
+        nearestSince_ = statistics_.expanded;
     }
 
     bool Search::load()
@@ -111,7 +119,7 @@ namespace parking::search
         if (hasTarget_)
         {
             const bool isNearEnough = nearest_ <= nearestOfDisc_ + tuning.nearEnough * parameters_.turningRadius;
-            const std::uint64_t patience = isNearEnough ? tuning.patienceThere : tuning.patience + nearestSince_ / 2;
+            const std::uint64_t patience = isNearEnough ? tuning.patienceWhenNear : tuning.patience + nearestSince_ / 2;
             return nearest_ <= tuning.leastProgress ||
                    (!traits_.complete && statistics_.expanded > nearestSince_ + patience);
         }

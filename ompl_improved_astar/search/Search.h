@@ -257,6 +257,7 @@ namespace parking::search
 
         // Search.cpp: turns
         void addRoot(Side side, const Pose &pose);
+        void forgetNearest();
         bool load();
         bool isHopeless() const;
         bool chooseSide(Side &side);
@@ -289,6 +290,7 @@ namespace parking::search
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
+        double weightAt(const Frontier &own, const Node &node) const;
         /** Its priority in the first queue, as it was when it was put there. */
         double priority(const Frontier &own, const Node &node) const;
         bool spreadsOut() const;
@@ -353,7 +355,7 @@ namespace parking::search
         bool hasTarget_{false};
         Pose target_;
         double nearest_{std::numeric_limits<double>::infinity()};
-        double nearestOfDisc_{0.0};  // metres from the target to where the inscribed disc comes
+        double nearestOfDisc_{0.0};  // metres from the target to the nearest place that the inscribed disc reaches
         std::uint64_t nearestSince_{0};
         std::uint64_t sideTurn_{0};
         double bestCost_{std::numeric_limits<double>::infinity()};

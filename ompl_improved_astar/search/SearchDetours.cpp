@@ -195,8 +195,8 @@ namespace parking::search
         Frontier &own = frontier(confined_);
         const Node &node = own.node(index);
         const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay, queueInTurn_ == detour + 1);
-        const double behind = parameters_.tuning.costOfDetours * node.g;
-        own.push(1 + detour, level, behind + parameters_.weights.at(ahead) * ahead, ahead, index);
+        const double f = parameters_.tuning.greedyDetours ? ahead : node.g + weightAt(own, node) * ahead;
+        own.push(1 + detour, level, f, ahead, index);
     }
 
     void Search::beginExploration()

@@ -175,7 +175,7 @@ namespace parking::search
         return node.g + (boundIsKept_ && traits_.aims ? admissible(side, node.pose) : node.h) < costBound_;
     }
 
-    double Search::priority(const Frontier &own, const Node &node) const
+    double Search::weightAt(const Frontier &own, const Node &node) const
     {
         // What is estimated to an aim that moves must not depend on where it is now. Where both weights are equal no
         // distance matters.
@@ -186,7 +186,12 @@ namespace parking::search
             for (const Pose &target : guides(own.side()).targets)
                 distance = std::min(distance, positionDistance(node.pose, target));
         }
-        return node.g + parameters_.weights.at(distance) * node.h + node.wait;
+        return parameters_.weights.at(distance);
+    }
+
+    double Search::priority(const Frontier &own, const Node &node) const
+    {
+        return node.g + weightAt(own, node) * node.h + node.wait;
     }
 
     bool Search::spreadsOut() const

@@ -38,9 +38,10 @@ namespace parking::search
         double confined{0.15};  ///< curves from a node that can move less than this part of their length are not tried
         std::uint64_t patience{3000};  ///< expansions without progress after which a hopeless search ends
         double leastProgress{1e-3};    ///< metres: nearer by less is no progress
-        double nearEnough{1.0 / 3.0};  ///< a search for the place nearest to an unreachable goal that is no more than
-                                       ///< so much farther from it than the inscribed disc gets
-        std::uint64_t patienceThere{400};  ///< ends after so many (chosen on queries of seeds otherT1 and invT1)
+        double nearEnough{1.0 / 3.0};  ///< no more than so much farther from an unreachable goal than the inscribed
+                                       ///< disc gets: as a rule the car comes no nearer,
+        std::uint64_t patienceWhenNear{400};  ///< and so many such expansions end the search for the nearest place
+                                              ///< (chosen on queries of seeds otherT1 and invT1)
         /** @} */
 
         /** \name Way round the obstacles
@@ -86,9 +87,9 @@ namespace parking::search
                                                      ///< turn, the last to where it can drive
         std::uint64_t nextDetour{150};               ///< expansions before there is the next
         std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
-        double costOfDetours{0.0};  ///< factor on the cost so far in their queues: with it they flood what is cheap
-                                    ///< before they drive where there is less room than preferred
-        double noWay{1.2};          ///< factor on the estimate of a node from which a disc's search knows none
+        bool greedyDetours{true};  ///< do their queues go by what lies ahead alone? With the cost so far they flood
+                                   ///< what is cheap before they drive where there is less room than preferred
+        double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:
         double exploredPlace{1.4};              ///< it is where there were the fewest, by squares with this side

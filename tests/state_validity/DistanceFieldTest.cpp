@@ -244,6 +244,17 @@ TEST(DistanceField, WithoutObstaclesDistancesAreInfinite)
     EXPECT_TRUE(std::isinf(field.upperBound(1.0, 0.7)));
 }
 
+TEST(DistanceField, ChoosesTenCentimetresUpToAHectareAndAMillionCellsBeyond)
+{
+    const auto chosen = [](double side)
+    {
+        return DistanceField(ObstacleSet::fromPolygons({}, {{0.0, 0.0}, {side, side}})).resolution();
+    };
+    EXPECT_DOUBLE_EQ(chosen(20.0), 0.1);
+    EXPECT_DOUBLE_EQ(chosen(100.0), 0.1);
+    EXPECT_DOUBLE_EQ(chosen(200.0), 0.2);
+}
+
 TEST(DistanceField, RefusesBadInput)
 {
     for (const double resolution :

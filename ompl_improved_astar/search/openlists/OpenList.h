@@ -21,8 +21,8 @@ namespace parking::search
         /** \brief A node that waits, with what it is ordered by. */
         struct Entry
         {
-            double f;  ///< weighted cost of the whole way (see Search::pushToDetour for detours), the smallest first
-            double h;  ///< estimated cost of the way on, the smallest first among equal f
+            double f;                ///< weighted cost of the whole way, or what a detour goes by, the smallest first
+            double h;                ///< estimated cost of the way on, the smallest first among equal f
             std::uint32_t sequence;  ///< insertion number, the smallest first among equal f and h
             NodeIndex node;          ///< the node that waits
         };

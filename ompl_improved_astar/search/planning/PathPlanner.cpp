@@ -43,6 +43,7 @@ namespace parking::search
         costWhenTurned_ = INFINITE;
         shortenerConnections_ = 0;
         hasRoomySearch_ = hasApproach_ = false;
+        approaches_ = {};
         goodEnough_ = false;
         round_ = 0;
         weights_ = parameters.search.weights;
@@ -391,7 +392,8 @@ namespace parking::search
             if (!approach_)
                 approach_ = std::make_unique<Search>();
             search = approach_.get();
-            hasApproach_ = true;
+            if (std::exchange(hasApproach_, true))
+                approaches_ += approach_->statistics();
             search->begin(*environment_, parameters_.search);
             for (const Pose &start : starts_)
                 search->addStart(start);
@@ -424,6 +426,7 @@ namespace parking::search
     {
         SearchStatistics sum = search_.statistics();
         sum += restarts_.statistics();
+        sum += approaches_;
         if (hasApproach_)
             sum += approach_->statistics();
         if (hasRoomySearch_)

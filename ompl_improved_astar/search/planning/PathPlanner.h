@@ -109,7 +109,7 @@ namespace parking::search
         std::uint64_t expanded() const
         {
             return search_.expanded() + restarts_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0) +
-                   (hasApproach_ ? approach_->expanded() : 0);
+                   approaches_.expanded + (hasApproach_ ? approach_->expanded() : 0);
         }
 
         /** \brief What search and shortening did in this query. */
@@ -149,6 +149,7 @@ namespace parking::search
         Restarts restarts_;
         std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
         bool hasApproach_{false};           // in this query
+        SearchStatistics approaches_;       // what those before it did in this query
         std::optional<RoomyEnvironment> roomy_;
         std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
         bool hasRoomySearch_{false};           // in this query

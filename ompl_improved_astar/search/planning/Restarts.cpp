@@ -52,7 +52,7 @@ namespace parking::search
         // A way is known: that there is none need not be proven.
         parameters.tuning.enclosureAfter = NEVER;
         // Nor need another be found at any cost.
-        parameters.tuning.costOfDetours = 1.0;
+        parameters.tuning.greedyDetours = false;
         const std::uint64_t number = searches_ + 1;
         const double longer = between(1.0 - tuning.otherMotions, 1.0 + tuning.otherMotions, fraction(number, 0));
         parameters.tuning.coarsestStep *= longer;

@@ -24,7 +24,8 @@ namespace parking::search
     {
     public:
         /** \brief Forgets everything; \e environment must outlive it. The searches go by \e parameters but for what is
-            said above; every other one does not spread out, and none loads obstacles beforehand. */
+            said above; every other one does not spread out, none loads obstacles beforehand or looks for a proof, and
+            none is greedy in its detours. */
         void begin(MotionEnvironment &environment, const SearchParameters &parameters);
 
         /** \brief Changes SearchParameters::maxMemory of those that are yet to begin. */

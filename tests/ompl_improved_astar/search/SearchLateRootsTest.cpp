@@ -267,3 +267,24 @@ TEST(SearchLateRoots, aGoalAfterATargetIsReached)
     ASSERT_EQ(search.run([&] { return search.statistics().expanded >= 5000; }), SearchOutcome::Improved);
     EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, {goal}, TURNING_RADIUS), "");
 }
+
+TEST(SearchLateRoots, anotherTargetIsSearchedForAfterTheFirst)
+{
+    // To what is farther behind the same closed door the car is nearer than the disc had come to the first.
+    CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {}};
+    SearchParameters parameters = carParameters();
+    parameters.inscribedRadius = problem.world.radius;
+    Search search;
+    problem.begin(search, parameters);
+    for (const Pose &target : {Pose{6.0, 0.0, 0.0}, Pose{9.0, 4.0, 0.0}})
+    {
+        const std::uint64_t before = search.expanded();
+        search.setTarget(target);
+        EXPECT_EQ(search.run(afterAsking()), SearchOutcome::Exhausted);
+        EXPECT_GT(search.expanded(), before);
+        Path path;
+        ASSERT_TRUE(search.nearestPath(target, path));
+        EXPECT_LE(positionDistance(path.end(), target),
+                  nearestByFlooding(problem.world, problem.starts.front(), target) + 0.1);
+    }
+}

@@ -110,7 +110,7 @@ namespace
             {{10.0 + width, 12.0}, {right, 12.0}, {right, 18.0}, {10.0 + width, 18.0}},
             {{10.0, 18.0 + width}, {22.0, 18.0 + width}, {22.0, top}, {10.0, top}},
         };
-        constexpr double FIELD_RESOLUTION = 0.1;  // that of a large world would be coarser than the corridor
+        constexpr double FIELD_RESOLUTION = 0.1;  // a large world would choose coarser cells
         const FootprintChecker checker(ObstacleSet::fromPolygons(walls, bounds), car, 0.0, {}, FIELD_RESOLUTION);
         FootprintEnvironment environment(checker, bounds, 1e-3);
         PlanRequest request;
