@@ -89,7 +89,7 @@ namespace parking::search
         std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
         bool greedyDetours{true};  ///< do their queues go by what lies ahead alone? With the cost so far they flood
                                    ///< what is cheap before they drive where there is less room than preferred
-        double noWay{1.2};  ///< factor on the estimate of a node from which a disc's search knows none
+        double noWay{1.2};         ///< factor on the estimate of a node from which a disc's search knows none
         std::uint64_t mostDetourCells{400000};  ///< that a disc looks at
         std::uint64_t explorationPeriod{3};     ///< with detours, one expansion in so many explores:
         double exploredPlace{1.4};              ///< it is where there were the fewest, by squares with this side
