@@ -202,12 +202,13 @@ namespace parking::search
         widenEnclosures();
     }
 
-    void Search::close(Frontier &own, NodeIndex index, double cost)
+    void Search::close(Frontier &own, NodeIndex index)
     {
         const Node &node = own.node(index);
         noteProgress(own, index);
         // Models that aim do so at the closed node of least cost (paper, "Bidirectional Search"), the others are joined
         // with the one that has come farthest.
+        const double cost = traits_.aims ? priority(own, node) : 0.0;
         if (own.bestClosed != NO_NODE)
         {
             const Node &best = own.node(own.bestClosed);
@@ -255,7 +256,7 @@ namespace parking::search
         const bool first = !own.node(index).isExpanded();
         own.node(index).next = static_cast<std::uint8_t>(level + 1);
         if (first)
-            close(own, index, priority(own, own.node(index)));
+            close(own, index);
         if (first && !traits_.joinsAfar)
         {
             joinAround(own, index);

@@ -268,7 +268,7 @@ namespace parking::search
         void endTurn();
         double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
-        void close(Frontier &own, NodeIndex index, double cost);
+        void close(Frontier &own, NodeIndex index);
 
         // SearchJoins.cpp: joining the frontiers
         void joinAround(const Frontier &own, NodeIndex index);

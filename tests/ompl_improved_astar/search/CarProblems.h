@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "tests/ompl_improved_astar/AfterAsking.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
@@ -64,6 +65,15 @@ namespace parking_test
         parking::search::SearchParameters parameters = carParameters();
         parameters.inscribedRadius = problem.world.radius;
         parameters.bounds = problem.world.inside;
+        return parameters;
+    }
+
+    /** \brief Of a PathPlanner that knows how large a disc is within the car. */
+    inline parking::search::PathPlannerParameters parametersFor(const CarProblem &problem)
+    {
+        parking::search::PathPlannerParameters parameters;
+        parameters.search = carParameters();
+        parameters.search.inscribedRadius = problem.world.radius;
         return parameters;
     }
 

@@ -270,7 +270,8 @@ TEST(SearchLateRoots, aGoalAfterATargetIsReached)
 
 TEST(SearchLateRoots, anotherTargetIsSearchedForAfterTheFirst)
 {
-    // To what is farther behind the same closed door the car is nearer than the disc had come to the first.
+    // The second is farther behind the same closed door: the disc comes no nearer to it than 10 m. Judged by the 7 m to
+    // which the search has come to the first, it would end at once.
     CarProblem problem{twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {}};
     SearchParameters parameters = carParameters();
     parameters.inscribedRadius = problem.world.radius;

@@ -12,16 +12,6 @@ using namespace parking::search;
 using namespace parking_test;
 using Outcome = PathPlanner::Outcome;
 
-namespace
-{
-    PathPlannerParameters parametersFor(const CarProblem &problem)
-    {
-        PathPlannerParameters parameters;
-        parameters.search = parametersIn(problem);
-        return parameters;
-    }
-}  // namespace
-
 TEST(ApproximatePath, endsAsNearAsTheCarComes)
 {
     // The goal stands free, but behind a door that is closed or too narrow; or there is no goal at all.

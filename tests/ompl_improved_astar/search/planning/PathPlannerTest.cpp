@@ -19,14 +19,6 @@ namespace
 {
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-    PathPlannerParameters parametersFor(const CarProblem &problem)
-    {
-        PathPlannerParameters parameters;
-        parameters.search = carParameters();
-        parameters.search.inscribedRadius = problem.world.radius;
-        return parameters;
-    }
-
     CostModel costModel(const PathPlannerParameters &parameters)
     {
         CostModel cost = parameters.search.cost;
