@@ -155,7 +155,8 @@ namespace ompl::geometric
         };
         GoalReading readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
-        base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc);
+        base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc,
+                                     const parking::search::StopFunction &stop);
         parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;
         std::shared_ptr<PathGeometric> geometricPath(const std::vector<parking::Pose> &poses) const;
         base::Cost costOf(const parking::Path &path, const PathGeometric &geometric, const parking::Path &found) const;

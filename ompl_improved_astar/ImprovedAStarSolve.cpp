@@ -125,22 +125,18 @@ namespace ompl::geometric
             return report(query_->states, false);
         }
         if (parameters_.approximate)
-            if (const ob::PlannerStatus status = approach(ptc))
+            if (const ob::PlannerStatus status = approach(ptc, stop))
                 return status;
         return query_->outcome == PlanOutcome::Infeasible
                    ? parking::ompl_compatibility::infeasible<ob::PlannerStatus>(0)
                    : ob::PlannerStatus(ob::PlannerStatus::TIMEOUT);
     }
 
-    ob::PlannerStatus ImprovedAStar::approach(const ob::PlannerTerminationCondition &ptc)
+    ob::PlannerStatus ImprovedAStar::approach(const ob::PlannerTerminationCondition &ptc,
+                                              const parking::search::StopFunction &stop)
     {
         Path nearest;
         const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
-        const auto stop = [this, &ptc]
-        {
-            expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
-            return ptc();
-        };
         const bool hasPath = query_->planner.approximate(target, stop, nearest);
         expanded_ = query_->planner.expanded();
         if (!hasPath)

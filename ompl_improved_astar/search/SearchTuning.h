@@ -81,10 +81,11 @@ namespace parking::search
         std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
         double nearer{0.25};                  ///< by this much
-        DetourDisc detours[3]{{0.45, 0.67, 60.0},
+        DetourDisc detours[3]{{0.45, 0.67, 10.0},
                               {0.3, 1.0, 60.0},
                               {0.17, 0.43, 600.0}};  ///< one after the other: the first two keep to where a car can
-                                                     ///< turn, the last to where it can drive
+                                                     ///< turn, the first unless that is far, the last to where it can
+                                                     ///< drive
         std::uint64_t nextDetour{150};               ///< expansions before there is the next
         std::uint64_t extraTurns{4};                 ///< of a queue that comes nearer than it ever was
         bool greedyDetours{true};  ///< do their queues go by what lies ahead alone? With the cost so far they flood
