@@ -171,18 +171,18 @@ TEST(SearchDetours, leadOutOfATrapWhileSpreadingOutToo)
     }
 }
 
-// Of a wide world the disc of the detour asks about the rooms on its way: of these 31,000, with the ways of all that
-// was open before 44,500. By its way, too, the car drives on without an expansion for each step.
+// Of a wide world the disc of the detour asks about the rooms on its way: of these 37,200, with the ways of all that
+// was open before 47,700. By its way, too, the car drives on without an expansion for each step.
 TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
 {
     const Row row{40.0, 4.0, 60.0}, longRow{300.0};
     SearchParameters parameters = trapParameters();
-    // What is dear is not on the way then: with less to pay for it the disc looks at more of the row.
+    // With 10, as by default, it is 39,400 and less than 43,000.
     parameters.tuning.detours[0].dear = 60.0;
     const Counts with = searched(rowOfCars(row, 5.0), true, row.halfWorld(), parameters);
     EXPECT_TRUE(with.solved);
     EXPECT_GT(with.expanded, parameters.tuning.leastExpansions);
-    EXPECT_LT(with.roomsAsked, 38000u);
+    EXPECT_LT(with.roomsAsked, 42000u);
     parameters = trapParameters();
     parameters.lookAhead = false;
     EXPECT_GT(4 * searched(rowOfCars(longRow), true, longRow.halfWorld(), parameters).expanded,
