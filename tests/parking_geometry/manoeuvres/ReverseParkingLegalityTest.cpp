@@ -3,6 +3,7 @@
 #include "benchmarks/worlds/RandomParking.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/ParkingProblems.h"
 
 #include <cmath>
 #include <limits>
@@ -10,31 +11,14 @@
 #include <gtest/gtest.h>
 
 using namespace parking;
+using parking_test::grazing;
+using parking_test::lengthened;
 using parking_test::PolygonWorld;
 using parking_test::RandomParking;
 
 namespace
 {
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-    ReverseParkingOptions grazing(double aisleWidth = INFINITE, double guardLength = 3.0)
-    {
-        ReverseParkingOptions options;
-        options.clearance = 0.0;
-        options.aisleWidth = aisleWidth;
-        options.guardLength = guardLength;
-        return options;
-    }
-
-    /** A parallel slot with another length; with a given depth its rear end stays where it is. */
-    ParkingSlot lengthened(const ParkingSlot &slot, double length)
-    {
-        ParkingSlot result = slot;
-        result.length = length;
-        if (slot.depth)
-            result.pose = compose(slot.pose, {0.5 * (length - slot.length), 0.0, 0.0});
-        return result;
-    }
 
     /** Finds the smallest argument in [low, high] for which \e fits, which stays true from there on. */
     template <class Predicate>

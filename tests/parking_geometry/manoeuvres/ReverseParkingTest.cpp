@@ -4,6 +4,7 @@
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/PolygonWorld.h"
+#include "tests/parking_geometry/manoeuvres/ParkingProblems.h"
 #include "tests/support/PoseGap.h"
 
 #include <cmath>
@@ -14,32 +15,14 @@
 using namespace parking;
 using parking_test::expectError;
 using parking_test::gap;
+using parking_test::grazing;
+using parking_test::lengthened;
 using parking_test::PolygonWorld;
 using parking_test::RandomParking;
 
 namespace
 {
     constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-    ReverseParkingOptions grazing(double aisleWidth = INFINITE, double guardLength = 3.0)
-    {
-        ReverseParkingOptions options;
-        options.clearance = 0.0;
-        options.aisleWidth = aisleWidth;
-        options.guardLength = guardLength;
-        return options;
-    }
-
-    /** A parallel slot with another length; with a given depth its rear end stays where it is. */
-    ParkingSlot lengthened(const ParkingSlot &slot, double length)
-    {
-        ParkingSlot result = slot;
-        result.length = length;
-        if (slot.depth)
-            result.pose = compose(slot.pose, {0.5 * (length - slot.length), 0.0, 0.0});
-        return result;
-    }
-
 }  // namespace
 
 TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
