@@ -177,12 +177,12 @@ TEST(SearchDetours, lookAboutOnTheirWayAndAheadAlongIt)
 {
     const Row row{40.0, 4.0, 60.0}, longRow{300.0};
     SearchParameters parameters = trapParameters();
-    // With 10, as by default, it is 39,400 and less than 43,000.
+    // With 10, as by default, these are hardly apart: 39,400 and less than 43,000.
     parameters.tuning.detours[0].dear = 60.0;
     const Counts with = searched(rowOfCars(row, 5.0), true, row.halfWorld(), parameters);
     EXPECT_TRUE(with.solved);
     EXPECT_GT(with.expanded, parameters.tuning.leastExpansions);
-    EXPECT_LT(with.roomsAsked, 42000u);
+    EXPECT_LT(with.roomsAsked, 38000u);
     parameters = trapParameters();
     parameters.lookAhead = false;
     EXPECT_GT(4 * searched(rowOfCars(longRow), true, longRow.halfWorld(), parameters).expanded,
