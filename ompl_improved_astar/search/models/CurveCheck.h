@@ -2,14 +2,24 @@
 
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace parking::search
 {
+    /** \brief No curve between two poses is shorter than this, in metres: the car drives so far, and turns so much at
+        full lock. */
+    inline double leastCurveLength(const Pose &from, const Pose &to, double turningRadius)
+    {
+        return std::max(positionDistance(from, to), std::abs(wrapAngle(from.yaw - to.yaw)) * turningRadius);
+    }
+
     /** \brief From which end the pieces of a curve are swept. */
     enum class CurveEnd
     {

@@ -70,9 +70,7 @@ namespace parking::search
         const double radius = curves_.turningRadius(), reach = tuning_.turnReach * radius;
         const auto addCurve = [&](std::size_t from, std::size_t to)
         {
-            // However it gets there, the car drives so far, and turns so much at full lock.
-            const Pose &a = places_[from].pose, &b = places_[to].pose;
-            links_.push_back({from, to, std::max(positionDistance(a, b), std::abs(wrapAngle(a.yaw - b.yaw)) * radius)});
+            links_.push_back({from, to, leastCurveLength(places_[from].pose, places_[to].pose, radius)});
         };
         for (std::size_t from = 0; from < places_.size(); ++from)
         {

@@ -1,10 +1,9 @@
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 
-#include "ompl_improved_astar/search/models/CurveCheck.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace parking::search
@@ -108,76 +107,6 @@ namespace parking::search
         return result;
     }
 
-    PathWidener::Gap PathWidener::cutOut(const Path &path, double begin, double end)
-    {
-        const Path untilEnd = path.first(end);
-        Gap gap{path.first(begin), path.rest(end), path.start, 0.0};
-        const Path part = untilEnd.rest(begin);
-        gap.cost = pathCost(strict_, part, environment_);
-        if (!gap.before.pieces.empty())
-        {
-            gap.from = gap.before.end();
-            gap.cost += strict_.join(gap.before.pieces.back(), part.pieces.front());
-        }
-        if (!gap.after.pieces.empty())
-            gap.cost += strict_.join(part.pieces.back(), gap.after.pieces.front());
-        return gap;
-    }
-
-    std::optional<PathWidener::Leg> PathWidener::shortest(const Pose &from, const Pose &to, const PathPiece *before,
-                                                          const PathPiece *after, double bound)
-    {
-        ++connectionCount_;
-        curves_.candidates(from, to, candidates_, bound);
-        std::optional<Leg> best;
-        for (const ReedsSheppCurve &curve : candidates_)
-        {
-            if (curve.count == 0)
-                continue;
-            const double cost = curveCost(strict_, curve, before, after);
-            if (cost < (best ? best->cost : bound))
-                best = Leg{cost, curve};
-        }
-        return best;
-    }
-
-    void PathWidener::lead(const Gap &gap, const Pose &through, const Limits &limits, std::vector<Lead> &leads)
-    {
-        const double bound = gap.cost - LEAST_GAIN;
-        const Pose &from = gap.from, &to = gap.after.start;
-        const PathPiece *const before = gap.before.pieces.empty() ? nullptr : &gap.before.pieces.back();
-        const PathPiece *const after = gap.after.pieces.empty() ? nullptr : &gap.after.pieces.front();
-        const std::optional<Leg> there = shortest(from, through, before, nullptr, bound);
-        if (!there)
-            return;
-        const std::optional<Leg> onward = shortest(through, to, nullptr, after, bound - there->cost);
-        if (!onward)
-            return;
-        Path led = gap.before;
-        for (std::size_t k = 0; k < there->curve.count; ++k)
-            led.append(there->curve.pieces[k]);
-        const double reach = led.length();
-        for (std::size_t k = 0; k < onward->curve.count; ++k)
-            led.append(onward->curve.pieces[k]);
-        led.extend(gap.after);
-        if (led.cusps() > limits.mostCusps)
-            return;
-        const double join = strict_.join(there->curve.pieces[there->curve.count - 1], onward->curve.pieces[0]);
-        std::vector<PricedCurve> one{{there->cost, &there->curve}}, other{{onward->cost + join, &onward->curve}};
-        const auto isCheapAndFree = [&](const ReedsSheppCurve &, double spent)
-        {
-            return offerFreeCurves(environment_, strict_, through, to, other, CurveEnd::Start, bound - spent,
-                                   [](const ReedsSheppCurve &, double) { return true; });
-        };
-        if (!offerFreeCurves(environment_, strict_, from, through, one, CurveEnd::Start, bound - other.front().first,
-                             isCheapAndFree))
-            return;
-        // Closeness is sampled: the cost of the whole is not quite the sum of its parts'.
-        const double cost = pathCost(strict_, led, environment_);
-        if (cost < limits.mostCost)
-            leads.push_back({std::move(led), cost, reach});
-    }
-
     bool PathWidener::leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
                                 const StopFunction &stop)
     {
@@ -185,22 +114,28 @@ namespace parking::search
         if (poses.empty())
             return false;
         const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance), whole = path.length();
-        const Limits limits{pathCost(strict_, path, environment_) - LEAST_GAIN, mostCusps};
-        std::vector<Lead> leads;
+        const double mostCost = pathCost(strict_, path, environment_) - LEAST_GAIN;
+        std::vector<GapBridge::Bridged> leads;
         for (const double bends : REACHES)
         {
             const double begin = std::min(part.begin, part.nearest - bends * bend);
             const double end = std::max(part.end, part.nearest + bends * bend);
-            const Gap gap = cutOut(path, std::max(0.0, begin), std::min(whole, end));
+            const GapBridge::Gap gap = bridge_.cutOut(path, std::max(0.0, begin), std::min(whole, end));
             for (const Pose &through : poses)
             {
                 if (stop && stop())
                     return false;
-                lead(gap, through, limits, leads);
+                std::optional<GapBridge::Bridged> led = bridge_.lead(gap, through, gap.cost - LEAST_GAIN, mostCusps);
+                if (!led)
+                    continue;
+                // Closeness is sampled: the cost of the whole is not quite the sum of its parts'.
+                led->cost = pathCost(strict_, led->path, environment_);
+                if (led->cost < mostCost)
+                    leads.push_back(std::move(*led));
             }
         }
-        std::stable_sort(leads.begin(), leads.end(), [](const Lead &a, const Lead &b) { return a.cost < b.cost; });
-        for (Lead &each : leads)
+        std::stable_sort(leads.begin(), leads.end(), [](const auto &a, const auto &b) { return a.cost < b.cost; });
+        for (GapBridge::Bridged &each : leads)
         {
             if (stop && stop())
                 return false;

@@ -4,11 +4,11 @@
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/SearchTuning.h"
+#include "ompl_improved_astar/search/planning/GapBridge.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace parking::search
@@ -32,10 +32,10 @@ namespace parking::search
           : environment_(environment),
             curves_(curves),
             cost_(cost),
-            strict_(cost),
-            tuning_(tuning)
+            strict_(withRoomToSpare(cost, tuning)),
+            tuning_(tuning),
+            bridge_(environment, curves, strict_)
         {
-            strict_.preferredClearance *= tuning.roomToSpare;
         }
 
         /** \brief By what paths become cheaper: the cost with a little more room than preferred, since what keeps that
@@ -60,7 +60,7 @@ namespace parking::search
         /** \brief Pairs of poses between which curves were tried in all passes so far. */
         std::uint64_t connections() const
         {
-            return connectionCount_;
+            return bridge_.connections();
         }
 
     private:
@@ -72,42 +72,14 @@ namespace parking::search
             double clearance;  ///< and how near
         };
 
-        /** A path without some part in its middle, and what that cost with the joins at its ends. */
-        struct Gap
+        static CostModel withRoomToSpare(CostModel cost, const SearchTuning &tuning)
         {
-            Path before, after;
-            Pose from;  ///< where it begins
-            double cost;
-        };
-
-        /** The path led through some pose in a gap. */
-        struct Lead
-        {
-            Path path;
-            double cost;
-            double reach;  ///< metres along it to that pose
-        };
-
-        /** What a path must not exceed. */
-        struct Limits
-        {
-            double mostCost;
-            std::size_t mostCusps;
-        };
-
-        /** A curve to or from that pose, and what it costs with the join at its other end. */
-        struct Leg
-        {
-            double cost;
-            ReedsSheppCurve curve;
-        };
+            cost.preferredClearance *= tuning.roomToSpare;
+            return cost;
+        }
 
         std::vector<ClosePart> closeParts(const Path &path, double from, const StopFunction &stop);
         std::vector<Pose> posesBeside(const Pose &pose, const StopFunction &stop);
-        Gap cutOut(const Path &path, double begin, double end);
-        std::optional<Leg> shortest(const Pose &from, const Pose &to, const PathPiece *before, const PathPiece *after,
-                                    double bound);
-        void lead(const Gap &gap, const Pose &through, const Limits &limits, std::vector<Lead> &leads);
         bool leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
                        const StopFunction &stop);
 
@@ -116,8 +88,7 @@ namespace parking::search
         CostModel cost_;
         CostModel strict_;
         SearchTuning tuning_;
-        std::vector<ReedsSheppCurve> candidates_;
-        std::uint64_t connectionCount_{0};
+        GapBridge bridge_;
         bool isTooNear_{false};
     };
 }  // namespace parking::search

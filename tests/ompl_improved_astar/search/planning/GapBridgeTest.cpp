@@ -1,0 +1,113 @@
+// Leading a part of a path through a pose beside it: what it costs, its limits, its ends.
+
+#include "ompl_improved_astar/search/planning/GapBridge.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/support/PoseGap.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr std::size_t ANY_NUMBER = 1000;
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    CostModel model()
+    {
+        return {0.2, 1.0, 0.1, 0.0, 1.0, 1.0 / TURNING_RADIUS};
+    }
+
+    /** Forwards with bends, then in reverse. */
+    const Path &bentAndBack()
+    {
+        static const Path path{
+            {0.0, 0.0, 0.3},
+            {{1.0 / TURNING_RADIUS, 2.0}, {0.0, 3.0}, {-1.0 / TURNING_RADIUS, 2.5}, {0.0, -2.0}, {0.2, -3.0}}};
+        return path;
+    }
+
+    DiscCarWorld open()
+    {
+        return DiscCarWorld({{-100.0, -100.0}, {100.0, 100.0}});
+    }
+}  // namespace
+
+TEST(GapBridge, whatIsCutOutIsTheRestOfWhatIsLeft)
+{
+    DiscCarWorld world = open();
+    const ReedsShepp curves(TURNING_RADIUS);
+    const Path &path = bentAndBack();
+    GapBridge bridge(world, curves, model());
+    const double whole = path.length();
+    for (const double begin : {0.0, 1.0, 4.9, 6.0})
+        for (const double end : {6.5, 7.5, 8.0, whole})
+        {
+            const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+            EXPECT_NEAR(gap.before.length(), begin, 1e-9);
+            EXPECT_NEAR(gap.after.length(), whole - end, 1e-9);
+            EXPECT_LT(parking_test::gap(gap.from, path.at(begin)), 1e-9);
+            EXPECT_LT(parking_test::gap(gap.after.start, path.at(end)), 1e-9);
+            const double left = pathCost(model(), gap.before, world) + pathCost(model(), gap.after, world);
+            EXPECT_NEAR(gap.cost + left, pathCost(model(), path, world), 1e-9);
+        }
+}
+
+TEST(GapBridge, leadsThroughThePoseWithinItsLimits)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    int led = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        DiscCarWorld world = open();
+        Random random(seed);
+        const Path &path = bentAndBack();
+        GapBridge bridge(world, curves, model());
+        const double begin = random.between(0.0, 5.0), end = random.between(7.0, path.length());
+        const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+        Pose pose = path.at(random.between(begin, end));
+        pose = {pose.x + random.between(-1.0, 1.0), pose.y + random.between(-1.0, 1.0),
+                pose.yaw + random.between(-0.5, 0.5)};
+        const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
+        ASSERT_TRUE(bridged);
+        ++led;
+        ASSERT_EQ(faultOf(bridged->path, world, {path.start}, {path.end()}, TURNING_RADIUS), "");
+        ASSERT_LT(parking_test::gap(bridged->path.at(bridged->reach), pose), 1e-6);
+        const double left = pathCost(model(), gap.before, world) + pathCost(model(), gap.after, world);
+        ASSERT_NEAR(bridged->cost + left, pathCost(model(), bridged->path, world), 1e-9);
+        // Both sides of both limits.
+        const std::size_t cusps = bridged->path.cusps();
+        ASSERT_TRUE(bridge.lead(gap, pose, bridged->cost + 1e-9, cusps));
+        ASSERT_FALSE(bridge.lead(gap, pose, bridged->cost - 1e-9, cusps));
+        if (cusps > 0)
+        {
+            ASSERT_FALSE(bridge.lead(gap, pose, INFINITE, cusps - 1));
+        }
+    }
+    EXPECT_EQ(led, 300);
+}
+
+/** A wall on either half of the way is seen. */
+TEST(GapBridge, leadsAlongNothingThatIsNotFree)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    const Path straight{{0.0, 0.0, 0.0}, {{0.0, 20.0}}};
+    const Pose beside{10.0, 0.2, 0.0};
+    for (const double wall : {-3.0, 5.0, 15.0, 25.0})
+    {
+        SCOPED_TRACE(wall);
+        DiscCarWorld world = open();
+        GapBridge bridge(world, curves, model());
+        const GapBridge::Gap gap = bridge.cutOut(straight, 0.0, 20.0);
+        ASSERT_TRUE(bridge.lead(gap, beside, INFINITE, ANY_NUMBER));
+        world.boxes.push_back({{wall, -3.0}, {wall + 0.1, 3.0}});
+        EXPECT_EQ(bridge.lead(gap, beside, INFINITE, ANY_NUMBER).has_value(), wall < 0.0 || wall > 24.0);
+    }
+}
