@@ -152,6 +152,21 @@ namespace parking::search
         std::size_t mostTurnCurves{300};  ///< pairs of poses between which curves are swept
         /** @} */
 
+        /** \name Moving the poses between the pieces of a path
+
+            Chosen by hand with 0.17 s of anytime on 183 random queries of the tuning seeds that docs/planner.md names
+            and on the 62 problems, and when to begin on first paths of 537 such queries.
+            @{ */
+        double dearToRelax{1.5};           ///< a first path that costs more than this times what it promised is relaxed
+        double relaxStep{0.3};             ///< by which poses are moved at first
+        double relaxReach[2]{1.5, 6.0};    ///< of the path before and after a pose that is replaced
+        std::size_t relaxations{3};        ///< passes over a path that was found,
+        double relaxDecay{0.4};            ///< factor on the step from one to the next
+        std::size_t relaxationsOfBest{8};  ///< passes over the best path while improving,
+        double relaxDecayOfBest{0.6};      ///< with this factor,
+        std::size_t relaxationsPerRound{2};  ///< and so many of them at a time
+        /** @} */
+
         /** \name Leading what was found past obstacles that it comes too near to
 
             Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k.

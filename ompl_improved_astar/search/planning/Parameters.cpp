@@ -250,7 +250,8 @@ namespace parking
              "what a metre driven nearer than `preferred_clearance` is worth, in metres of detour"},
             {"smoothing", &P::smoothing, oneOf(smoothings), "", "B-spline through the path (grid models)"},
             {"shortening", &P::shortening, yesOrNo(), "",
-             "replace parts of the solution by cheaper curves, and drive parts of it the other way round (car model)"},
+             "replace parts of the solution by cheaper curves, move its cusps, and drive parts of it the other way "
+             "round (car model)"},
             {"approximate", &P::approximate, yesOrNo(), "",
              "end as near to the goal as possible when it cannot be reached"},
             {"anytime", &P::anytime, yesOrNo(), "", "after the first solution go on improving until terminated"},

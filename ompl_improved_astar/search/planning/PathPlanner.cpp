@@ -1,5 +1,6 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 
@@ -40,7 +41,8 @@ namespace parking::search
         starts_.clear();
         bestPath_ = {};
         bestCost_ = INFINITE;
-        costWhenTurned_ = INFINITE;
+        costWhenTurned_ = costWhenRelaxed_ = INFINITE;
+        relaxations_ = 0;
         shortenerConnections_ = 0;
         hasRoomySearch_ = hasApproach_ = false;
         approaches_ = {};
@@ -189,6 +191,8 @@ namespace parking::search
         }
         if (parameters_.shorten && cost > tuning.dearTurns * expected)
             turnRound(best, cost);
+        if (parameters_.shorten && !isBare && cost > tuning.dearToRelax * expected)
+            relaxAndShorten(best, cost);
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
         take(best, cost);
@@ -211,12 +215,54 @@ namespace parking::search
         double costOfTurned = pathCost(search_.cost(), turned, *environment_);
         if (!isTimeUp())
             shortenTwice(turned, costOfTurned);
-        const std::size_t mostCusps = std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
-        if (!(costOfTurned < cost) || turned.cusps() > mostCusps)
+        if (!(costOfTurned < cost) || turned.cusps() > mostCuspsOf(path))
             return false;
         path = std::move(turned);
         cost = costOfTurned;
         return true;
+    }
+
+    std::size_t PathPlanner::mostCuspsOf(const Path &path) const
+    {
+        return std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
+    }
+
+    bool PathPlanner::relax(Path &path, double &cost, double step)
+    {
+        if (isTimeUp())
+            return false;
+        PathRelaxer relaxer(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
+        const bool isCheaper = relaxer.pass(path, step * parameters_.search.turningRadius, mostCuspsOf(path), stop_);
+        shortenerConnections_ += relaxer.connections();
+        if (isCheaper)
+            cost = pathCost(search_.cost(), path, *environment_);
+        return isCheaper;
+    }
+
+    void PathPlanner::relaxAndShorten(Path &path, double &cost)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        double step = tuning.relaxStep;
+        bool isCheaper = false;
+        for (std::size_t k = 0; k < tuning.relaxations; ++k, step *= tuning.relaxDecay)
+            isCheaper = relax(path, cost, step) || isCheaper;
+        if (isCheaper && !isTimeUp())
+            shortenTwice(path, cost);
+    }
+
+    bool PathPlanner::relaxBest()
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        if (relaxations_ == tuning.relaxationsOfBest && bestCost_ < costWhenRelaxed_)
+            relaxations_ = 0;
+        if (relaxations_ == tuning.relaxationsOfBest)
+            return false;
+        if (relaxations_ == 0)
+            costWhenRelaxed_ = bestCost_;
+        Path path = bestPath_;
+        double cost = bestCost_;
+        const double step = tuning.relaxStep * std::pow(tuning.relaxDecayOfBest, static_cast<double>(relaxations_++));
+        return relax(path, cost, step) && take(path, cost);
     }
 
     bool PathPlanner::widen(Path &path, double &cost)
@@ -326,6 +372,8 @@ namespace parking::search
             double cost = restarts_.cost();
             if (parameters_.shorten && !isTimeUp())
                 shortenTwice(path, cost);
+            if (parameters_.shorten && cost < factor * bestCost_)
+                relaxAndShorten(path, cost);
             progress = take(path, cost) || progress;
         }
         return progress;
@@ -354,6 +402,9 @@ namespace parking::search
                     const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
                     progress = shortenBest(knots.spacing, knots.offset) || progress;
                 }
+            if (parameters_.shorten)
+                for (std::size_t k = 0; k < tuning.relaxationsPerRound && !goodEnough_ && !isTimeUp(); ++k)
+                    progress = relaxBest() || progress;
             if (parameters_.shorten && !goodEnough_)
             {
                 Path path = bestPath_;

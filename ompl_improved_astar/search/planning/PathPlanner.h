@@ -18,7 +18,7 @@ namespace parking::search
     struct PathPlannerParameters
     {
         SearchParameters search;  ///< of the search
-        bool shorten{true};       ///< replace parts by cheaper curves, turn round elsewhere; needs curves
+        bool shorten{true};       ///< replace parts by cheaper curves, move poses, turn round elsewhere; needs curves
         bool anytime{false};      ///< keep improving until stopped
     };
 
@@ -134,6 +134,13 @@ namespace parking::search
         bool shortenBest(double spacing, double offset);
         /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
         bool turnRound(Path &path, double &cost);
+        /** Moves the poses between the pieces of a path by a step, in turning radii. */
+        bool relax(Path &path, double &cost, double step);
+        /** The same by falling steps; then shortens what has become cheaper. */
+        void relaxAndShorten(Path &path, double &cost);
+        /** One pass over the best path, by the next one of the steps, until none of them makes it cheaper any more. */
+        bool relaxBest();
+        std::size_t mostCuspsOf(const Path &path) const;
         /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
         bool widen(Path &path, double &cost);
         bool canLeaveWithRoom(const Pose &pose);
@@ -157,6 +164,8 @@ namespace parking::search
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
         double costWhenTurned_{std::numeric_limits<double>::infinity()};  // of the path that turnRound() tried last
+        std::size_t relaxations_{0};  // passes of relaxBest() since it began with the first step,
+        double costWhenRelaxed_{std::numeric_limits<double>::infinity()};  // and what the best path cost then
         std::uint64_t shortenerConnections_{0};
         StopFunction stop_;
         ImprovementFunction improved_;

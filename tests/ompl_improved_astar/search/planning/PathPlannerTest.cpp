@@ -143,8 +143,8 @@ TEST(PathPlanner, onlyPathsFarDearerThanPromisedAreShortenedAgainAndThenNeverCos
         SCOPED_TRACE(seed);
         CarProblem problem = randomProblem(seed);
         PathPlannerParameters parameters = parametersFor(problem);
-        // What is turned round starts from another path.
-        parameters.search.tuning.dearTurns = INFINITE;
+        // What is turned round or relaxed starts from another path.
+        parameters.search.tuning.dearTurns = parameters.search.tuning.dearToRelax = INFINITE;
         PathPlanner usual, spared;
         problem.begin(usual, parameters);
         if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)

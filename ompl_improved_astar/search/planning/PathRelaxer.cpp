@@ -1,0 +1,115 @@
+#include "ompl_improved_astar/search/planning/PathRelaxer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace parking::search
+{
+    namespace
+    {
+        constexpr double LEAST_GAIN = 1e-3;     // metres of cost: smaller gains are not worth a new path
+        constexpr std::size_t MOST_MOVES = 20;  // one after the other, before the pass goes on along the path
+
+        /** In steps: forwards, to the left, turned to the left. */
+        struct Move
+        {
+            double forwards, left, turn;
+        };
+
+        constexpr std::array<Move, 10> MOVES{{{1.0, 0.0, 0.0},
+                                              {-1.0, 0.0, 0.0},
+                                              {0.0, 1.0, 0.0},
+                                              {0.0, -1.0, 0.0},
+                                              {0.0, 0.0, 1.0},
+                                              {0.0, 0.0, -1.0},
+                                              {0.0, 1.0, 1.0},
+                                              {0.0, -1.0, -1.0},
+                                              {0.0, -1.0, 1.0},
+                                              {0.0, 1.0, -1.0}}};
+    }  // namespace
+
+    std::vector<Pose> PathRelaxer::movedPoses(const Pose &pose, double step)
+    {
+        const double cosine = std::cos(pose.yaw), sine = std::sin(pose.yaw);
+        std::vector<Pose> poses;
+        for (const Move &move : MOVES)
+        {
+            const double forwards = move.forwards * step, left = move.left * step;
+            const Pose moved{pose.x + forwards * cosine - left * sine, pose.y + forwards * sine + left * cosine,
+                             pose.yaw + move.turn * step / curves_.turningRadius()};
+            if (environment_.isPassable(moved))
+                poses.push_back(moved);
+        }
+        return poses;
+    }
+
+    std::optional<Path> PathRelaxer::leadThrough(const Path &path, const std::vector<Pose> &poses, double driven,
+                                                 double reach, std::size_t mostCusps, const StopFunction &stop)
+    {
+        const double begin = std::max(0.0, driven - reach), end = std::min(path.length(), driven + reach);
+        const GapBridge::Gap gap = bridge_.cutOut(path, begin, end);
+        double bound = gap.cost - LEAST_GAIN;
+        std::optional<Path> best;
+        for (const Pose &pose : poses)
+        {
+            if (stop && stop())
+                return std::nullopt;
+            if (std::optional<GapBridge::Bridged> led = bridge_.lead(gap, pose, bound, mostCusps))
+            {
+                bound = led->cost;
+                best = std::move(led->path);
+            }
+        }
+        return best;
+    }
+
+    bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, double driven,
+                           std::size_t mostCusps, const StopFunction &stop)
+    {
+        for (const double radii : tuning_.relaxReach)
+        {
+            std::optional<Path> led =
+                leadThrough(path, poses, driven, radii * curves_.turningRadius(), mostCusps, stop);
+            if (!led)
+                continue;
+            // Closeness is sampled: the cost of the whole is not quite the sum of its parts'. Without this, two paths
+            // replace each other for ever.
+            const double less = pathCost(cost_, *led, environment_);
+            if (!(less < cost - 0.5 * LEAST_GAIN) || !environment_.acceptPath(*led))
+                continue;
+            path = std::move(*led);
+            cost = less;
+            return true;
+        }
+        return false;
+    }
+
+    bool PathRelaxer::pass(Path &path, double step, std::size_t mostCusps, const StopFunction &stop)
+    {
+        bool improved = false;
+        double cost = pathCost(cost_, path, environment_);
+        std::size_t moves = 0;
+        for (std::size_t piece = 0; piece + 1 < path.pieces.size();)
+        {
+            if (stop && stop())
+                break;
+            double driven = 0.0;
+            for (std::size_t k = 0; k <= piece; ++k)
+                driven += path.pieces[k].driven();
+            const std::vector<Pose> poses = movedPoses(path.at(driven), step);
+            if (moves < MOST_MOVES && move(path, cost, poses, driven, mostCusps, stop))
+            {
+                // The pieces are others now, and what lies before them may gain by it.
+                improved = true;
+                ++moves;
+                piece -= piece > 0 ? 1 : 0;
+                continue;
+            }
+            ++piece;
+            moves = 0;
+        }
+        return improved;
+    }
+}  // namespace parking::search

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "ompl_improved_astar/search/CostModel.h"
+#include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/SearchTuning.h"
+#include "ompl_improved_astar/search/planning/GapBridge.h"
+#include "parking_geometry/curves/Path.h"
+#include "parking_geometry/curves/ReedsShepp.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace parking::search
+{
+    /** \brief Makes a drivable path cheaper by moving the poses between its pieces, above all its cusps.
+
+        Shortening puts curves between poses of the path, so that what it leaves still goes through poses that a search
+        has come to on its raster. Here each pose between two pieces is moved by a step, forwards, backwards, to the
+        side or turned, and the part of the path around it replaced by two curves of bounded curvature that meet there.
+        The cheapest of these that are free is taken, if the path becomes cheaper by it: a descent by coordinates. The
+        path stays free and drivable and keeps its ends. Deterministic. */
+    class PathRelaxer
+    {
+    public:
+        /** \brief What is referred to must outlive it. \param cost by which paths become cheaper */
+        PathRelaxer(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost,
+                    const SearchTuning &tuning)
+          : environment_(environment),
+            curves_(curves),
+            cost_(cost),
+            tuning_(tuning),
+            bridge_(environment, curves, cost)
+        {
+        }
+
+        /** \brief One pass along the path, which must not be empty.
+
+            \param step metres by which poses are moved; turns are as long at full lock
+            \param mostCusps the path may have then
+            \return whether the path became cheaper */
+        bool pass(Path &path, double step, std::size_t mostCusps, const StopFunction &stop);
+
+        /** \brief Pairs of poses between which curves were looked for in all passes so far. */
+        std::uint64_t connections() const
+        {
+            return bridge_.connections();
+        }
+
+    private:
+        std::vector<Pose> movedPoses(const Pose &pose, double step);
+        /** The cheapest path through one of the poses, which are about where the path is after so many metres. */
+        std::optional<Path> leadThrough(const Path &path, const std::vector<Pose> &poses, double driven, double reach,
+                                        std::size_t mostCusps, const StopFunction &stop);
+        /** Replaces the path, whose cost is given, by one that goes through one of the poses and costs less. */
+        bool move(Path &path, double &cost, const std::vector<Pose> &poses, double driven, std::size_t mostCusps,
+                  const StopFunction &stop);
+
+        MotionEnvironment &environment_;
+        const ReedsShepp &curves_;
+        CostModel cost_;
+        SearchTuning tuning_;
+        GapBridge bridge_;
+    };
+}  // namespace parking::search

@@ -1,0 +1,300 @@
+// Moving the poses between the pieces of paths: cheaper, ends kept, free and drivable.
+
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/PathRelaxer.h"
+#include "ompl_improved_astar/search/planning/PathShortener.h"
+#include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/NoisyWorld.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+using namespace parking;
+using namespace parking::search;
+using namespace parking_test;
+
+namespace
+{
+    constexpr std::size_t ANY_NUMBER = 1000;
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    constexpr double STEP = 0.3 * TURNING_RADIUS;
+
+    const CostModel &model()
+    {
+        static const CostModel cost = carParameters().cost;
+        return cost;
+    }
+
+    bool isSamePath(const Path &a, const Path &b)
+    {
+        return a.pieces.size() == b.pieces.size() && a.length() == b.length() && a.cusps() == b.cusps();
+    }
+
+    PathPlannerParameters plannerParameters(const CarProblem &problem, double dearToRelax)
+    {
+        PathPlannerParameters parameters;
+        parameters.search = parametersIn(problem);
+        parameters.search.tuning.dearToRelax = dearToRelax;
+        return parameters;
+    }
+
+    /** A first solution that is not relaxed; without pieces when there is none. */
+    Path plannedPath(CarProblem &problem, std::uint8_t mostCusps = ANY_CUSPS)
+    {
+        PathPlannerParameters parameters = plannerParameters(problem, INFINITE);
+        parameters.search.mostCusps = mostCusps;
+        PathPlanner planner;
+        problem.begin(planner, parameters);
+        planner.solve(afterAsking(3000), {});
+        return planner.bestPath();
+    }
+
+    DiscCarWorld postInTheOpen()
+    {
+        return DiscCarWorld({{-50.0, -50.0}, {50.0, 50.0}}, {{{-0.5, -0.5}, {0.5, 0.5}}});
+    }
+
+    /** Two curves that meet far out beside that post. */
+    Path roundThePost(const ReedsShepp &curves)
+    {
+        const Pose from{-15.0, 0.0, 0.0}, through{0.0, 6.0, 0.0}, to{15.0, 0.0, 0.0};
+        Path path{from, {}};
+        for (const auto &[a, b] : {std::pair{from, through}, std::pair{through, to}})
+        {
+            const ReedsSheppCurve curve = curves.shortest(a, b);
+            for (std::size_t k = 0; k < curve.count; ++k)
+                path.append(curve.pieces[k]);
+        }
+        return path;
+    }
+
+    /** Shortens the path with one set of knots after another until none of them helps. */
+    void shortenAll(DiscCarWorld &world, const ReedsShepp &curves, Path &path)
+    {
+        PathShortener shortener(world, curves, model());
+        for (bool isShorter = true; isShorter;)
+        {
+            isShorter = false;
+            for (const double spacing : {0.9, 1.5, 2.3})
+                isShorter = shortener.pass(path, spacing, 0.4, INFINITE, CurveChoice::All, nullptr) || isShorter;
+        }
+    }
+}  // namespace
+
+TEST(PathRelaxer, makesCheaperWhatShorteningLeaves)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    int relaxed = 0, same = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 16);
+        Path before = plannedPath(problem);
+        if (before.pieces.empty())
+            continue;
+        shortenAll(problem.world, curves, before);
+        const double cost = pathCost(model(), before, problem.world);
+        Path path = before, again = before;
+        const bool isRelaxed =
+            PathRelaxer(problem.world, curves, model(), SearchTuning()).pass(path, 0.1 * STEP, ANY_NUMBER, nullptr);
+        ASSERT_EQ(
+            PathRelaxer(problem.world, curves, model(), SearchTuning()).pass(again, 0.1 * STEP, ANY_NUMBER, nullptr),
+            isRelaxed);
+        ASSERT_TRUE(isSamePath(path, again));
+        ASSERT_EQ(faultOf(path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+        if (isRelaxed)
+        {
+            ASSERT_LT(pathCost(model(), path, problem.world), cost - 1e-4);
+        }
+        else
+        {
+            ASSERT_TRUE(isSamePath(path, before));
+        }
+        ++(isRelaxed ? relaxed : same);
+    }
+    EXPECT_GT(relaxed, 20);
+    EXPECT_GT(same, 20);
+}
+
+/** With steps that fall the way round a post comes as near to it as it lets it. */
+TEST(PathRelaxer, drawsABendTightAroundAPost)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    DiscCarWorld world = postInTheOpen();
+    Path path = roundThePost(curves);
+    const Pose from = path.start, to = path.end();
+    ASSERT_EQ(faultOf(path, world, {from}, {to}, TURNING_RADIUS), "");
+    const double before = path.length();
+    PathRelaxer relaxer(world, curves, model(), SearchTuning());
+    for (double step = STEP; step > 0.01; step *= 0.6)
+        relaxer.pass(path, step, ANY_NUMBER, nullptr);
+    EXPECT_EQ(faultOf(path, world, {from}, {to}, TURNING_RADIUS), "");
+    EXPECT_GT(relaxer.connections(), 0U);
+    // The least way past it is about 30.3 m long: the rear axle has to be 1.45 m beside the middle of the post.
+    EXPECT_GT(before, 32.0);
+    EXPECT_LT(path.length(), 30.6);
+    EXPECT_GE(path.length(), 2.0 * std::hypot(15.0, 1.45) - 1e-6);
+}
+
+TEST(PathRelaxer, keepsToTheCuspsThatAPathMayHave)
+{
+    // Cusps cost nothing here, so that more of them are often cheaper.
+    CostModel cost = model();
+    cost.gearChangePenalty = 0.0;
+    const ReedsShepp curves(TURNING_RADIUS);
+    int more = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 16);
+        const Path before = plannedPath(problem);
+        if (before.pieces.empty())
+            continue;
+        Path limited = before, free = before;
+        PathRelaxer relaxer(problem.world, curves, cost, SearchTuning());
+        relaxer.pass(limited, STEP, before.cusps(), nullptr);
+        ASSERT_LE(limited.cusps(), before.cusps());
+        relaxer.pass(free, STEP, ANY_NUMBER, nullptr);
+        more += free.cusps() > before.cusps();
+    }
+    EXPECT_GT(more, 3);
+}
+
+TEST(PathRelaxer, endsWhenItIsStoppedOrThePathIsNotAccepted)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    DiscCarWorld world = postInTheOpen();
+    const Path before = roundThePost(curves);
+    const double cost = pathCost(model(), before, world);
+    std::uint64_t asked = 0;
+    Path relaxed = before;
+    ASSERT_TRUE(PathRelaxer(world, curves, model(), SearchTuning())
+                    .pass(relaxed, 0.1 * STEP, ANY_NUMBER, [&asked] { return ++asked == 0; }));
+    ASSERT_GT(asked, 50U);
+    for (std::uint64_t calls = 0; calls < asked; calls += 1 + asked / 50)
+    {
+        SCOPED_TRACE(calls);
+        std::uint64_t left = calls, after = 0;
+        Path path = before;
+        PathRelaxer relaxer(world, curves, model(), SearchTuning());
+        const bool isRelaxed = relaxer.pass(path, 0.1 * STEP, ANY_NUMBER,
+                                            [&]
+                                            {
+                                                after += left == 0 ? 1 : 0;
+                                                return left == 0 || left-- == 0;
+                                            });
+        EXPECT_LE(after, 4U);
+        EXPECT_LE(relaxer.connections(), 2 * (calls + 1));
+        EXPECT_EQ(isSamePath(path, before), !isRelaxed);
+        EXPECT_EQ(faultOf(path, world, {before.start}, {before.end()}, TURNING_RADIUS), "");
+        EXPECT_LE(pathCost(model(), path, world), cost);
+    }
+    world.acceptsPaths = false;
+    Path refused = before;
+    EXPECT_FALSE(PathRelaxer(world, curves, model(), SearchTuning()).pass(refused, 0.1 * STEP, ANY_NUMBER, nullptr));
+    EXPECT_TRUE(isSamePath(refused, before));
+}
+
+TEST(PathRelaxer, leavesASingleMotionAlone)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    DiscCarWorld world({{-50.0, -50.0}, {50.0, 50.0}});
+    Path path{{0.0, 0.0, 0.0}, {{1.0 / TURNING_RADIUS, 12.0}}};
+    const Path before = path;
+    PathRelaxer relaxer(world, curves, model(), SearchTuning());
+    EXPECT_FALSE(relaxer.pass(path, STEP, ANY_NUMBER, nullptr));
+    EXPECT_EQ(relaxer.connections(), 0U);
+    EXPECT_TRUE(isSamePath(path, before));
+}
+
+/** Each path is compared with the one before as a whole: otherwise two could replace each other for ever. */
+TEST(PathRelaxer, endsWhereClosenessIsNothingButNoise)
+{
+    constexpr std::uint64_t FAR_TOO_MANY = 400000;
+    const ReedsShepp curves(TURNING_RADIUS);
+    CostModel cost = model();
+    cost.preferredClearance = 0.3;
+    cost.clearanceCost = 10.0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        NoisyWorld world({{-100.0, -100.0}, {100.0, 100.0}});
+        Random random(seed);
+        Path path{{0.0, 0.0, random.between(-PI, PI)}, {}};
+        for (int i = 0; i < 8; ++i)
+            path.append(Arc{(static_cast<double>(random.index(3)) - 1.0) / TURNING_RADIUS,
+                            random.between(0.5, 3.0) * (random.chance(0.5) ? -1.0 : 1.0)});
+        const double before = pathCost(cost, path, world);
+        PathRelaxer relaxer(world, curves, cost, SearchTuning());
+        const bool isRelaxed =
+            relaxer.pass(path, 0.3 * STEP, ANY_NUMBER, [&] { return relaxer.connections() > FAR_TOO_MANY; });
+        ASSERT_LT(relaxer.connections(), FAR_TOO_MANY);
+        ASSERT_LE(pathCost(cost, path, world), isRelaxed ? before - 1e-4 : before);
+    }
+}
+
+/** The planner asks for it where a path costs far more than promised, and never pays for it. */
+TEST(PathRelaxer, makesDearFirstSolutionsOfThePlannerCheaper)
+{
+    int cheaper = 0, solved = 0, cheap = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed);
+        PathPlanner with, without;
+        problem.begin(without, plannerParameters(problem, INFINITE));
+        if (without.solve(afterAsking(3000), {}) != PathPlanner::Outcome::Solved)
+            continue;
+        ++solved;
+        problem.begin(with, plannerParameters(problem, SearchTuning().dearToRelax));
+        ASSERT_EQ(with.solve(afterAsking(100000), {}), PathPlanner::Outcome::Solved);
+        ASSERT_EQ(faultOf(with.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+        ASSERT_LE(with.bestCost(), without.bestCost() + 1e-9);
+        const double promised = std::max(without.search().shortestMotion(), without.search().estimate());
+        if (without.bestCost() <= SearchTuning().dearToRelax * promised)
+        {
+            ++cheap;
+            ASSERT_TRUE(isSamePath(with.bestPath(), without.bestPath()));
+            ASSERT_EQ(with.statistics().connections, without.statistics().connections);
+        }
+        cheaper += with.bestCost() < without.bestCost() - 1e-6 ? 1 : 0;
+    }
+    EXPECT_GT(solved, 100);
+    EXPECT_GT(cheap, 50);
+    EXPECT_GT(cheaper, 5);
+}
+
+/** With anytime the best path is relaxed, too, by all steps, again and again. */
+TEST(PathRelaxer, makesThePathsOfAnytimeCheaper)
+{
+    const auto costAfter = [](CarProblem &problem, std::size_t relaxationsOfBest)
+    {
+        PathPlannerParameters parameters = plannerParameters(problem, INFINITE);
+        parameters.anytime = true;
+        parameters.search.tuning.relaxations = 0;
+        parameters.search.tuning.relaxationsOfBest = relaxationsOfBest;
+        PathPlanner planner;
+        problem.begin(planner, parameters);
+        planner.solve(afterExpanding(planner, 100), {});
+        return planner.bestCost();
+    };
+    int cheaper = 0;
+    double with = 0.0, without = 0.0;
+    for (std::uint64_t seed = 0; seed < 80; ++seed)
+    {
+        CarProblem problem = randomProblem(seed);
+        const double costWithout = costAfter(problem, 0);
+        if (costWithout == INFINITE)
+            continue;
+        const double cost = costAfter(problem, SearchTuning().relaxationsOfBest);
+        without += costWithout;
+        with += cost;
+        cheaper += cost < costWithout - 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(cheaper, 4);
+    EXPECT_LT(with, without);
+}
