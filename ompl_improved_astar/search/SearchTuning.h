@@ -158,6 +158,7 @@ namespace parking::search
             and on the 62 problems, and when to begin on first paths of 537 such queries.
             @{ */
         double dearToRelax{1.5};           ///< a first path that costs more than this times what it promised is relaxed
+        double longestToRelax{30.0};       ///< if it is shorter than this: longer ones gain little for the time
         double relaxStep{0.3};             ///< by which poses are moved at first
         double relaxReach[2]{1.5, 6.0};    ///< of the path before and after a pose that is replaced
         std::size_t relaxations{3};        ///< passes over a path that was found,

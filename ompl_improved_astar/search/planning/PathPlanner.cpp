@@ -191,7 +191,8 @@ namespace parking::search
         }
         if (parameters_.shorten && cost > tuning.dearTurns * expected)
             turnRound(best, cost);
-        if (parameters_.shorten && !isBare && cost > tuning.dearToRelax * expected)
+        const double longest = tuning.longestToRelax * parameters_.search.turningRadius;
+        if (parameters_.shorten && !isBare && cost > tuning.dearToRelax * expected && best.length() < longest)
             relaxAndShorten(best, cost);
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
