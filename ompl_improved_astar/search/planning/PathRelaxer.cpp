@@ -98,8 +98,7 @@ namespace parking::search
             double driven = 0.0;
             for (std::size_t k = 0; k <= piece; ++k)
                 driven += path.pieces[k].driven();
-            const std::vector<Pose> poses = movedPoses(path.at(driven), step);
-            if (moves < MOST_MOVES && move(path, cost, poses, driven, mostCusps, stop))
+            if (moves < MOST_MOVES && move(path, cost, movedPoses(path.at(driven), step), driven, mostCusps, stop))
             {
                 // The pieces are others now, and what lies before them may gain by it.
                 improved = true;

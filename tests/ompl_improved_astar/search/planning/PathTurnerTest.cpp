@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/planning/SamePath.h"
 
 #include <gtest/gtest.h>
 
@@ -41,11 +42,6 @@ namespace
         path.start.y = -path.end().y;  // to be in the middle of the lane then
         path.append(Arc{0.0, -30.0});
         return path;
-    }
-
-    bool isSamePath(const Path &a, const Path &b)
-    {
-        return a.pieces.size() == b.pieces.size() && a.length() == b.length() && a.cusps() == b.cusps();
     }
 
     /** A first solution; without pieces when there is none. */
