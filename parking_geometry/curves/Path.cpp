@@ -20,6 +20,24 @@ namespace parking
         {
             return piece.sharpness == 0.0 && piece.turn == 0.0;
         }
+
+        /** A place on a path: so many metres of that piece. */
+        struct Cut
+        {
+            std::size_t piece;
+            double driven;
+        };
+
+        /** Where \e driven metres of the pieces have been driven: where one ends when that is but a hair away, so that
+            rounding leaves no slivers, least of all at cusps. Turns there are yet to be made. */
+        Cut cutAt(const std::vector<PathPiece> &pieces, double driven)
+        {
+            constexpr double HAIR = 1e-9;  // metres
+            std::size_t piece = 0;
+            while (piece < pieces.size() && driven >= HAIR && pieces[piece].driven() - driven < HAIR)
+                driven -= pieces[piece++].driven();
+            return {piece, piece < pieces.size() && driven >= HAIR ? driven : 0.0};
+        }
     }  // namespace
 
     PathPiece PathPiece::turnOnTheSpot(double angle)
@@ -127,19 +145,15 @@ namespace parking
 
     Path Path::rest(double driven) const
     {
-        Path result{start, {}};
-        for (const PathPiece &piece : pieces)
+        const Cut cut = cutAt(pieces, driven);
+        Path result{at(driven), {}};
+        for (std::size_t i = cut.piece; i < pieces.size(); ++i)
         {
-            const double skipped = std::min(driven, piece.driven());
-            PathPiece left = piece;
-            if (driven > 0.0)
+            PathPiece left = pieces[i];
+            if (i == cut.piece)
             {
-                // A turn at the very end of what is skipped is still to be made.
-                result.start = advance(result.start, piece, skipped);
-                driven -= skipped;
-                left.curvature = piece.curvatureAt(skipped);
-                left.length = piece.direction() * (piece.driven() - skipped);
-                left.turn = 0.0;
+                left.curvature = left.curvatureAt(cut.driven);
+                left.length = left.direction() * (left.driven() - cut.driven);
             }
             result.append(left);
         }
@@ -148,30 +162,26 @@ namespace parking
 
     Path Path::first(double driven) const
     {
+        const Cut cut = cutAt(pieces, driven);
         Path result{start, {}};
-        for (const PathPiece &piece : pieces)
+        for (std::size_t i = 0; i < cut.piece; ++i)
+            result.append(pieces[i]);
+        if (cut.driven > 0.0)
         {
-            if (!(driven > 0.0))
-                break;
-            PathPiece begun = piece;
-            begun.length = piece.direction() * std::min(driven, piece.driven());
+            PathPiece begun = pieces[cut.piece];
+            begun.length = begun.direction() * cut.driven;
             result.append(begun);
-            driven -= piece.driven();
         }
         return result;
     }
 
     Pose Path::at(double driven) const
     {
+        const Cut cut = cutAt(pieces, driven);
         Pose pose = start;
-        for (const PathPiece &piece : pieces)
-        {
-            if (!(driven > 0.0))
-                break;
-            pose = advance(pose, piece, std::min(driven, piece.driven()));
-            driven -= piece.driven();
-        }
-        return pose;
+        for (std::size_t i = 0; i < cut.piece; ++i)
+            pose = advance(pose, pieces[i]);
+        return cut.driven > 0.0 ? advance(pose, pieces[cut.piece], cut.driven) : pose;
     }
 
     std::vector<Stretch> Path::stretches() const

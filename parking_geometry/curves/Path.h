@@ -142,7 +142,7 @@ namespace parking
         Path part(std::size_t first, std::size_t last) const;
 
         /** \brief What is left of the path behind its first \e driven metres (0 to length()); the piece that is under
-            way there is cut. */
+            way there is cut, or left whole where it begins or ends within a nanometre. */
         Path rest(double driven) const;
 
         /** \brief The first \e driven metres (0 to length()) of the path: what rest() leaves out. A turn on the spot at

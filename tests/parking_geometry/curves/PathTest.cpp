@@ -286,6 +286,36 @@ TEST(Path, TheFirstMetresEndWhereTheRestBegins)
     EXPECT_LT(gap(corner.at(2.5), corner.rest(2.5).start), 1e-12);
 }
 
+TEST(Path, CutsWhereAPieceEndsLeaveNoSlivers)
+{
+    RandomParking random(31);
+    for (int i = 0; i < 300; ++i)
+    {
+        const Path path = anyPath(random);
+        double driven = 0.0;
+        for (std::size_t k = 0; k < path.pieces.size(); ++k)
+        {
+            driven += path.pieces[k].driven();
+            for (const double off : {-5e-10, -1e-14, 0.0, 1e-14, 5e-10})
+            {
+                const Path first = path.first(driven + off), rest = path.rest(driven + off);
+                const Pose at = path.at(driven + off);
+                EXPECT_LT(gap(at, rest.start), 1e-12);
+                EXPECT_LT(gap(path.at(driven), at), 1e-12);
+                EXPECT_NEAR(first.length(), driven, 1e-12);
+                for (const Path *part : {&first, &rest})
+                    for (const PathPiece &piece : part->pieces)
+                        EXPECT_TRUE(piece.turn != 0.0 || piece.driven() > 1e-6) << piece.driven();
+            }
+            // What is longer than a hair is cut.
+            if (driven > 0.0)
+            {
+                EXPECT_NEAR(path.first(driven - 1e-8).length(), driven - 1e-8, 1e-12);
+            }
+        }
+    }
+}
+
 TEST(Path, AppendingMergesArcsAndDropsWhatDoesNothing)
 {
     Path path;
