@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace parking::search
@@ -28,6 +29,21 @@ namespace parking::search
                                               {0.0, -1.0, -1.0},
                                               {0.0, -1.0, 1.0},
                                               {0.0, 1.0, -1.0}}};
+
+        /** Metres driven to the cusps of a path, in order. */
+        std::vector<double> cuspsOf(const Path &path)
+        {
+            std::vector<double> cusps;
+            double driven = 0.0;
+            for (const Stretch &stretch : path.stretches())
+            {
+                if (stretch.first > 0)
+                    cusps.push_back(driven);
+                for (std::size_t k = stretch.first; k < stretch.last; ++k)
+                    driven += path.pieces[k].driven();
+            }
+            return cusps;
+        }
     }  // namespace
 
     std::vector<Pose> PathRelaxer::movedPoses(const Pose &pose, double step)
@@ -45,11 +61,38 @@ namespace parking::search
         return poses;
     }
 
-    std::optional<Path> PathRelaxer::leadThrough(const Path &path, const std::vector<Pose> &poses, double driven,
-                                                 double reach, std::size_t mostCusps, const StopFunction &stop)
+    std::vector<PathRelaxer::Span> PathRelaxer::spansAround(const Path &path, double driven) const
     {
-        const double begin = std::max(0.0, driven - reach), end = std::min(path.length(), driven + reach);
-        const GapBridge::Gap gap = bridge_.cutOut(path, begin, end);
+        const double length = path.length();
+        const auto within = [&](double radii)
+        {
+            const double reach = radii * curves_.turningRadius();
+            return Span{std::max(0.0, driven - reach), std::min(length, driven + reach)};
+        };
+        std::vector<Span> spans{within(tuning_.relaxReach)};
+        const Span longest = within(tuning_.longestRelaxReach);
+        const std::vector<double> cusps = cuspsOf(path);
+        const auto before = std::lower_bound(cusps.begin(), cusps.end(), driven);
+        const auto behind = std::upper_bound(before, cusps.end(), driven);
+        const auto most = static_cast<std::ptrdiff_t>(tuning_.relaxCusps);
+        for (std::ptrdiff_t k = 1; k <= most; ++k)
+        {
+            Span span = longest;
+            if (before - cusps.begin() >= k)
+                span.begin = std::max(span.begin, *(before - k));
+            if (cusps.end() - behind >= k)
+                span.end = std::min(span.end, *(behind + (k - 1)));
+            if (std::none_of(spans.begin(), spans.end(),
+                             [&](const Span &other) { return other.begin == span.begin && other.end == span.end; }))
+                spans.push_back(span);
+        }
+        return spans;
+    }
+
+    std::optional<Path> PathRelaxer::leadThrough(const Path &path, const Span &span, const std::vector<Pose> &poses,
+                                                 std::size_t mostCusps, const StopFunction &stop)
+    {
+        const GapBridge::Gap gap = bridge_.cutOut(path, span.begin, span.end);
         double bound = gap.cost - LEAST_GAIN;
         std::optional<Path> best;
         for (const Pose &pose : poses)
@@ -68,10 +111,9 @@ namespace parking::search
     bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, double driven,
                            std::size_t mostCusps, const StopFunction &stop)
     {
-        for (const double radii : tuning_.relaxReach)
+        for (const Span &span : spansAround(path, driven))
         {
-            std::optional<Path> led =
-                leadThrough(path, poses, driven, radii * curves_.turningRadius(), mostCusps, stop);
+            std::optional<Path> led = leadThrough(path, span, poses, mostCusps, stop);
             if (!led)
                 continue;
             // Closeness is sampled: the cost of the whole is not quite the sum of its parts'. Without this, two paths

@@ -19,9 +19,11 @@ namespace parking::search
 
         Shortening puts curves between poses of the path, so that what it leaves still goes through poses that a search
         has come to on its raster. Here each pose between two pieces is moved by a step, forwards, backwards, to the
-        side or turned, and the part of the path around it replaced by two curves of bounded curvature that meet there.
-        The cheapest of these that are free is taken, if the path becomes cheaper by it: a descent by coordinates. The
-        path stays free and drivable and keeps its ends. Deterministic. */
+        side or turned, and a part of the path around it replaced by two curves of bounded curvature that meet there:
+        one of a given length, else that between the cusps next to the pose, else one from cusp to cusp farther away,
+        since where the car has to go to and fro no curve spans several cusps. The cheapest curves that are free are
+        taken, if the path becomes cheaper by them: a descent by coordinates. The path stays free and drivable and keeps
+        its ends. Deterministic. */
     class PathRelaxer
     {
     public:
@@ -50,11 +52,20 @@ namespace parking::search
         }
 
     private:
+        /** A part of a path: metres driven to where it begins and ends. */
+        struct Span
+        {
+            double begin, end;
+        };
+
         std::vector<Pose> movedPoses(const Pose &pose, double step);
-        /** The cheapest path through one of the poses, which are about where the path is after so many metres. */
-        std::optional<Path> leadThrough(const Path &path, const std::vector<Pose> &poses, double driven, double reach,
+        /** The parts around where the path is after so many metres, in the order in which they are tried. */
+        std::vector<Span> spansAround(const Path &path, double driven) const;
+        /** The cheapest path that goes through one of the poses within that part. */
+        std::optional<Path> leadThrough(const Path &path, const Span &span, const std::vector<Pose> &poses,
                                         std::size_t mostCusps, const StopFunction &stop);
-        /** Replaces the path, whose cost is given, by one that goes through one of the poses and costs less. */
+        /** Replaces the path, whose cost is given, by one that goes through one of the poses and costs less; they are
+            about where it is after so many metres. */
         bool move(Path &path, double &cost, const std::vector<Pose> &poses, double driven, std::size_t mostCusps,
                   const StopFunction &stop);
 

@@ -134,6 +134,42 @@ TEST(PathRelaxer, drawsABendTightAroundAPost)
     EXPECT_GE(path.length(), 2.0 * std::hypot(15.0, 1.45) - 1e-6);
 }
 
+/** Where the car goes to and fro, the part between cusps has to be led through a pose: a longer one has more cusps than
+   two curves. */
+TEST(PathRelaxer, movesPosesBetweenCuspsWhereTheCarGoesToAndFro)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    int cheaperByOne = 0, dearerByOne = 0, cheaperByTwo = 0, dearerByTwo = 0;
+    for (std::uint64_t seed = 0; seed < 400; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        CarProblem problem = randomProblem(seed, 16);
+        const Path before = plannedPath(problem);
+        if (before.cusps() < 3)
+            continue;
+        const auto costWith = [&](std::size_t cusps)
+        {
+            SearchTuning tuning;
+            tuning.relaxCusps = cusps;
+            Path path = before;
+            PathRelaxer relaxer(problem.world, curves, model(), tuning);
+            for (const double part : {1.0, 0.4, 0.16})
+                relaxer.pass(path, part * STEP, before.cusps(), nullptr);
+            EXPECT_EQ(faultOf(path, problem.world, problem.starts, problem.goals, TURNING_RADIUS), "");
+            return pathCost(model(), path, problem.world);
+        };
+        const double none = costWith(0), one = costWith(1), two = costWith(2);
+        cheaperByOne += one < none - 1e-2;
+        dearerByOne += one > none + 1e-2;
+        cheaperByTwo += two < one - 1e-2;
+        dearerByTwo += two > one + 1e-2;
+    }
+    EXPECT_GT(cheaperByOne, 10);
+    EXPECT_LT(dearerByOne, cheaperByOne / 2) << cheaperByOne;
+    EXPECT_GT(cheaperByTwo, 5);
+    EXPECT_LT(dearerByTwo, cheaperByTwo) << cheaperByTwo;
+}
+
 TEST(PathRelaxer, keepsToTheCuspsThatAPathMayHave)
 {
     // Cusps cost nothing here, so that more of them are often cheaper.
