@@ -38,6 +38,14 @@ namespace parking
                 driven -= pieces[piece++].driven();
             return {piece, piece < pieces.size() && driven >= HAIR ? driven : 0.0};
         }
+
+        Pose poseAt(const Path &path, const Cut &cut)
+        {
+            Pose pose = path.start;
+            for (std::size_t i = 0; i < cut.piece; ++i)
+                pose = advance(pose, path.pieces[i]);
+            return cut.driven > 0.0 ? advance(pose, path.pieces[cut.piece], cut.driven) : pose;
+        }
     }  // namespace
 
     PathPiece PathPiece::turnOnTheSpot(double angle)
@@ -146,7 +154,7 @@ namespace parking
     Path Path::rest(double driven) const
     {
         const Cut cut = cutAt(pieces, driven);
-        Path result{at(driven), {}};
+        Path result{poseAt(*this, cut), {}};
         for (std::size_t i = cut.piece; i < pieces.size(); ++i)
         {
             PathPiece left = pieces[i];
@@ -177,11 +185,7 @@ namespace parking
 
     Pose Path::at(double driven) const
     {
-        const Cut cut = cutAt(pieces, driven);
-        Pose pose = start;
-        for (std::size_t i = 0; i < cut.piece; ++i)
-            pose = advance(pose, pieces[i]);
-        return cut.driven > 0.0 ? advance(pose, pieces[cut.piece], cut.driven) : pose;
+        return poseAt(*this, cutAt(pieces, driven));
     }
 
     std::vector<Stretch> Path::stretches() const

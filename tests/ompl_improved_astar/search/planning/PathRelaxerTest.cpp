@@ -135,7 +135,7 @@ TEST(PathRelaxer, drawsABendTightAroundAPost)
 }
 
 /** Where the car goes to and fro, the part between cusps has to be led through a pose: a longer one has more cusps than
-   two curves. */
+    two curves have. */
 TEST(PathRelaxer, movesPosesBetweenCuspsWhereTheCarGoesToAndFro)
 {
     const ReedsShepp curves(TURNING_RADIUS);
