@@ -157,16 +157,18 @@ namespace parking::search
             Chosen by hand with 0.17 s of anytime on 183 random queries of the tuning seeds that docs/planner.md names
             and on the 62 problems, and for first paths on 537 such queries.
             @{ */
-        double dearToRelax{1.5};           ///< a first path that costs more than this times what it promised is relaxed
-        double longestToRelax{30.0};       ///< if it is shorter than this: longer ones gain little for the time
-        double relaxStep{0.2};             ///< by which poses are moved at first
-        double relaxReach{1.5};            ///< of the path before and after a pose that is replaced,
-        std::size_t relaxCusps{2};         ///< or up to the first cusps on both sides, or the next, so many of them,
-        double longestRelaxReach{6.0};     ///< but no farther than this
-        std::size_t relaxations{3};        ///< passes over a path that was found,
-        double relaxDecay{0.4};            ///< factor on the step from one to the next
-        std::size_t relaxationsOfBest{8};  ///< passes over the best path while improving,
-        double relaxDecayOfBest{0.6};      ///< with this factor,
+        double dearToRelaxOnce{1.2};    ///< a first path that costs more than this times what it promised is relaxed,
+        double onlyStep{0.08};          ///< once by this step and no farther than relaxReach,
+        double dearToRelax{1.5};        ///< and one that costs more than this times as much in several passes,
+        double longestToRelax{30.0};    ///< if it is shorter than this: longer ones gain little for the time
+        double relaxStep{0.2};          ///< by which poses are moved at first
+        double relaxReach{1.5};         ///< of the path before and after a pose that is replaced,
+        std::size_t relaxCusps{2};      ///< or up to the first cusps on both sides, or the next, so many of them,
+        double longestRelaxReach{6.0};  ///< but no farther than this
+        std::size_t relaxations{3};     ///< passes over a path that was found, each a cusp farther than the last,
+        double relaxDecay{0.4};         ///< factor on the step from one to the next
+        std::size_t relaxationsOfBest{8};    ///< passes over the best path while improving,
+        double relaxDecayOfBest{0.6};        ///< with this factor,
         std::size_t relaxationsPerRound{2};  ///< and so many of them at a time
         /** @} */
 

@@ -39,19 +39,22 @@ namespace parking::search
         return best;
     }
 
+    bool GapBridge::canCostLess(const Gap &gap, double bound)
+    {
+        return cheapest(gap.from, gap.after.start, gap.pieceBefore(), gap.pieceAfter(), bound).has_value();
+    }
+
     std::optional<GapBridge::Bridged> GapBridge::lead(const Gap &gap, const Pose &pose, double bound,
                                                       std::size_t mostCusps)
     {
         const Pose &from = gap.from, &to = gap.after.start;
-        const PathPiece *const before = gap.before.pieces.empty() ? nullptr : &gap.before.pieces.back();
-        const PathPiece *const after = gap.after.pieces.empty() ? nullptr : &gap.after.pieces.front();
         const double radius = curves_.turningRadius(), least = leastCurveLength(pose, to, radius);
         if (leastCurveLength(from, pose, radius) + least >= bound)
             return std::nullopt;
-        const std::optional<Leg> there = cheapest(from, pose, before, nullptr, bound - least);
+        const std::optional<Leg> there = cheapest(from, pose, gap.pieceBefore(), nullptr, bound - least);
         if (!there)
             return std::nullopt;
-        const std::optional<Leg> onward = cheapest(pose, to, nullptr, after, bound - there->cost);
+        const std::optional<Leg> onward = cheapest(pose, to, nullptr, gap.pieceAfter(), bound - there->cost);
         if (!onward)
             return std::nullopt;
         Bridged bridged{gap.before, 0.0, 0.0};

@@ -24,6 +24,18 @@ namespace parking::search
             Path after;   ///< from where it ends
             Pose from;    ///< where it begins
             double cost;  ///< of what was cut out, with the joins at its ends
+
+            /** \brief The last piece before it, null where the path begins with it. */
+            const PathPiece *pieceBefore() const
+            {
+                return before.pieces.empty() ? nullptr : &before.pieces.back();
+            }
+
+            /** \brief The first piece after it, null where the path ends with it. */
+            const PathPiece *pieceAfter() const
+            {
+                return after.pieces.empty() ? nullptr : &after.pieces.front();
+            }
         };
 
         /** \brief A path through some pose in a gap. */
@@ -44,6 +56,10 @@ namespace parking::search
 
         /** \brief Cuts out what lies between \e begin and \e end, metres along \e path, of which the latter is more. */
         Gap cutOut(const Path &path, double begin, double end);
+
+        /** \brief Whether the cheapest curve from end to end of the gap, free or not, costs less than \e bound: if not,
+            what leads through a pose in between costs no less either. */
+        bool canCostLess(const Gap &gap, double bound);
 
         /** \brief The path through \e pose by the cheapest curve to it and the cheapest one from it on, if both are
             free.

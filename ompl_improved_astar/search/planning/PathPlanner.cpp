@@ -1,6 +1,5 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
-#include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 
@@ -191,9 +190,8 @@ namespace parking::search
         }
         if (parameters_.shorten && cost > tuning.dearTurns * expected)
             turnRound(best, cost);
-        const double longest = tuning.longestToRelax * parameters_.search.turningRadius;
-        if (parameters_.shorten && !isBare && cost > tuning.dearToRelax * expected && best.length() < longest)
-            relaxAndShorten(best, cost);
+        if (parameters_.shorten && !isBare)
+            relaxFirst(best, cost, cost / expected);
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
         take(best, cost);
@@ -228,12 +226,12 @@ namespace parking::search
         return std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
     }
 
-    bool PathPlanner::relax(Path &path, double &cost, double step)
+    bool PathPlanner::relax(Path &path, double &cost, const PathRelaxer::Pass &pass)
     {
         if (isTimeUp())
             return false;
         PathRelaxer relaxer(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
-        const bool isCheaper = relaxer.pass(path, step * parameters_.search.turningRadius, mostCuspsOf(path), stop_);
+        const bool isCheaper = relaxer.pass(path, pass, mostCuspsOf(path), stop_);
         shortenerConnections_ += relaxer.connections();
         if (isCheaper)
             cost = pathCost(search_.cost(), path, *environment_);
@@ -243,11 +241,23 @@ namespace parking::search
     void PathPlanner::relaxAndShorten(Path &path, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        double step = tuning.relaxStep;
+        double step = tuning.relaxStep * parameters_.search.turningRadius;
         bool isCheaper = false;
         for (std::size_t k = 0; k < tuning.relaxations; ++k, step *= tuning.relaxDecay)
-            isCheaper = relax(path, cost, step) || isCheaper;
+            isCheaper = relax(path, cost, {step, std::min(k, tuning.relaxCusps)}) || isCheaper;
         if (isCheaper && !isTimeUp())
+            shortenTwice(path, cost);
+    }
+
+    void PathPlanner::relaxFirst(Path &path, double &cost, double dearness)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        const double radius = parameters_.search.turningRadius;
+        if (!(path.length() < tuning.longestToRelax * radius))
+            return;
+        if (dearness > tuning.dearToRelax)
+            relaxAndShorten(path, cost);
+        else if (dearness > tuning.dearToRelaxOnce && relax(path, cost, {tuning.onlyStep * radius, 0}) && !isTimeUp())
             shortenTwice(path, cost);
     }
 
@@ -263,7 +273,7 @@ namespace parking::search
         Path path = bestPath_;
         double cost = bestCost_;
         const double step = tuning.relaxStep * std::pow(tuning.relaxDecayOfBest, static_cast<double>(relaxations_++));
-        return relax(path, cost, step) && take(path, cost);
+        return relax(path, cost, {step * parameters_.search.turningRadius, tuning.relaxCusps}) && take(path, cost);
     }
 
     bool PathPlanner::widen(Path &path, double &cost)

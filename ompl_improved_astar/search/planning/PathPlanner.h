@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "ompl_improved_astar/search/planning/Restarts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
@@ -134,10 +135,12 @@ namespace parking::search
         bool shortenBest(double spacing, double offset);
         /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
         bool turnRound(Path &path, double &cost);
-        /** Moves the poses between the pieces of a path by a step, in turning radii. */
-        bool relax(Path &path, double &cost, double step);
-        /** The same by falling steps; then shortens what has become cheaper. */
+        /** Moves the poses between the pieces of a path. */
+        bool relax(Path &path, double &cost, const PathRelaxer::Pass &pass);
+        /** The same by falling steps, each time a cusp farther; then shortens what has become cheaper. */
         void relaxAndShorten(Path &path, double &cost);
+        /** Does so once, several times or not at all, by how many times what it promised a first path costs. */
+        void relaxFirst(Path &path, double &cost, double dearness);
         /** One pass over the best path, by the next one of the steps, until none of them makes it cheaper any more. */
         bool relaxBest();
         std::size_t mostCuspsOf(const Path &path) const;

@@ -61,7 +61,8 @@ namespace parking::search
         return poses;
     }
 
-    std::vector<PathRelaxer::Span> PathRelaxer::spansAround(const Path &path, double driven) const
+    std::vector<PathRelaxer::Span> PathRelaxer::spansAround(const Path &path, double driven,
+                                                            std::size_t mostCusps) const
     {
         const double length = path.length();
         const auto within = [&](double radii)
@@ -74,7 +75,7 @@ namespace parking::search
         const std::vector<double> cusps = cuspsOf(path);
         const auto before = std::lower_bound(cusps.begin(), cusps.end(), driven);
         const auto behind = std::upper_bound(before, cusps.end(), driven);
-        const auto most = static_cast<std::ptrdiff_t>(tuning_.relaxCusps);
+        const auto most = static_cast<std::ptrdiff_t>(mostCusps);
         for (std::ptrdiff_t k = 1; k <= most; ++k)
         {
             Span span = longest;
@@ -94,6 +95,8 @@ namespace parking::search
     {
         const GapBridge::Gap gap = bridge_.cutOut(path, span.begin, span.end);
         double bound = gap.cost - LEAST_GAIN;
+        if (!bridge_.canCostLess(gap, bound))
+            return std::nullopt;
         std::optional<Path> best;
         for (const Pose &pose : poses)
         {
@@ -108,10 +111,10 @@ namespace parking::search
         return best;
     }
 
-    bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, double driven,
+    bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, const std::vector<Span> &spans,
                            std::size_t mostCusps, const StopFunction &stop)
     {
-        for (const Span &span : spansAround(path, driven))
+        for (const Span &span : spans)
         {
             std::optional<Path> led = leadThrough(path, span, poses, mostCusps, stop);
             if (!led)
@@ -128,7 +131,7 @@ namespace parking::search
         return false;
     }
 
-    bool PathRelaxer::pass(Path &path, double step, std::size_t mostCusps, const StopFunction &stop)
+    bool PathRelaxer::pass(Path &path, const Pass &pass, std::size_t mostCusps, const StopFunction &stop)
     {
         bool improved = false;
         double cost = pathCost(cost_, path, environment_);
@@ -140,7 +143,8 @@ namespace parking::search
             double driven = 0.0;
             for (std::size_t k = 0; k <= piece; ++k)
                 driven += path.pieces[k].driven();
-            if (moves < MOST_MOVES && move(path, cost, movedPoses(path.at(driven), step), driven, mostCusps, stop))
+            if (moves < MOST_MOVES && move(path, cost, movedPoses(path.at(driven), pass.step),
+                                           spansAround(path, driven, pass.cusps), mostCusps, stop))
             {
                 // The pieces are others now, and what lies before them may gain by it.
                 improved = true;

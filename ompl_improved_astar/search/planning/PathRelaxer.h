@@ -38,12 +38,18 @@ namespace parking::search
         {
         }
 
+        /** \brief How one pass moves poses. */
+        struct Pass
+        {
+            double step;        ///< metres by which they are moved; turns are as long at full lock
+            std::size_t cusps;  ///< up to so many before and behind a pose the path is replaced, if less does not help
+        };
+
         /** \brief One pass along the path, which must not be empty.
 
-            \param step metres by which poses are moved; turns are as long at full lock
             \param mostCusps the path may have then
             \return whether the path became cheaper */
-        bool pass(Path &path, double step, std::size_t mostCusps, const StopFunction &stop);
+        bool pass(Path &path, const Pass &pass, std::size_t mostCusps, const StopFunction &stop);
 
         /** \brief Pairs of poses between which curves were looked for in all passes so far. */
         std::uint64_t connections() const
@@ -59,15 +65,16 @@ namespace parking::search
         };
 
         std::vector<Pose> movedPoses(const Pose &pose, double step);
-        /** The parts around where the path is after so many metres, in the order in which they are tried. */
-        std::vector<Span> spansAround(const Path &path, double driven) const;
+        /** The parts around where the path is after so many metres, up to so many cusps away from there, in the order
+           in which they are tried. */
+        std::vector<Span> spansAround(const Path &path, double driven, std::size_t mostCusps) const;
         /** The cheapest path that goes through one of the poses within that part. */
         std::optional<Path> leadThrough(const Path &path, const Span &span, const std::vector<Pose> &poses,
                                         std::size_t mostCusps, const StopFunction &stop);
-        /** Replaces the path, whose cost is given, by one that goes through one of the poses and costs less; they are
-            about where it is after so many metres. */
-        bool move(Path &path, double &cost, const std::vector<Pose> &poses, double driven, std::size_t mostCusps,
-                  const StopFunction &stop);
+        /** Replaces the path, whose cost is given, by one that costs less and goes through one of the poses within one
+           of the parts. */
+        bool move(Path &path, double &cost, const std::vector<Pose> &poses, const std::vector<Span> &spans,
+                  std::size_t mostCusps, const StopFunction &stop);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;

@@ -111,3 +111,39 @@ TEST(GapBridge, leadsAlongNothingThatIsNotFree)
         EXPECT_EQ(bridge.lead(gap, beside, INFINITE, ANY_NUMBER).has_value(), wall < 0.0 || wall > 24.0);
     }
 }
+
+/** What cannot cost less from end to end is not looked at pose by pose: all but nothing is missed by that. Not nothing,
+    since the cheapest of all ways need not be one of the curves. */
+TEST(GapBridge, hardlyEverLeadsThroughAPoseForLessThanTheCheapestCurve)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    DiscCarWorld world = open();
+    int led = 0, missed = 0, cheaper = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Path path{{0.0, 0.0, random.between(-PI, PI)}, {}};
+        for (int i = 0; i < 6; ++i)
+            path.append(Arc{(static_cast<double>(random.index(3)) - 1.0) / TURNING_RADIUS,
+                            random.between(0.5, 4.0) * (random.chance(0.3) ? -1.0 : 1.0)});
+        GapBridge bridge(world, curves, model());
+        const double begin = random.between(0.0, 0.4) * path.length(), end = random.between(0.6, 1.0) * path.length();
+        const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+        cheaper += bridge.canCostLess(gap, gap.cost - 1e-3);
+        // The part itself is a way from end to end.
+        ASSERT_FALSE(bridge.canCostLess(gap, 0.0));
+        for (int i = 0; i < 10; ++i)
+        {
+            Pose pose = path.at(random.between(begin, end));
+            pose = {pose.x + random.between(-0.5, 0.5), pose.y + random.between(-0.5, 0.5),
+                    pose.yaw + random.between(-0.2, 0.2)};
+            const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
+            ASSERT_TRUE(bridged);
+            ++led;
+            missed += !bridge.canCostLess(gap, bridged->cost + 1e-9);
+        }
+    }
+    EXPECT_LT(missed, led / 1000);
+    EXPECT_GT(cheaper, 2000);
+}

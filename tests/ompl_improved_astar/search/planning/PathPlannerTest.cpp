@@ -144,7 +144,8 @@ TEST(PathPlanner, onlyPathsFarDearerThanPromisedAreShortenedAgainAndThenNeverCos
         CarProblem problem = randomProblem(seed);
         PathPlannerParameters parameters = parametersFor(problem);
         // What is turned round or relaxed starts from another path.
-        parameters.search.tuning.dearTurns = parameters.search.tuning.dearToRelax = INFINITE;
+        parameters.search.tuning.dearTurns = INFINITE;
+        parameters.search.tuning.dearToRelax = parameters.search.tuning.dearToRelaxOnce = INFINITE;
         PathPlanner usual, spared;
         problem.begin(usual, parameters);
         if (usual.solve(afterAsking(3000), nullptr) != Outcome::Solved)

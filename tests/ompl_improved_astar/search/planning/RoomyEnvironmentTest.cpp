@@ -86,7 +86,7 @@ TEST(RoomyEnvironment, AWayWithRoomIsFoundBesideOneWithout)
     int more = 0, less = 0, ends = 0;
     // Moving the poses of dear paths finds some of the room, too.
     SearchTuning usual;
-    usual.dearToRelax = std::numeric_limits<double>::infinity();
+    usual.dearToRelax = usual.dearToRelaxOnce = std::numeric_limits<double>::infinity();
     SearchTuning without = usual;
     without.leastForRoom = without.mostForRoom = 0;
     SearchTuning shortenedOnly = without;
