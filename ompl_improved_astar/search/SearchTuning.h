@@ -159,13 +159,14 @@ namespace parking::search
             @{ */
         double dearToRelaxOnce{1.2};    ///< a first path that costs more than this times what it promised is relaxed,
         double onlyStep{0.08};          ///< once by this step and no farther than relaxReach,
-        double dearToRelax{1.5};        ///< and one that costs more than this times as much in several passes,
+        double dearToRelax{1.5};        ///< and one above this times what it promised in several passes,
         double longestToRelax{30.0};    ///< if it is shorter than this: longer ones gain little for the time
         double relaxStep{0.2};          ///< by which poses are moved at first
         double relaxReach{1.5};         ///< of the path before and after a pose that is replaced,
         std::size_t relaxCusps{2};      ///< or up to the first cusps on both sides, or the next, so many of them,
         double longestRelaxReach{6.0};  ///< but no farther than this
-        std::size_t relaxations{3};     ///< passes over a path that was found, each a cusp farther than the last,
+        std::size_t relaxations{3};     ///< passes over a path that was found: the first within relaxReach,
+                                        ///< each later one a cusp farther, up to relaxCusps,
         double relaxDecay{0.4};         ///< factor on the step from one to the next
         std::size_t relaxationsOfBest{8};    ///< passes over the best path while improving,
         double relaxDecayOfBest{0.6};        ///< with this factor,

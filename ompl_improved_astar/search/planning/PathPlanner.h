@@ -139,7 +139,7 @@ namespace parking::search
         bool relax(Path &path, double &cost, const PathRelaxer::Pass &pass);
         /** The same by falling steps, each time a cusp farther; then shortens what has become cheaper. */
         void relaxAndShorten(Path &path, double &cost);
-        /** Does so once, several times or not at all, by how many times what it promised a first path costs. */
+        /** Relaxes a first path not at all, once or several times. \param dearness its cost over what it promised */
         void relaxFirst(Path &path, double &cost, double dearness);
         /** One pass over the best path, by the next one of the steps, until none of them makes it cheaper any more. */
         bool relaxBest();

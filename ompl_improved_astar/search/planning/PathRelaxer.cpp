@@ -95,6 +95,7 @@ namespace parking::search
     {
         const GapBridge::Gap gap = bridge_.cutOut(path, span.begin, span.end);
         double bound = gap.cost - LEAST_GAIN;
+        // One look instead of one at each pose.
         if (!bridge_.canCostLess(gap, bound))
             return std::nullopt;
         std::optional<Path> best;
@@ -114,6 +115,8 @@ namespace parking::search
     bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, const std::vector<Span> &spans,
                            std::size_t mostCusps, const StopFunction &stop)
     {
+        if (poses.empty())
+            return false;
         for (const Span &span : spans)
         {
             std::optional<Path> led = leadThrough(path, span, poses, mostCusps, stop);

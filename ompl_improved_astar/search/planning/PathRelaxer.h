@@ -42,7 +42,8 @@ namespace parking::search
         struct Pass
         {
             double step;        ///< metres by which they are moved; turns are as long at full lock
-            std::size_t cusps;  ///< up to so many before and behind a pose the path is replaced, if less does not help
+            std::size_t cusps;  ///< up to so many before and behind a pose the path is replaced, where less does not
+                                ///< help; with 0 only what is within relaxReach of it
         };
 
         /** \brief One pass along the path, which must not be empty.
