@@ -60,7 +60,7 @@ namespace parking::search
         /** \brief Whether the cheapest curve from end to end of the gap, free or not, costs less than \e bound.
 
             If not, two curves through a pose in between hardly ever do: with penalties the cheapest of all ways need
-           not be one of the curves. Where both ends are the same pose, nothing leads from one to the other. */
+            not be one of the curves. Where both ends are the same pose, nothing leads from one to the other. */
         bool canCostLess(const Gap &gap, double bound);
 
         /** \brief The path through \e pose by the cheapest curve to it and the cheapest one from it on, if both are

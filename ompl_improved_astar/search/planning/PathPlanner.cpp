@@ -1,5 +1,6 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 
@@ -226,11 +227,12 @@ namespace parking::search
         return std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
     }
 
-    bool PathPlanner::relax(Path &path, double &cost, const PathRelaxer::Pass &pass)
+    bool PathPlanner::relax(Path &path, double &cost, double step, std::size_t cusps)
     {
         if (isTimeUp())
             return false;
         PathRelaxer relaxer(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
+        const PathRelaxer::Pass pass{step * parameters_.search.turningRadius, cusps};
         const bool isCheaper = relaxer.pass(path, pass, mostCuspsOf(path), stop_);
         shortenerConnections_ += relaxer.connections();
         if (isCheaper)
@@ -241,10 +243,10 @@ namespace parking::search
     void PathPlanner::relaxAndShorten(Path &path, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        double step = tuning.relaxStep * parameters_.search.turningRadius;
+        double step = tuning.relaxStep;
         bool isCheaper = false;
         for (std::size_t k = 0; k < tuning.relaxations; ++k, step *= tuning.relaxDecay)
-            isCheaper = relax(path, cost, {step, std::min(k, tuning.relaxCusps)}) || isCheaper;
+            isCheaper = relax(path, cost, step, std::min(k, tuning.relaxCusps)) || isCheaper;
         if (isCheaper && !isTimeUp())
             shortenTwice(path, cost);
     }
@@ -252,12 +254,11 @@ namespace parking::search
     void PathPlanner::relaxFirst(Path &path, double &cost, double dearness)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        const double radius = parameters_.search.turningRadius;
-        if (!(path.length() < tuning.longestToRelax * radius))
+        if (!(path.length() < tuning.longestToRelax * parameters_.search.turningRadius))
             return;
         if (dearness > tuning.dearToRelax)
             relaxAndShorten(path, cost);
-        else if (dearness > tuning.dearToRelaxOnce && relax(path, cost, {tuning.onlyStep * radius, 0}) && !isTimeUp())
+        else if (dearness > tuning.dearToRelaxOnce && relax(path, cost, tuning.onlyStep, 0) && !isTimeUp())
             shortenTwice(path, cost);
     }
 
@@ -273,7 +274,7 @@ namespace parking::search
         Path path = bestPath_;
         double cost = bestCost_;
         const double step = tuning.relaxStep * std::pow(tuning.relaxDecayOfBest, static_cast<double>(relaxations_++));
-        return relax(path, cost, {step * parameters_.search.turningRadius, tuning.relaxCusps}) && take(path, cost);
+        return relax(path, cost, step, tuning.relaxCusps) && take(path, cost);
     }
 
     bool PathPlanner::widen(Path &path, double &cost)

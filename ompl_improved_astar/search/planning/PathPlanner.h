@@ -1,7 +1,6 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
-#include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "ompl_improved_astar/search/planning/Restarts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
@@ -135,8 +134,9 @@ namespace parking::search
         bool shortenBest(double spacing, double offset);
         /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
         bool turnRound(Path &path, double &cost);
-        /** Moves the poses between the pieces of a path. */
-        bool relax(Path &path, double &cost, const PathRelaxer::Pass &pass);
+        /** Moves the poses between the pieces of a path by a step, in turning radii, and replaces what lies around them
+            up to so many cusps away. */
+        bool relax(Path &path, double &cost, double step, std::size_t cusps);
         /** The same by falling steps, each time a cusp farther; then shortens what has become cheaper. */
         void relaxAndShorten(Path &path, double &cost);
         /** Relaxes a first path not at all, once or several times. \param dearness its cost over what it promised */

@@ -71,6 +71,8 @@ namespace parking::search
             return Span{std::max(0.0, driven - reach), std::min(length, driven + reach)};
         };
         std::vector<Span> spans{within(tuning_.relaxReach)};
+        if (mostCusps == 0)
+            return spans;
         const Span longest = within(tuning_.longestRelaxReach);
         const std::vector<double> cusps = cuspsOf(path);
         const auto before = std::lower_bound(cusps.begin(), cusps.end(), driven);

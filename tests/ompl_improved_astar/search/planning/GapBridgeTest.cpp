@@ -41,6 +41,13 @@ namespace
     {
         return DiscCarWorld({{-100.0, -100.0}, {100.0, 100.0}});
     }
+
+    /** Up to so many metres off in x and in y, and turned by up to so many radians. */
+    Pose poseBeside(const Pose &pose, double metres, double turn, Random &random)
+    {
+        return {pose.x + random.between(-metres, metres), pose.y + random.between(-metres, metres),
+                pose.yaw + random.between(-turn, turn)};
+    }
 }  // namespace
 
 TEST(GapBridge, whatIsCutOutIsTheRestOfWhatIsLeft)
@@ -76,9 +83,7 @@ TEST(GapBridge, leadsThroughThePoseWithinItsLimits)
         GapBridge bridge(world, curves, model());
         const double begin = random.between(0.0, 5.0), end = random.between(7.0, path.length());
         const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
-        Pose pose = path.at(random.between(begin, end));
-        pose = {pose.x + random.between(-1.0, 1.0), pose.y + random.between(-1.0, 1.0),
-                pose.yaw + random.between(-0.5, 0.5)};
+        const Pose pose = poseBeside(path.at(random.between(begin, end)), 1.0, 0.5, random);
         const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
         ASSERT_TRUE(bridged);
         ++led;
@@ -146,9 +151,7 @@ TEST(GapBridge, hardlyEverLeadsThroughAPoseForLessThanTheCheapestCurve)
         ASSERT_FALSE(bridge.canCostLess(gap, cheapest - 1e-9));
         for (int i = 0; i < 10; ++i)
         {
-            Pose pose = path.at(random.between(begin, end));
-            pose = {pose.x + random.between(-0.5, 0.5), pose.y + random.between(-0.5, 0.5),
-                    pose.yaw + random.between(-0.2, 0.2)};
+            const Pose pose = poseBeside(path.at(random.between(begin, end)), 0.5, 0.2, random);
             const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
             ASSERT_TRUE(bridged);
             ++led;
