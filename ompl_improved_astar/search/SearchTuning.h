@@ -134,7 +134,8 @@ namespace parking::search
         double otherKnotSpacing{0.48};     ///< then with these knots,
         double otherKnotOffset{0.15};      ///< the first of them here
         double widestSpan{12.0};           ///< later shortenings replace parts up to this length
-        double muchDearer{1.75};           ///< a path that then costs more than this times what it promised
+        double muchDearer{1.75};           ///< a path that then costs more than this times what it promised,
+        double shortToShortenAgain{12.0};  ///< and is longer than this, since shorter ones are relaxed,
         std::uint64_t mostShortenings{3};  ///< is shortened so many times more (chosen with seed tuneX1, too),
         double leastSpacing{0.3};          ///< with spacings from this
         double spacings{0.3};              ///< up to this much more

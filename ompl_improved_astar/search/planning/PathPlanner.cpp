@@ -180,13 +180,13 @@ namespace parking::search
             // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
             if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && closeness(best) > 0.0))
                 shortenByOtherKnots(search_.cost(), best, cost, coarsest);
-            // A path of many short pieces that is far from what it looked is often held by nothing but its knots.
-            for (std::uint64_t k = 0; k < tuning.mostShortenings && !isBare && cost > tuning.muchDearer * expected; ++k)
+            // A long path of many short pieces that is far from what it looked is often held by nothing but its knots.
+            const bool isLong = !isBare && best.length() > tuning.shortToShortenAgain * radius;
+            for (std::uint64_t k = 0; k < tuning.mostShortenings && isLong && cost > tuning.muchDearer * expected; ++k)
             {
                 const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
-                const double spacing = std::max(knots.spacing, best.length() / tuning.mostKnots);
-                shorten(search_.cost(), best, cost, spacing, knots.offset, tuning.widestSpan * radius,
-                        CurveChoice::Cheapest);
+                shorten(search_.cost(), best, cost, std::max(knots.spacing, best.length() / tuning.mostKnots),
+                        knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
         }
         if (parameters_.shorten && cost > tuning.dearTurns * expected)
