@@ -159,7 +159,8 @@ TEST(PathPlanner, onlyLongPathsFarDearerThanPromisedAreShortenedAgainAndThenNeve
         EXPECT_EQ(usual.statistics().expanded, spared.statistics().expanded);
         EXPECT_LE(usual.bestCost(), spared.bestCost());
         const bool isDear = spared.bestCost() > SearchTuning().muchDearer * promised;
-        const bool isLong = spared.bestPath().length() > 6.0 * TURNING_RADIUS;
+        const double shortest = parameters.search.tuning.shortToShortenAgain * TURNING_RADIUS;
+        const bool isLong = spared.bestPath().length() > shortest;
         tooShort += isDear && !isLong;
         if (!isDear || !isLong)
         {
