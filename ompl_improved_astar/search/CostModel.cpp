@@ -1,13 +1,35 @@
 #include "ompl_improved_astar/search/CostModel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace parking::search
 {
     namespace
     {
         constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
-    }
+
+        /** Calls visit(closeness) for each piece of the path. */
+        template <class Visit>
+        void visitCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment,
+                            const Visit &visit)
+        {
+            Pose pose = path.start;
+            for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness(); ++i)
+            {
+                visit(model.closeness(pose, path.pieces[i], environment));
+                pose = advance(pose, path.pieces[i].curvature, path.pieces[i].length);
+            }
+        }
+
+        double costWithoutCloseness(const CostModel &model, const Path &path)
+        {
+            double cost = 0.0;
+            for (std::size_t i = 0; i < path.pieces.size(); ++i)
+                cost += model.drive(path.pieces[i]) + (i > 0 ? model.join(path.pieces[i - 1], path.pieces[i]) : 0.0);
+            return cost;
+        }
+    }  // namespace
 
     double CostModel::closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
                                 double clear, double most) const
@@ -72,20 +94,27 @@ namespace parking::search
     double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment)
     {
         double cost = 0.0;
-        Pose pose = path.start;
-        for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness(); ++i)
-        {
-            cost += model.closeness(pose, path.pieces[i], environment);
-            pose = advance(pose, path.pieces[i].curvature, path.pieces[i].length);
-        }
+        visitCloseness(model, path, environment, [&](double closeness) { cost += closeness; });
         return cost;
     }
 
     double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
     {
-        double cost = pathCloseness(model, path, environment);
-        for (std::size_t i = 0; i < path.pieces.size(); ++i)
-            cost += model.drive(path.pieces[i]) + (i > 0 ? model.join(path.pieces[i - 1], path.pieces[i]) : 0.0);
-        return cost;
+        return pathCloseness(model, path, environment) + costWithoutCloseness(model, path);
+    }
+
+    PricedPath pricePath(const CostModel &model, Path path, MotionEnvironment &environment)
+    {
+        PricedPath priced{std::move(path), {}, 0.0};
+        priced.closeness.reserve(priced.path.pieces.size());
+        visitCloseness(model, priced.path, environment,
+                       [&](double closeness)
+                       {
+                           priced.closeness.push_back(closeness);
+                           priced.cost += closeness;
+                       });
+        priced.closeness.resize(priced.path.pieces.size(), 0.0);
+        priced.cost += costWithoutCloseness(model, priced.path);
+        return priced;
     }
 }  // namespace parking::search

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace parking::search
 {
@@ -84,4 +85,15 @@ namespace parking::search
 
     /** \brief Cost of a whole path, closeness included. */
     double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment);
+
+    /** \brief A path and what it costs. */
+    struct PricedPath
+    {
+        Path path;
+        std::vector<double> closeness;  ///< extra cost of each of its pieces because of the obstacles nearby
+        double cost{0.0};               ///< of the whole, closeness included
+    };
+
+    /** \brief What a path costs, piece by piece. */
+    PricedPath pricePath(const CostModel &model, Path path, MotionEnvironment &environment);
 }  // namespace parking::search

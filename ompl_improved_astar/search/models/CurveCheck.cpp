@@ -28,9 +28,9 @@ namespace parking::search
         /** Where a curve begins, where each of its pieces ends. */
         using Joints = std::array<Pose, std::tuple_size_v<decltype(ReedsSheppCurve::pieces)> + 1>;
 
-        /** Is the car free where pieces of the curve end, and in the middle of long ones? */
-        bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve,
-                          const Pose &to, Joints &joints)
+        /** Says what hasFreePoses() says, and where the pieces end if that is yes. */
+        bool findJoints(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
+                        Joints &joints)
         {
             joints[0] = from;
             for (std::size_t k = 0; k + 1 < curve.count; ++k)
@@ -78,7 +78,7 @@ namespace parking::search
                            ? curveCloseness(cost, from, curve, environment, most)
                            : INFINITE;
             Joints joints;
-            if (!hasFreePoses(environment, from, curve, to, joints))
+            if (!findJoints(environment, from, curve, to, joints))
                 return INFINITE;
             double sum = 0.0;
             const auto add = [&](const Pose &start, const Arc &piece, const Pose &end)
@@ -107,11 +107,17 @@ namespace parking::search
         }
     }  // namespace
 
+    bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to)
+    {
+        Joints joints;
+        return findJoints(environment, from, curve, to, joints);
+    }
+
     bool isCurveFree(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to,
                      CurveEnd first)
     {
         Joints joints;
-        return hasFreePoses(environment, from, curve, to, joints) &&
+        return findJoints(environment, from, curve, to, joints) &&
                visitPieces(curve, joints, first,
                            [&](const Pose &start, const Arc &piece, const Pose &end)
                            { return isPieceFree(environment, start, piece, end, first); });

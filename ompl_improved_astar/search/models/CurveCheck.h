@@ -27,6 +27,11 @@ namespace parking::search
         Goal    ///< the end where it ends
     };
 
+    /** \brief Is the car free where pieces of the curve end, and in the middle of long ones? Both ends must be.
+
+        A look that soon finds most of the curves that are not free. */
+    bool hasFreePoses(MotionEnvironment &environment, const Pose &from, const ReedsSheppCurve &curve, const Pose &to);
+
     /** \brief Is the whole curve from \e from to \e to free? Both ends must be.
 
         Most curves that are tried are not, and most of these collide where a piece ends, above all at their cusps: the

@@ -6,17 +6,22 @@
 
 namespace parking::search
 {
-    GapBridge::Gap GapBridge::cutOut(const Path &path, double begin, double end)
+    GapBridge::Gap GapBridge::cutOut(const PricedPath &priced, double begin, double end)
     {
-        const Path untilEnd = path.first(end);
-        Gap gap{path.first(begin), path.rest(end), path.start, 0.0};
-        const Path part = untilEnd.rest(begin);
-        gap.cost = pathCost(cost_, part, environment_);
-        if (!gap.before.pieces.empty())
+        const Path &path = priced.path, untilEnd = path.first(end), part = untilEnd.rest(begin);
+        Gap gap{path.first(begin), path.rest(end), part.start, 0.0};
+        const std::size_t first = untilEnd.pieces.size() - part.pieces.size();
+        Pose pose = part.start;
+        for (std::size_t i = 0; i < part.pieces.size(); ++i)
         {
-            gap.from = gap.before.end();
-            gap.cost += cost_.join(gap.before.pieces.back(), part.pieces.front());
+            const PathPiece &piece = part.pieces[i], &uncut = path.pieces[first + i];
+            const bool isWhole = piece.length == uncut.length && piece.curvature == uncut.curvature;
+            gap.cost += isWhole ? priced.closeness[first + i] : cost_.closeness(pose, piece, environment_);
+            gap.cost += cost_.drive(piece) + (i > 0 ? cost_.join(part.pieces[i - 1], piece) : 0.0);
+            pose = advance(pose, piece.curvature, piece.length);
         }
+        if (!gap.before.pieces.empty())
+            gap.cost += cost_.join(gap.before.pieces.back(), part.pieces.front());
         if (!gap.after.pieces.empty())
             gap.cost += cost_.join(part.pieces.back(), gap.after.pieces.front());
         return gap;
@@ -52,10 +57,10 @@ namespace parking::search
         if (leastCurveLength(from, pose, radius) + least >= bound)
             return std::nullopt;
         const std::optional<Leg> there = cheapest(from, pose, gap.pieceBefore(), nullptr, bound - least);
-        if (!there)
+        if (!there || !hasFreePoses(environment_, from, there->curve, pose))
             return std::nullopt;
         const std::optional<Leg> onward = cheapest(pose, to, nullptr, gap.pieceAfter(), bound - there->cost);
-        if (!onward)
+        if (!onward || !hasFreePoses(environment_, pose, onward->curve, to))
             return std::nullopt;
         Bridged bridged{gap.before, 0.0, 0.0};
         for (std::size_t k = 0; k < there->curve.count; ++k)

@@ -54,8 +54,10 @@ namespace parking::search
         {
         }
 
-        /** \brief Cuts out what lies between \e begin and \e end, metres along \e path, of which the latter is more. */
-        Gap cutOut(const Path &path, double begin, double end);
+        /** \brief Cuts out what lies between \e begin and \e end, metres along the path, of which the latter is more.
+
+            \param priced by the same cost: of pieces that are cut out whole nothing is asked again */
+        Gap cutOut(const PricedPath &priced, double begin, double end);
 
         /** \brief Whether the cheapest curve from end to end of the gap, free or not, costs less than \e bound.
 

@@ -92,8 +92,9 @@ namespace parking::search
         return spans;
     }
 
-    std::optional<Path> PathRelaxer::leadThrough(const Path &path, const Span &span, const std::vector<Pose> &poses,
-                                                 std::size_t mostCusps, const StopFunction &stop)
+    std::optional<Path> PathRelaxer::leadThrough(const PricedPath &path, const Span &span,
+                                                 const std::vector<Pose> &poses, std::size_t mostCusps,
+                                                 const StopFunction &stop)
     {
         const GapBridge::Gap gap = bridge_.cutOut(path, span.begin, span.end);
         double bound = gap.cost - LEAST_GAIN;
@@ -114,7 +115,7 @@ namespace parking::search
         return best;
     }
 
-    bool PathRelaxer::move(Path &path, double &cost, const std::vector<Pose> &poses, const std::vector<Span> &spans,
+    bool PathRelaxer::move(PricedPath &path, const std::vector<Pose> &poses, const std::vector<Span> &spans,
                            std::size_t mostCusps, const StopFunction &stop)
     {
         if (poses.empty())
@@ -126,11 +127,10 @@ namespace parking::search
                 continue;
             // Closeness is sampled: the cost of the whole is not quite the sum of its parts'. Without this, two paths
             // replace each other for ever.
-            const double less = pathCost(cost_, *led, environment_);
-            if (!(less < cost - 0.5 * LEAST_GAIN) || !environment_.acceptPath(*led))
+            PricedPath moved = pricePath(cost_, std::move(*led), environment_);
+            if (!(moved.cost < path.cost - 0.5 * LEAST_GAIN) || !environment_.acceptPath(moved.path))
                 continue;
-            path = std::move(*led);
-            cost = less;
+            path = std::move(moved);
             return true;
         }
         return false;
@@ -139,17 +139,17 @@ namespace parking::search
     bool PathRelaxer::pass(Path &path, const Pass &pass, std::size_t mostCusps, const StopFunction &stop)
     {
         bool improved = false;
-        double cost = pathCost(cost_, path, environment_);
+        PricedPath priced = pricePath(cost_, path, environment_);
         std::size_t moves = 0;
-        for (std::size_t piece = 0; piece + 1 < path.pieces.size();)
+        for (std::size_t piece = 0; piece + 1 < priced.path.pieces.size();)
         {
             if (stop && stop())
                 break;
             double driven = 0.0;
             for (std::size_t k = 0; k <= piece; ++k)
-                driven += path.pieces[k].driven();
-            if (moves < MOST_MOVES && move(path, cost, movedPoses(path.at(driven), pass.step),
-                                           spansAround(path, driven, pass.cusps), mostCusps, stop))
+                driven += priced.path.pieces[k].driven();
+            if (moves < MOST_MOVES && move(priced, movedPoses(priced.path.at(driven), pass.step),
+                                           spansAround(priced.path, driven, pass.cusps), mostCusps, stop))
             {
                 // The pieces are others now, and what lies before them may gain by it.
                 improved = true;
@@ -160,6 +160,8 @@ namespace parking::search
             ++piece;
             moves = 0;
         }
+        if (improved)
+            path = std::move(priced.path);
         return improved;
     }
 }  // namespace parking::search

@@ -70,11 +70,10 @@ namespace parking::search
             in which they are tried. */
         std::vector<Span> spansAround(const Path &path, double driven, std::size_t mostCusps) const;
         /** The cheapest path that goes through one of the poses within that part. */
-        std::optional<Path> leadThrough(const Path &path, const Span &span, const std::vector<Pose> &poses,
+        std::optional<Path> leadThrough(const PricedPath &path, const Span &span, const std::vector<Pose> &poses,
                                         std::size_t mostCusps, const StopFunction &stop);
-        /** Replaces the path, whose cost is given, by one that costs less and goes through one of the poses within one
-            of the parts. */
-        bool move(Path &path, double &cost, const std::vector<Pose> &poses, const std::vector<Span> &spans,
+        /** Replaces the path by one that costs less and goes through one of the poses within one of the parts. */
+        bool move(PricedPath &path, const std::vector<Pose> &poses, const std::vector<Span> &spans,
                   std::size_t mostCusps, const StopFunction &stop);
 
         MotionEnvironment &environment_;

@@ -114,13 +114,14 @@ namespace parking::search
         if (poses.empty())
             return false;
         const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance), whole = path.length();
-        const double mostCost = pathCost(strict_, path, environment_) - LEAST_GAIN;
+        const PricedPath priced = pricePath(strict_, path, environment_);
+        const double mostCost = priced.cost - LEAST_GAIN;
         std::vector<GapBridge::Bridged> leads;
         for (const double bends : REACHES)
         {
             const double begin = std::min(part.begin, part.nearest - bends * bend);
             const double end = std::max(part.end, part.nearest + bends * bend);
-            const GapBridge::Gap gap = bridge_.cutOut(path, std::max(0.0, begin), std::min(whole, end));
+            const GapBridge::Gap gap = bridge_.cutOut(priced, std::max(0.0, begin), std::min(whole, end));
             for (const Pose &through : poses)
             {
                 if (stop && stop())

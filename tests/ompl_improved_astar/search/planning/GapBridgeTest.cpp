@@ -4,13 +4,16 @@
 
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/ClearanceWorld.h"
 #include "tests/support/PoseGap.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -60,7 +63,7 @@ TEST(GapBridge, whatIsCutOutIsTheRestOfWhatIsLeft)
     for (const double begin : {0.0, 1.0, 4.9, 6.0})
         for (const double end : {6.5, 7.5, 8.0, whole})
         {
-            const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+            const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
             EXPECT_NEAR(gap.before.length(), begin, 1e-9);
             EXPECT_NEAR(gap.after.length(), whole - end, 1e-9);
             EXPECT_LT(parking_test::gap(gap.from, path.at(begin)), 1e-9);
@@ -68,6 +71,53 @@ TEST(GapBridge, whatIsCutOutIsTheRestOfWhatIsLeft)
             const double left = pathCost(model(), gap.before, world) + pathCost(model(), gap.after, world);
             EXPECT_NEAR(gap.cost + left, pathCost(model(), path, world), 1e-9);
         }
+}
+
+/** Near to walls, so that closeness costs something. */
+TEST(GapBridge, takesWhatItKnowsOfPiecesThatAreCutOutWhole)
+{
+    CostModel cost = model();
+    cost.preferredClearance = 0.5;
+    cost.clearanceCost = 1.0;
+    ClearanceWorld world{DiscCarWorld({{-100.0, -100.0}, {100.0, 100.0}}, {{{3.0, 3.5}, {6.0, 4.0}}})};
+    const ReedsShepp curves(TURNING_RADIUS);
+    const PricedPath priced = pricePath(cost, bentAndBack(), world);
+    const Path &path = priced.path;
+    ASSERT_EQ(priced.closeness.size(), path.pieces.size());
+    EXPECT_GT(pathCloseness(cost, path, world), 1.0);
+    EXPECT_NEAR(std::accumulate(priced.closeness.begin(), priced.closeness.end(), 0.0),
+                pathCloseness(cost, path, world), 1e-9);
+    EXPECT_NEAR(priced.cost, pathCost(cost, path, world), 1e-9);
+    PricedPath dearer = priced;
+    for (double &closeness : dearer.closeness)
+        closeness += 100.0;
+    GapBridge bridge(world, curves, cost);
+    // The pieces end after 2, 5, 7.5, 9.5 and 12.5 metres.
+    struct Cut
+    {
+        double begin, end;
+        int whole;
+    };
+    for (const auto &[begin, end, whole] : {Cut{0.0, 12.5, 5},
+                                            {2.0, 9.5, 3},
+                                            {2.0, 5.0, 1},
+                                            {1.0, 9.5, 3},
+                                            {2.0, 9.0, 2},
+                                            {0.5, 12.0, 3},
+                                            {2.5, 4.5, 0},
+                                            {1.5, 6.0, 1}})
+    {
+        SCOPED_TRACE(testing::Message() << begin << " to " << end);
+        const GapBridge::Gap gap = bridge.cutOut(priced, begin, end);
+        double joins = 0.0;
+        const Path part = path.first(end).rest(begin);
+        if (gap.pieceBefore() != nullptr)
+            joins += cost.join(*gap.pieceBefore(), part.pieces.front());
+        if (gap.pieceAfter() != nullptr)
+            joins += cost.join(part.pieces.back(), *gap.pieceAfter());
+        EXPECT_NEAR(gap.cost, pathCost(cost, part, world) + joins, 1e-9);
+        EXPECT_NEAR(bridge.cutOut(dearer, begin, end).cost - gap.cost, 100.0 * whole, 1e-9);
+    }
 }
 
 TEST(GapBridge, leadsThroughThePoseWithinItsLimits)
@@ -82,7 +132,7 @@ TEST(GapBridge, leadsThroughThePoseWithinItsLimits)
         const Path &path = bentAndBack();
         GapBridge bridge(world, curves, model());
         const double begin = random.between(0.0, 5.0), end = random.between(7.0, path.length());
-        const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
         const Pose pose = poseBeside(path.at(random.between(begin, end)), 1.0, 0.5, random);
         const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
         ASSERT_TRUE(bridged);
@@ -114,10 +164,41 @@ TEST(GapBridge, leadsAlongNothingThatIsNotFree)
         SCOPED_TRACE(wall);
         DiscCarWorld world = open();
         GapBridge bridge(world, curves, model());
-        const GapBridge::Gap gap = bridge.cutOut(straight, 0.0, 20.0);
+        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), straight, world), 0.0, 20.0);
         ASSERT_TRUE(bridge.lead(gap, beside, INFINITE, ANY_NUMBER));
         world.boxes.push_back({{wall, -3.0}, {wall + 0.1, 3.0}});
         EXPECT_EQ(bridge.lead(gap, beside, INFINITE, ANY_NUMBER).has_value(), wall < 0.0 || wall > 24.0);
+    }
+}
+
+/** A post where the last piece of either curve begins. */
+TEST(GapBridge, looksAtBothCurvesBeforeItSweepsEither)
+{
+    const ReedsShepp curves(TURNING_RADIUS);
+    const Path straight{{0.0, 0.0, 0.0}, {{0.0, 20.0}}};
+    const Pose beside{10.0, 4.0, 0.0};
+    DiscCarWorld world = open();
+    GapBridge bridge(world, curves, model());
+    const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), straight, world), 0.0, 20.0);
+    const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, beside, INFINITE, ANY_NUMBER);
+    ASSERT_TRUE(bridged);
+    EXPECT_GT(world.lengthsAsked, 0u);
+    for (const double arrival : {bridged->reach, bridged->path.length()})
+    {
+        SCOPED_TRACE(arrival);
+        double begin = 0.0, end = 0.0;
+        for (auto piece = bridged->path.pieces.begin(); end < arrival - 1e-6; ++piece)
+        {
+            begin = end;
+            end += piece->driven();
+        }
+        const Pose joint = bridged->path.at(begin);
+        world.boxes = {{{joint.x - 0.01, joint.y - 0.01}, {joint.x + 0.01, joint.y + 0.01}}};
+        for (const Pose &pose : {straight.start, beside, straight.end()})
+            ASSERT_GT(world.gap(pose), 0.0);
+        world.lengthsAsked = 0;
+        EXPECT_FALSE(bridge.lead(gap, beside, INFINITE, ANY_NUMBER));
+        EXPECT_EQ(world.lengthsAsked, 0u);
     }
 }
 
@@ -138,7 +219,7 @@ TEST(GapBridge, hardlyEverLeadsThroughAPoseForLessThanTheCheapestCurve)
                             random.between(0.5, 4.0) * (random.chance(0.3) ? -1.0 : 1.0)});
         GapBridge bridge(world, curves, model());
         const double begin = random.between(0.0, 0.4) * path.length(), end = random.between(0.6, 1.0) * path.length();
-        const GapBridge::Gap gap = bridge.cutOut(path, begin, end);
+        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
         cheaper += bridge.canCostLess(gap, gap.cost - 1e-3);
         // Both sides of what the cheapest one costs.
         std::vector<ReedsSheppCurve> candidates;
