@@ -138,6 +138,12 @@ namespace parking::search
             cost of any path that the model can drive. */
         virtual double distance(const Pose &from, const Pose &to) const = 0;
 
+        /** \brief A lower bound of distance() that takes no time to tell: the straight line, or more. */
+        virtual double leastDistance(const Pose &from, const Pose &to) const
+        {
+            return positionDistance(from, to);
+        }
+
         /** \brief The curves by which parts of a path may be replaced; nullptr for a model whose paths stay as they
             are. */
         virtual const ReedsShepp *curves() const

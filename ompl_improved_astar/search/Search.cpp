@@ -316,33 +316,48 @@ namespace parking::search
             own.expansionsWhenExhausted = statistics_.expanded;
     }
 
-    double Search::costThrough(const Frontier &own, const Node &parent, const Successor &successor) const
+    double Search::costWithoutCloseness(const Frontier &own, const Node &parent, const Successor &successor) const
     {
         const PathPiece drive = successor.motion.drive();
-        // On the goal's side the car will drive the motion the other way.
-        double cost = parameters_.cost.drive(own.side() == Side::Start ? drive : drive.reversed());
-        if (parameters_.cost.pricesCloseness())
-            cost += parameters_.cost.closeness(parent.pose, drive, *environment_, successor.clear);
         const double joined = parent.parent != NO_NODE ? parameters_.cost.join(parent.motion.drive(), drive) : 0.0;
-        return parent.g + cost + joined;
+        // On the goal's side the car will drive the motion the other way.
+        return parent.g + parameters_.cost.drive(own.side() == Side::Start ? drive : drive.reversed()) + joined;
+    }
+
+    double Search::closeness(const Node &parent, const Successor &successor) const
+    {
+        if (!parameters_.cost.pricesCloseness())
+            return 0.0;
+        return parameters_.cost.closeness(parent.pose, successor.motion.drive(), *environment_, successor.clear);
     }
 
     void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
     {
         ++statistics_.generated;
-        const std::uint8_t cusps = cuspsThrough(own.node(parentIndex), successor.motion);
-        if (cusps > parameters_.mostCusps)
-            return;
-        const double g = costThrough(own, own.node(parentIndex), successor);
-        if (g >= costBound_)
-            return;
         Node node;
+        node.cusps = cuspsThrough(own.node(parentIndex), successor.motion);
+        if (node.cusps > parameters_.mostCusps)
+            return;
         node.pose = successor.pose;
-        node.g = g;
         node.motion = successor.motion;
         node.parent = parentIndex;
         node.farthest = successor.farthest;
-        node.cusps = cusps;
+        node.g = costWithoutCloseness(own, own.node(parentIndex), successor);
+        // Below the cost of a solution about half of what is generated is of no use: what takes least time is asked
+        // first.
+        const bool isBounded = costBound_ < INFINITE, isEstimated = isBounded && parameters_.cost.pricesCloseness();
+        if (isBounded && !mayImproveAtBest(own.side(), node))
+            return;
+        if (isEstimated)
+        {
+            node.h = estimateOf(own.side(), node.pose);
+            if (!mayImprove(own.side(), node))
+                return;
+        }
+        node.g += closeness(own.node(parentIndex), successor);
+        const double g = node.g;
+        if (g >= costBound_)
+            return;
 
         for (std::size_t level = 0; level < traits_.levels; ++level)
         {
@@ -364,7 +379,8 @@ namespace parking::search
             }
             if (!model_->isFree(own.side(), own.node(parentIndex), successor))
                 return;
-            node.h = estimateOf(own.side(), node.pose);
+            if (!isEstimated)
+                node.h = estimateOf(own.side(), node.pose);
             if (!mayImprove(own.side(), node))
                 return;
             node.level = node.next = static_cast<std::uint8_t>(level);

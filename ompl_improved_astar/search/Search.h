@@ -266,7 +266,10 @@ namespace parking::search
         bool finishExpansion();
         void noteExhaustion(Frontier &own) const;
         void endTurn();
-        double costThrough(const Frontier &own, const Node &parent, const Successor &successor) const;
+        /** What it costs to get to a successor, but for the obstacles nearby, */
+        double costWithoutCloseness(const Frontier &own, const Node &parent, const Successor &successor) const;
+        /** and what those add to it. */
+        double closeness(const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, NodeIndex index);
 
@@ -290,6 +293,8 @@ namespace parking::search
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
+        /** Whether it may if what lies ahead is as short as can be: no estimate is asked for. */
+        bool mayImproveAtBest(Side side, const Node &node) const;
         double weightAt(const Frontier &own, const Node &node) const;
         /** Its priority in the first queue, as it was when it was put there. */
         double priority(const Frontier &own, const Node &node) const;

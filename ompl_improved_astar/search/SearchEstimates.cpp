@@ -175,6 +175,17 @@ namespace parking::search
         return node.g + (boundIsKept_ && traits_.aims ? admissible(side, node.pose) : node.h) < costBound_;
     }
 
+    bool Search::mayImproveAtBest(Side side, const Node &node) const
+    {
+        // Rounded as estimates are: what only looks cheaper for that is refused by neither or by both.
+        const auto mayImproveTo = [&](const Pose &target)
+        {
+            return node.g + static_cast<float>(model_->leastDistance(node.pose, target)) < costBound_;
+        };
+        const std::vector<Pose> &targets = guides_[static_cast<std::size_t>(side)].targets;
+        return targets.empty() || std::any_of(targets.begin(), targets.end(), mayImproveTo);
+    }
+
     double Search::weightAt(const Frontier &own, const Node &node) const
     {
         // What is estimated to an aim that moves must not depend on where it is now. Where both weights are equal no

@@ -67,7 +67,7 @@ namespace parking::search
         {
             Node node;
             node.pose = successor.pose;
-            node.g = costThrough(own, own.node(index), successor);
+            node.g = costWithoutCloseness(own, own.node(index), successor) + closeness(own.node(index), successor);
             node.motion = successor.motion;
             node.parent = index;
             node.farthest = node.fixed = true;

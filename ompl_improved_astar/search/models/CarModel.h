@@ -38,6 +38,10 @@ namespace parking::search
         {
             return curves_.distance(from, to);
         }
+        double leastDistance(const Pose &from, const Pose &to) const override
+        {
+            return leastCurveLength(from, to, curves_.turningRadius());
+        }
         const ReedsShepp *curves() const override
         {
             return &curves_;
