@@ -49,12 +49,13 @@ namespace parking
         const MatValue *field(const std::string &name) const;
     };
 
-    /** \brief Can this build read and write such files? It takes libmatio. */
+    /** \brief Can this build read and write such files? It takes libmatio, which writes them, and its zlib. */
     bool hasMatFiles();
 
     /** \brief A variable of a MATLAB 5 file (what MATLAB's `save` has written since version 5, but for `-v7.3`).
 
-        Throws parking::Error with one line for a file that is damaged, of another version, or has no such variable. */
+        Throws parking::Error with one line for a file that is damaged (at which byte), of another version, or has no
+        such variable. */
     MatValue readMat(const std::string &file, const std::string &variable);
 
     /** \brief Writes one variable as a MATLAB 5 file, whole or not at all. Throws parking::Error. */

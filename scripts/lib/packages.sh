@@ -26,6 +26,7 @@ libpng-dev                   | build | reads maps in PNG
 libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
 libsqlite3-dev               | build | SQLite: the database of a comparison
 libmatio-dev                 | build | MATLAB files: CommonParking's cases and results; without it the rest builds
+zlib1g-dev                   | build | MATLAB files are compressed; comes with libmatio-dev
 python3                      | build page | reports from the database; checks of the tests
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
