@@ -50,6 +50,24 @@ namespace parking
         }
     }  // namespace
 
+    std::vector<std::string> PlanOptions::outputFiles() const
+    {
+        std::vector<std::string> files;
+        for (const std::string &each : {json == "-" ? "" : json, svg, csv, html})
+            if (!each.empty())
+                files.push_back(each);
+        return files;
+    }
+
+    std::vector<std::string> PlanOptions::inputFiles() const
+    {
+        std::vector<std::string> files = plugins;
+        files.push_back(scenario);
+        if (!vehicle.empty())
+            files.push_back(vehicle);
+        return files;
+    }
+
     PlanOptions readPlanOptions(const std::vector<std::string> &arguments)
     {
         po::options_description options = describe();

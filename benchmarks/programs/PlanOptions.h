@@ -32,6 +32,11 @@ namespace parking
         std::string csv;                   ///< with trajectory only
         std::string html;                  ///< with track only
         std::vector<std::string> plugins;  ///< libraries with planners, to be loaded
+
+        /** \brief The files to write. */
+        std::vector<std::string> outputFiles() const;
+        /** \brief The files to read, as far as the command line names them. */
+        std::vector<std::string> inputFiles() const;
     };
 
     /** \brief Reads a command line (without the program's name). Throws parking::Error with one line saying what is

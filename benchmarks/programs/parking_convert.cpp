@@ -261,10 +261,7 @@ namespace
         if (!output && !line.given("check"))
             throw Error("no OUTPUT given, and nothing to --check (see --help)");
         if (output)
-            requireWritable(*output);
-        std::error_code failed;
-        if (output && fs::equivalent(files.front(), *output, failed))
-            throw Error(inQuotes(*output) + " is the input");
+            requireOutputs({*output}, {files.front(), line.text("vehicle").value_or(files.front())});
         return looksLikeResult(files.front()) ? convertResult(files.front(), output, line)
                                               : convertScenario(files.front(), output, line);
     }

@@ -37,14 +37,7 @@ namespace
         settings.space = options.space.value_or(settings.space);
         settings.footprint = options.footprint.value_or(settings.footprint);
         settings.circleRadius = options.circleRadius;
-        if (!options.json.empty() && options.json != "-")
-            requireWritable(options.json);
-        if (!options.svg.empty())
-            requireWritable(options.svg);
-        if (!options.csv.empty())
-            requireWritable(options.csv);
-        if (!options.html.empty())
-            requireWritable(options.html);
+        requireOutputs(options.outputFiles(), options.inputFiles());
 
         const Problem problem = [&]
         {

@@ -20,6 +20,20 @@ namespace po = boost::program_options;
 
 namespace parking
 {
+    namespace
+    {
+        /** Do both names mean the same ordinary file, or will they once one of them is written? */
+        bool areSameFile(const std::string &a, const std::string &b)
+        {
+            namespace fs = std::filesystem;
+            std::error_code failed;
+            if (fs::exists(a, failed) && fs::exists(b, failed))
+                return fs::is_regular_file(a, failed) && fs::equivalent(a, b, failed);
+            const fs::path whole = fs::weakly_canonical(fs::absolute(a, failed), failed);
+            return !failed && whole == fs::weakly_canonical(fs::absolute(b, failed), failed);
+        }
+    }  // namespace
+
     po::typed_value<std::string> *oneValue(const char *name)
     {
         return po::value<std::string>()->value_name(name);
@@ -141,6 +155,25 @@ namespace parking
             throw Error(oneLine(file) + ": cannot be written: there is no folder " + oneLine(folder.string()));
         if (access(folder.c_str(), W_OK) != 0)
             throw Error(oneLine(file) + ": cannot be written: " + std::strerror(errno));
+    }
+
+    void requireOutputs(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs)
+    {
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+        {
+            const std::string &file = outputs[i];
+            if (file == "-")
+                throw Error(
+                    "'-' would be a file of that name: only --json writes to standard output by it; if a file "
+                    "is meant, name it './-'");
+            requireWritable(file);
+            for (const std::string &input : inputs)
+                if (std::error_code ignored; std::filesystem::exists(input, ignored) && areSameFile(file, input))
+                    throw Error(inQuotes(file) + " is the input");
+            for (std::size_t k = 0; k < i; ++k)
+                if (areSameFile(file, outputs[k]))
+                    throw Error(inQuotes(file) + " is to be written twice: name two files");
+        }
     }
 
     int runProgram(const char *name, int argc, char **argv,

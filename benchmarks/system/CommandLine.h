@@ -68,6 +68,11 @@ namespace parking
         no folder itself. Better to know before the work than after. */
     void requireWritable(const std::string &file);
 
+    /** \brief The same for all files that a program writes. Throws parking::Error, too, when one of them is an input,
+        which would be lost, when two are the same file, of which one would be, or when one is called -, which is no
+        file to most people. */
+    void requireOutputs(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
+
     /** \brief Runs a program on its arguments and returns its status. What it throws becomes one line on standard
         error that begins with \e name, and status 2: bad input or usage. */
     int runProgram(const char *name, int argc, char **argv,

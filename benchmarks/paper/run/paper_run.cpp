@@ -136,7 +136,7 @@ namespace
             return DONE;
         }
         if (options.json != "-")
-            requireWritable(options.json);
+            requireOutputs({options.json}, options.scenarios);
         for (const std::string &algorithm : options.algorithms)
             parametersOf(algorithm, options);
         nlohmann::json runs = nlohmann::json::array();

@@ -215,6 +215,7 @@ class ScenariosTest(ConvertTest):
         for arguments, word in ((['case.csv'], 'OUTPUT'), ([], 'INPUT'), (['case.csv', 'x.doc'], '.yaml'),
                                 (['case.csv', 'x.yaml', '--to', 'yml'], 'yaml'), (['none.csv', 'x.yaml'], 'none.csv'),
                                 (['case.csv', 'x.yaml', 'y.yaml'], 'y.yaml'), (['case.csv', 'case.csv'], 'input'),
+                                (['case.csv', '-', '--to', 'yaml'], "'-'"),
                                 (['case.csv', 'x.yaml', '--goal', '1,2'], 'X,Y,YAW'),
                                 (['case.csv', 'no/such/x.yaml'], 'no/such'), (['--hope', 'hard', 'x'], 'extreme'),
                                 (['--hope', 'normal'], 'folder'), (['--hope', 'normal', 'x', '--count', '-1'], 'count')):

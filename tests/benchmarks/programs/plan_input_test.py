@@ -134,6 +134,27 @@ class Output(ProgramTest):
             self.refused_plan(bundled('angled45'), option, '/dev/full', parts=['No space left'])
         self.assertEqual(os.listdir(self.folder), ['file'])
 
+    def test_files_that_something_else_would_be_lost_of(self):
+        drive = ['--trajectory', '--track']
+        self.write('case.csv', CASE)
+        self.write('car.yaml', 'name: mine\n')
+        os.link(self.path('case.csv'), self.path('other.csv'))
+        os.symlink('case.csv', self.path('link.csv'))
+        before = sorted(os.listdir(self.folder))
+        for option in ('--json', '--svg', '--csv', '--html'):
+            for name in ('case.csv', './case.csv', 'other.csv', 'link.csv', 'car.yaml'):
+                with self.subTest(option=option, name=name):
+                    self.refused_plan('case.csv', '--vehicle', 'car.yaml', *drive, option, name, parts=[name, 'is the input'])
+            if option != '--json':
+                self.refused_plan('case.csv', *drive, option, '-', parts=["'-'", '--json'])
+                self.refused_plan('case.csv', *drive, '--json', 'out', option, 'out', parts=['out', 'twice'])
+                self.refused_plan('case.csv', *drive, '--json', 'out', option, './out', parts=['out', 'twice'])
+        self.assertEqual((self.read('case.csv'), sorted(os.listdir(self.folder))), (CASE, before))
+        # What is no file holds both, and a name can be - all the same.
+        self.plan('case.csv', '--json', '/dev/null', '--svg', '/dev/null')
+        self.plan('case.csv', '--svg', './-')
+        self.assertIn('<svg', self.read('-'))
+
     def test_standard_output_that_is_full(self):
         with open('/dev/full', 'w') as full:
             for extra in ([], ['--json', '-']):
