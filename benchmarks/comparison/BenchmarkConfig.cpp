@@ -125,7 +125,7 @@ namespace parking
         void setBenchmarkOption(BenchmarkConfig &config, const std::string &key, const std::string &value)
         {
             if (key == "time_limit")
-                config.timeLimit = positiveNumber(key, value);
+                config.timeLimit = positiveNumber(key, value, LONGEST_RUN);
             else if (key == "mem_limit")
                 config.memoryLimit = positiveNumber(key, value);
             else if (key == "run_count")

@@ -71,7 +71,7 @@ namespace parking
         result.output = line.text("output").value_or("");
         if (line.given("output") && result.output.empty())
             throw Error("--output must name a folder");
-        result.timeLimit = line.positive("time");
+        result.timeLimit = line.positive("time", LONGEST_RUN);
         result.runCount = line.whole("runs", 1, 1000000);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max());
         if (const auto shard = line.text("shard"))

@@ -90,7 +90,7 @@ namespace parking
         if (const auto footprint = line.text("footprint"))
             result.footprint = footprintByName(*footprint);
         result.circleRadius = line.positive("circle-radius").value_or(result.circleRadius);
-        result.timeLimit = line.positive("time-limit").value_or(result.timeLimit);
+        result.timeLimit = line.positive("time-limit", LONGEST_RUN).value_or(result.timeLimit);
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");

@@ -5,6 +5,7 @@
 #include "parking_geometry/text/Text.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -94,9 +95,9 @@ namespace parking
         return given(option) ? values_[option].as<std::vector<std::string>>() : std::vector<std::string>{};
     }
 
-    std::optional<double> CommandLine::positive(const std::string &option) const
+    std::optional<double> CommandLine::positive(const std::string &option, double most) const
     {
-        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option))) : std::nullopt;
+        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), most)) : std::nullopt;
     }
 
     std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const
@@ -113,11 +114,12 @@ namespace parking
         return name;
     }
 
-    double positiveNumber(const std::string &name, const std::string &text)
+    double positiveNumber(const std::string &name, const std::string &text, double most)
     {
         double value = 0.0;
-        if (!parseNumber(text, value) || value <= 0.0)
-            throw Error(name + " must be a positive number, not " + inQuotes(text));
+        if (!parseNumber(text, value) || value <= 0.0 || value > most)
+            throw Error(name + " must be a positive number" +
+                        (std::isfinite(most) ? " of at most " + formatNumber(most) : "") + ", not " + inQuotes(text));
         return value;
     }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,10 @@
 
 namespace parking
 {
+    /** \brief Seconds: the longest that a run may be given. OMPL computes the end of a run in nanoseconds since 1970,
+       which overflow when it lies some hundred years ahead. */
+    constexpr double LONGEST_RUN = 1e6;
+
     /** \brief The value of an option, a text; \e name stands for it in the help. */
     boost::program_options::typed_value<std::string> *oneValue(const char *name);
 
@@ -42,7 +47,8 @@ namespace parking
         std::vector<std::string> texts(const std::string &option) const;
 
         /** \brief See positiveNumber(). */
-        std::optional<double> positive(const std::string &option) const;
+        std::optional<double> positive(const std::string &option,
+                                       double most = std::numeric_limits<double>::infinity()) const;
 
         /** \brief See wholeNumber(). */
         std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
@@ -55,8 +61,9 @@ namespace parking
     };
 
     /** \brief The number that option \e name was given. Throws parking::Error naming the option when it is no number
-        that is positive (and finite). */
-    double positiveNumber(const std::string &name, const std::string &text);
+        that is positive (and finite) and at most \e most. */
+    double positiveNumber(const std::string &name, const std::string &text,
+                          double most = std::numeric_limits<double>::infinity());
 
     /** \brief The same for whole numbers from \e least to \e most. */
     std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most);

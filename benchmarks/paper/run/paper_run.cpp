@@ -95,7 +95,7 @@ namespace
         variant.drive.speed = line.positive("speed").value_or(variant.drive.speed);
         variant.drive.headingWeight = line.positive("heading-weight").value_or(variant.drive.headingWeight);
         variant.drive.alignDistance = line.positive("align-distance").value_or(variant.drive.alignDistance);
-        result.timeLimit = line.positive("time-limit").value_or(result.timeLimit);
+        result.timeLimit = line.positive("time-limit", LONGEST_RUN).value_or(result.timeLimit);
         result.repeats = line.whole("repeats", 1, MOST_REPEATS).value_or(result.repeats);
         result.drive = !line.given("no-drive");
         result.lines = line.given("lines");

@@ -52,6 +52,7 @@ class Configuration(InputTest):
         for key in ('time_limit', 'mem_limit'):
             for value in ('0', '-1', 'nan', 'inf', 'long', ''):
                 self.refused(benchmark='%s = %s' % (key, value), parts=['set.cfg:7:', key, 'positive'])
+        self.refused(benchmark='time_limit = 1000001', parts=['set.cfg:7:', 'time_limit', 'at most 1000000'])
         for value in ('0', '-1', '1e3', '2.5', ''):
             self.refused(benchmark='run_count = ' + value, parts=['set.cfg:7:', 'run_count', 'whole number'])
         self.refused(benchmark='save_paths = some', parts=['shortest'])
@@ -83,7 +84,9 @@ class Options(InputTest):
     def test_options(self):
         self.write('set.cfg', CONFIG % ('', '', ''))
         for arguments, part in ((['--shard', '3/2'], '2/8'), (['--shard', '0/2'], '2/8'), (['--shard', 'a/b'], '2/8'),
-                                (['--time', '0'], '--time'), (['--time', 'nan'], '--time'), (['--runs', '0'], '--runs'),
+                                (['--time', '0'], '--time'), (['--time', 'nan'], '--time'),
+                                (['--time', '1000001'], '--time must'), (['--time', '1e10'], 'at most 1000000'),
+                                (['--runs', '0'], '--runs'),
                                 (['--planner', 'PRM'], 'improved_astar'), (['--from', 'x'], '--merge'),
                                 (['--merge', '--shard', '1/2'], '--merge'), (['--merge', '--output', 'none'], 'no runs'),
                                 (['--scenarios', 'nowhere.yaml'], 'nowhere.yaml'), (['--output', ''], '--output'),

@@ -108,6 +108,8 @@ class Options(ProgramTest):
         for option in ('--time-limit', '--circle-radius'):
             for value in ('0', '-1', 'nan', 'inf', '1s', ''):
                 self.refused(option, value, parts=[option, 'positive'])
+        self.refused('--time-limit', '1000001', parts=['--time-limit', 'at most 1000000', '1000001'])
+        self.plan(bundled('parallel'), '--time-limit', 1000000)
         for value in ('0', '-1', '1.5', '99999999999', 'many'):
             self.refused('--runs', value, parts=['--runs', 'whole number'])
         self.refused('--seed', '0', parts=['--seed'])
