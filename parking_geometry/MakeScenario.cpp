@@ -116,6 +116,10 @@ namespace parking
 
     void completeScenario(Scenario &scenario, const std::string &file)
     {
+        for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
+            if (crossesItself(scenario.polygons[i]))
+                throw Error(file + ": the outline of polygon " + std::to_string(i + 1) +
+                            " crosses itself; list the corners in their order round it");
         if (scenario.grid)
             requireStartOnMap(scenario, file);
         scenario.bounds = scenario.grid ? boundsOfMap(scenario, file) : boundsOfPolygons(scenario, file);
@@ -148,9 +152,6 @@ namespace parking
             requireSimple(scenario.polygons[i], i + 1, source);
             for (Eigen::Vector2d &corner : scenario.polygons[i])
                 corner -= offset;
-            if (crossesItself(scenario.polygons[i]))
-                throw Error(source + ": the outline of polygon " + std::to_string(i + 1) +
-                            " crosses itself; list the corners in their order round it");
         }
         if (scenario.grid)
         {

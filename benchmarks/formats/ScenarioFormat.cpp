@@ -1,6 +1,7 @@
 #include "benchmarks/formats/ScenarioFormat.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ObstacleSet.h"
@@ -69,7 +70,7 @@ namespace parking
         return formatOf(file).read(file, options);
     }
 
-    Scenario withOptions(Scenario scenario, const FormatOptions &options)
+    Scenario withOptions(Scenario scenario, const std::string &file, const FormatOptions &options)
     {
         const auto local = [&scenario](const Pose &pose) -> Pose
         {
@@ -82,6 +83,8 @@ namespace parking
             scenario.goals = {local(*options.goal)};
             scenario.slot.reset();
         }
+        if (options.start || options.goal)
+            completeScenario(scenario, file);
         return scenario;
     }
 

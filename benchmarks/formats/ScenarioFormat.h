@@ -47,8 +47,9 @@ namespace parking
     /** \brief Reads a scenario in any format. Throws parking::Error. */
     Scenario readAnyScenario(const std::string &file, const FormatOptions &options = {});
 
-    /** \brief Start and goal of \e options put into a scenario that was read. */
-    Scenario withOptions(Scenario scenario, const FormatOptions &options);
+    /** \brief Start and goal of \e options put into a scenario that was read from \e file. Throws parking::Error as the
+        readers do for theirs: the start off the map, the goal too far away. */
+    Scenario withOptions(Scenario scenario, const std::string &file, const FormatOptions &options);
 
     /** \brief The obstacles as polygons in the coordinates of the file: cells merged into rectangles. */
     std::vector<Polygon> obstaclePolygons(const Scenario &scenario);

@@ -19,7 +19,7 @@ namespace parking
 
         Scenario read(const std::string &file, const FormatOptions &options)
         {
-            return withOptions(readTpcapCase(file, {options.vehicle}), options);
+            return withOptions(readTpcapCase(file, {options.vehicle}), file, options);
         }
 
         void write(const Scenario &scenario, const std::string &file)

@@ -18,7 +18,7 @@ namespace parking
 
         Scenario read(const std::string &file, const FormatOptions &options)
         {
-            return withOptions(readScenario(file, {options.vehicle}), options);
+            return withOptions(readScenario(file, {options.vehicle}), file, options);
         }
 
         void write(const Scenario &scenario, const std::string &file)

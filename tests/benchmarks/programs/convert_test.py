@@ -210,6 +210,23 @@ class ScenariosTest(ConvertTest):
         self.write('case.csv', '0,0,0,9,0,0,1,5,3,3,6,3,4,4,6,6,3,6\n')
         self.assertIn('convex', self.convert('case.csv', 'out.svg', '--check', status=1).stdout)
 
+    def test_what_no_planner_takes_is_refused_by_all(self):
+        self.write('case.csv', CASE)
+        far = '1e300,0,0'
+        for arguments in (['--start', far], ['--goal', far]):
+            self.assertIn('case.csv', self.refused('case.csv', '--check', *arguments))
+            self.assertIn('100000 m', self.refused('case.csv', 'out.yaml', *arguments))
+        self.convert('case.csv', 'ok.yaml', '--check', '--start', '0,99990,0')
+        self.write('knot.csv', '0,0,0,9,0,0,1,4,20,20,22,22,22,20,20,22\n')
+        self.write('knot.yaml', 'start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: [[[20, 20], [22, 22], [22, 20], [20, 22]]]\n')
+        for name in ('knot.csv', 'knot.yaml'):
+            parts = [name, 'polygon 1 crosses itself']
+            for part in parts:
+                self.assertIn(part, self.refused(name, '--check'))
+            self.refused_plan(name, parts=parts)
+            self.assert_refused(self.run_program(os.environ['PARKING_QUERIES'], '--output', 'q', '--from', name), *parts)
+        self.assertEqual(sorted(os.listdir(self.folder)), ['case.csv', 'knot.csv', 'knot.yaml', 'ok.yaml'])
+
     def test_bad_usage_is_one_line(self):
         self.write('case.csv', CASE)
         for arguments, word in ((['case.csv'], 'OUTPUT'), ([], 'INPUT'), (['case.csv', 'x.doc'], '.yaml'),
