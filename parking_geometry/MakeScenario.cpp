@@ -43,6 +43,8 @@ namespace parking
         Box boundsOfMap(const Scenario &scenario, const std::string &file)
         {
             Extent extent(file, {scenario.start.x, scenario.start.y});
+            for (const Pose &goal : scenario.goals)
+                extent.add({goal.x, goal.y}, "the goal");
             const std::vector<Eigen::Vector2d> outline = scenario.grid->outline();
             Box box{outline.front(), outline.front()};
             for (const Eigen::Vector2d &corner : outline)

@@ -74,6 +74,14 @@ namespace
         expect([](Scenario &s) { s.slot = ParkingSlot(); }, "both goal and slot");
         expect([](Scenario &s) { s.grid = OccupancyGrid(10, 10, 1.0); }, "both a map and polygons");
         expect([](Scenario &s) { s.goals.front().x = 2e5; }, "the goal lies 200000 m from the start");
+        expect(
+            [](Scenario &s)
+            {
+                s.polygons.clear();
+                s.grid = OccupancyGrid(10, 10, 1.0);
+                s.goals.front().x = 2e5;
+            },
+            "the goal lies 200000 m from the start");
         expect([](Scenario &s) { s.polygons.front().pop_back(); }, "polygon 1 has 2 corners");
         expect([nan](Scenario &s) { s.polygons.front()[1].y() = nan; }, "polygon 1: corner 2");
         expect([](Scenario &s) { s.polygons.push_back({{0, 5}, {1, 6}, {1, 5}, {0, 6}}); }, "polygon 2 crosses itself");

@@ -71,6 +71,14 @@ class Files(ProgramTest):
         self.write('on_map.yaml', ON_MAP.replace('[2,', '[20,'))
         self.refused_plan('on_map.yaml', parts=['start outside the map'])
 
+    def test_goal_far_from_the_map(self):
+        self.write('map.yaml', MAP)
+        self.write('map.pgm', pgm(100, 100))
+        self.write('on_map.yaml', ON_MAP.replace('[8,', '[1e7,'))
+        self.refused_plan('on_map.yaml', parts=['on_map.yaml', 'the goal lies 9999998 m', 'at most 100000 m'])
+        self.write('on_map.yaml', ON_MAP.replace('[8,', '[100002,'))  # outside of the map, but not too far away
+        self.assertEqual(self.planned('on_map.yaml', '--set', 'approximate=0', status=4)['status'], 'invalid_goal')
+
 
 class Unsolvable(ProgramTest):
     """Not bad input, but a status of planning: exit status 4, one line that says why, and a whole result."""
