@@ -221,6 +221,8 @@ namespace parking
                 else
                     ++place;
             }
+            if (text.find("</svg>") == std::string::npos)
+                throw Error(file + ": ends without </svg>, so that something is missing");
             if (scenario.polygons.empty())
                 throw Error(file + ": holds no path, so no obstacle");
             const std::optional<Pose> start = options.start ? options.start : poseOf(file, text, "data-start");

@@ -162,6 +162,15 @@ class ScenariosTest(ConvertTest):
             self.write('scene.svg', text)
             self.assertIn(word, self.refused('scene.svg', 'out.yaml', '--start', '0,-1,0', '--goal', '15,-5,1.5'))
 
+    def test_scenes_that_were_cut_off(self):
+        whole = SCENE.index('</svg>') + len('</svg>')
+        poses = ['--start', '0,-1,0', '--goal', '15,-5,1.5']
+        for length in [*range(SCENE.index('<svg') + 4, whole, 7), whole - 1]:
+            self.write('scene.svg', SCENE[:length])
+            self.assertIn('scene.svg', self.refused('scene.svg', 'out.yaml', *poses))
+        self.write('scene.svg', SCENE[:whole])
+        self.convert('scene.svg', 'out.yaml', *poses)
+
     def test_cases_of_commonparking(self):
         self.needs_mat_files()
         self.write('case.csv', CASE)
