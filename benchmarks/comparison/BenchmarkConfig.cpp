@@ -2,6 +2,7 @@
 
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
@@ -309,7 +310,11 @@ namespace parking
             options.name = value;
         }
         else if (key == "vehicle")
+        {
+            if (!value.empty())
+                readVehicle(value);  // so that one that is not known is found here, where its line is
             options.vehicle = value;
+        }
         else if (key == "space")
             options.settings.space = spaceByName(value);
         else if (key == "footprint")
@@ -340,6 +345,8 @@ namespace parking
 
     std::vector<std::string> findScenarios(const std::string &name, const std::string &folder)
     {
+        if (trimmed(name).empty())
+            throw Error("the name of a scenario is empty; name a file, a folder or a pattern");
         const fs::path path = fs::path(name).is_absolute() || folder.empty() ? fs::path(name) : fs::path(folder) / name;
         std::error_code ignored;
         std::vector<std::string> files;
@@ -413,6 +420,8 @@ namespace parking
                     {
                         const std::vector<std::string> found = findScenarios(value, folder);
                         config.scenarios.insert(config.scenarios.end(), found.begin(), found.end());
+                        for (const std::string &each : found)
+                            config.places.emplace(each, lines.at(i));
                     }
                     else if (section == "problem")
                         setProblemOption(base, key, value);

@@ -199,11 +199,23 @@ namespace parking
         std::set<std::string> used;
         for (const std::string &file : config.scenarios)
         {
+            const auto read = [&](const ProblemOptions &options)
+            {
+                try
+                {
+                    return readWithOptions(file, options);
+                }
+                catch (const Error &error)
+                {
+                    const auto place = config.places.find(file);
+                    throw Error((place == config.places.end() ? "" : place->second) + error.what());
+                }
+            };
             const ProblemOptions &common = config.planners.front().problem;
             if (!common.name.empty() && config.scenarios.size() > 1)
                 throw Error(config.file + ": 'name' in [problem] is for a single scenario, and there are " +
                             std::to_string(config.scenarios.size()));
-            const std::string base = word(common.name.empty() ? readWithOptions(file, common).name : common.name);
+            const std::string base = word(common.name.empty() ? read(common).name : common.name);
             scenarios.push_back(base);
             std::vector<Experiment> variants;
             for (std::size_t i = 0; i < config.planners.size(); ++i)
@@ -223,7 +235,7 @@ namespace parking
                 for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
                     name = wanted + "_" + std::to_string(number);
                 names.push_back(name);
-                variants.push_back({name, file, options, {i}, digestOf(readWithOptions(file, options))});
+                variants.push_back({name, file, options, {i}, digestOf(read(options))});
             }
             experiments.insert(experiments.end(), variants.begin(), variants.end());
         }

@@ -57,6 +57,11 @@ class Configuration(InputTest):
             self.refused(benchmark='run_count = ' + value, parts=['set.cfg:7:', 'run_count', 'whole number'])
         self.refused(benchmark='save_paths = some', parts=['shortest'])
         self.refused(benchmark='track = perhaps', parts=['true or false'])
+        self.refused(problem='vehicle = nan', parts=['set.cfg:3:', "'nan'", 'vw_golf8'])
+        self.refused(problem='vehicle = no/such.yaml', parts=['set.cfg:3:', 'no/such.yaml', 'No such file'])
+        self.refused(planner='PRM=\nPRM.problem.vehicle=golf', parts=['set.cfg:11:', "'golf'"])
+        self.refused(problem='scenario =', parts=['set.cfg:3:', 'name of a scenario is empty'])
+        self.refused(problem='scenario = gone.yaml', parts=['set.cfg:3:', 'gone.yaml', 'No such file'])
         self.refused(problem='space = se3', parts=["did you mean 'se2'"])
         self.refused(problem='footprint = circle', parts=['se2'])
         self.refused(problem='circle_radius = -1', parts=['circle_radius'])
@@ -89,7 +94,8 @@ class Options(InputTest):
                                 (['--runs', '0'], '--runs'),
                                 (['--planner', 'PRM'], 'improved_astar'), (['--from', 'x'], '--merge'),
                                 (['--merge', '--shard', '1/2'], '--merge'), (['--merge', '--output', 'none'], 'no runs'),
-                                (['--scenarios', 'nowhere.yaml'], 'nowhere.yaml'), (['--output', ''], '--output'),
+                                (['--scenarios', 'nowhere.yaml'], 'parking_benchmark: nowhere.yaml'),
+                                (['--scenarios', ''], 'name of a scenario'), (['--output', ''], '--output'),
                                 (['--plugins', 'x.so'], "did you mean '--plugin'"), (['other.cfg'], 'too many')):
             with self.subTest(arguments):
                 self.refused_benchmark('set.cfg', *arguments, parts=[part])
