@@ -144,6 +144,13 @@ namespace parking
             return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
         }
 
+        /** The optimizer's messages begin with what they are about, which is said anyway where they are shown. */
+        std::string withoutSubject(const std::string &message)
+        {
+            const std::string subject = "trajectory: ";
+            return message.compare(0, subject.size(), subject) == 0 ? message.substr(subject.size()) : message;
+        }
+
         std::vector<Pose> trackOf(const Trajectory &trajectory)
         {
             std::vector<Pose> track;
@@ -200,6 +207,18 @@ namespace parking
         if (run.isSolved())
             return EXACT;
         return run.status == PlanStatus::Approximate && run.hasValidPath() ? APPROXIMATE : NOTHING;
+    }
+
+    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanResult &result)
+    {
+        std::vector<std::string> missing;
+        if (!result.first().path)
+            return missing;
+        if (!options.csv.empty() && !result.trajectory)
+            missing.push_back(options.csv + " is not written: no trajectory: " + result.trajectoryError);
+        if (!options.html.empty() && !result.drive)
+            missing.push_back(options.html + " is not written: not driven: " + result.driveError);
+        return missing;
     }
 
     json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result)
@@ -289,7 +308,7 @@ namespace parking
         if (result.trajectory)
             text += "  trajectory: " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) +
                     " s, found in " + formatNumber(MS * result.trajectoryTime, 1) + " ms" +
-                    (result.trajectory->trajectory.fallback
+                    (result.trajectory->trajectory.fallback && !result.trajectory->trajectory.reason.empty()
                          ? " (stops to steer: " + result.trajectory->trajectory.reason + ")"
                          : "") +
                     "\n";
@@ -365,7 +384,7 @@ namespace parking
         }
         catch (const Error &error)
         {
-            result.trajectoryError = error.what();
+            result.trajectoryError = withoutSubject(error.what());
         }
         result.trajectoryTime = processorTime() - begin;
     }

@@ -44,6 +44,10 @@ namespace parking
         referee accepts. */
     int exitStatus(const PlanRun &run);
 
+    /** \brief For each file that was asked for and that there is nothing to write into, although a path was found: its
+        name, and why. */
+    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanResult &result);
+
     /** \brief The result in the format that docs/comparison.md describes. */
     nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);
 

@@ -19,7 +19,7 @@
 
 namespace
 {
-    constexpr int HELPED = 0;
+    constexpr int HELPED = 0, NOT_ALL_WRITTEN = 4;
 
     int plan(const std::vector<std::string> &arguments)
     {
@@ -90,7 +90,10 @@ namespace
             trouble = run.reason;
         if (!trouble.empty())
             std::cerr << "parking_plan: " << options.scenario << ": " << trouble << std::endl;
-        return exitStatus(run);
+        const std::vector<std::string> missing = missingFiles(options, result);
+        for (const std::string &each : missing)
+            std::cerr << "parking_plan: " << each << std::endl;
+        return missing.empty() ? exitStatus(run) : NOT_ALL_WRITTEN;
     }
 }  // namespace
 

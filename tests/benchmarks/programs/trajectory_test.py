@@ -1,6 +1,7 @@
 """parking_plan --trajectory: the optimised trajectory in the JSON, and what it costs."""
 
 import math
+import os
 
 from programs import ProgramTest, bundled, main
 
@@ -123,6 +124,20 @@ class TrajectoryTest(ProgramTest):
         result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
         self.assertEqual(result['planned_trajectory'], [])
         self.assertIn('turns on the spot', result['trajectory_optimization']['message'])
+
+    def test_a_table_that_cannot_be_written_is_no_success(self):
+        grid = [bundled('parallel'), '--trajectory', '--set', 'motion_model=grid8']
+        done = self.plan(*grid, '--csv', 'a.csv', status=4)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for part in ('a.csv is not written', 'turns on the spot'):
+            self.assertIn(part, done.stderr)
+        self.assertNotIn('trajectory: trajectory', done.stdout + done.stderr)
+        self.assertFalse(os.path.exists(self.path('a.csv')))
+        self.assertEqual(self.plan(*grid).stderr, '')  # without a table to write there is none missing
+
+    def test_a_straight_way_has_nothing_to_say_about_steering(self):
+        self.write('straight.yaml', 'start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: []\n')
+        self.assertRegex(self.plan('straight.yaml', '--trajectory').stdout, r'trajectory: [0-9.]+ s, found in [0-9.]+ ms\n')
 
 
 if __name__ == '__main__':
