@@ -3,7 +3,6 @@
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
-#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <limits>
 #include <sstream>
@@ -15,6 +14,7 @@ namespace parking
     namespace
     {
         constexpr std::size_t MAX_RUNS = 1000000;
+        constexpr double LEAST_JERK = 0.01, MOST_JERK = 1e4;  // m/s^3, what TrajectoryOptions take
 
         po::options_description describe()
         {
@@ -82,7 +82,7 @@ namespace parking
             throw Error("no scenario given (see --help)");
         result.scenario = *line.text("scenario");
         result.planner = line.text("planner").value_or(result.planner);
-        result.vehicle = line.text("vehicle").value_or("");
+        result.vehicle = line.name("vehicle").value_or("");
         for (const std::string &each : line.texts("set"))
             result.settings.push_back(keyAndValue("--set", each));
         if (const auto space = line.text("space"))
@@ -94,9 +94,7 @@ namespace parking
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");
-        TrajectoryOptions trajectory;
-        trajectory.maxJerk = result.maxJerk = line.positive("max-jerk").value_or(0.0);
-        trajectory.validate();
+        result.maxJerk = line.between("max-jerk", LEAST_JERK, MOST_JERK, "m/s^3").value_or(0.0);
         result.track = line.given("track");
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");

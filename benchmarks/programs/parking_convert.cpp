@@ -74,6 +74,14 @@ namespace
         return text.str();
     }
 
+    /** Refuses the options among these that were given although they would change nothing. */
+    void requireNone(const CommandLine &line, const std::vector<std::string> &options, const std::string &why)
+    {
+        for (const std::string &each : options)
+            if (line.given(each))
+                throw Error("--" + each + " " + why + " (see --help)");
+    }
+
     std::optional<Pose> poseOption(const CommandLine &line, const std::string &name)
     {
         const std::optional<std::string> text = line.text(name);
@@ -165,7 +173,7 @@ namespace
 
     int convertScenario(const std::string &input, const std::optional<std::string> &output, const CommandLine &line)
     {
-        const FormatOptions options{line.text("vehicle").value_or(""), poseOption(line, "start"),
+        const FormatOptions options{line.name("vehicle").value_or(""), poseOption(line, "start"),
                                     poseOption(line, "goal")};
         const Scenario scenario = readAnyScenario(input, options);
         const bool check = line.given("check");
@@ -189,6 +197,7 @@ namespace
 
     int convertResult(const std::string &input, const std::optional<std::string> &output, const CommandLine &line)
     {
+        requireNone(line, {"start", "goal", "vehicle"}, "changes a problem, and " + inQuotes(input) + " is a result");
         const StoredResult result = readResult(input);
         if (line.given("check"))
             std::cout << input << ": " << result.planner << ", " << result.status << ", path of "
@@ -255,13 +264,19 @@ namespace
         if (files.size() > most)
             throw Error(inQuotes(files[most]) + " is one name too many (see --help)");
         if (level)
+        {
+            requireNone(line, {"start", "goal", "vehicle"}, "changes a file that is read, and --hope reads none");
             return generateHope(*level, files.front(), line);
+        }
+        requireNone(line, {"count", "seed"}, "goes with --hope only");
         const std::optional<std::string> output =
             files.size() > 1 ? std::optional<std::string>(files[1]) : std::nullopt;
         if (!output && !line.given("check"))
             throw Error("no OUTPUT given, and nothing to --check (see --help)");
+        if (!output)
+            requireNone(line, {"to"}, "is the format of OUTPUT, and there is none");
         if (output)
-            requireOutputs({*output}, {files.front(), line.text("vehicle").value_or(files.front())});
+            requireOutputs({*output}, {files.front(), line.name("vehicle").value_or(files.front())});
         return looksLikeResult(files.front()) ? convertResult(files.front(), output, line)
                                               : convertScenario(files.front(), output, line);
     }

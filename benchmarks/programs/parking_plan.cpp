@@ -36,6 +36,9 @@ namespace
         ProblemSettings settings = suitableSettings(entry, options.settings);
         settings.space = options.space.value_or(settings.space);
         settings.footprint = options.footprint.value_or(settings.footprint);
+        if (options.circleRadius > 0.0 && settings.footprint != FootprintKind::Circle)
+            throw Error(
+                "--circle-radius is the circle's, and the footprint is a rectangle; give --footprint circle, too");
         settings.circleRadius = options.circleRadius;
         requireOutputs(options.outputFiles(), options.inputFiles());
 

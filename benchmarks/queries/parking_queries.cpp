@@ -103,7 +103,7 @@ namespace
             throw Error("no --output DIR given (see --help)");
         options.output = *line.outputFile("output");
         options.seed = line.text("seed").value_or(options.seed);
-        options.vehicle = line.text("vehicle").value_or("");
+        options.vehicle = line.name("vehicle").value_or("");
         options.folders = line.texts("from");
         options.kinds = line.texts("kind");
         if (options.kinds.empty() && options.folders.empty())

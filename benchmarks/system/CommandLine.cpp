@@ -90,6 +90,13 @@ namespace parking
         return given(option) ? std::optional<std::string>(values_[option].as<std::string>()) : std::nullopt;
     }
 
+    std::optional<std::string> CommandLine::name(const std::string &option) const
+    {
+        if (given(option) && text(option)->empty())
+            throw Error("--" + option + " is given no name; without the option the default is taken");
+        return text(option);
+    }
+
     std::vector<std::string> CommandLine::texts(const std::string &option) const
     {
         return given(option) ? values_[option].as<std::vector<std::string>>() : std::vector<std::string>{};
@@ -98,6 +105,18 @@ namespace parking
     std::optional<double> CommandLine::positive(const std::string &option, double most) const
     {
         return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), most)) : std::nullopt;
+    }
+
+    std::optional<double> CommandLine::between(const std::string &option, double least, double most,
+                                               const std::string &unit) const
+    {
+        if (!given(option))
+            return std::nullopt;
+        double value = 0.0;
+        if (!parseNumber(*text(option), value) || value < least || value > most)
+            throw Error("--" + option + " must be a number from " + formatNumber(least) + " to " + formatNumber(most) +
+                        " " + unit + ", not " + inQuotes(*text(option)));
+        return value;
     }
 
     std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const

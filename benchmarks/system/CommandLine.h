@@ -43,12 +43,19 @@ namespace parking
         /** \brief What it was given; nothing when it was not. */
         std::optional<std::string> text(const std::string &option) const;
 
+        /** \brief The same of an option whose text names something. Throws parking::Error for an empty one. */
+        std::optional<std::string> name(const std::string &option) const;
+
         /** \brief Of an option that may be given several times. */
         std::vector<std::string> texts(const std::string &option) const;
 
         /** \brief See positiveNumber(). */
         std::optional<double> positive(const std::string &option,
                                        double most = std::numeric_limits<double>::infinity()) const;
+
+        /** \brief A number from \e least to \e most; \e unit is for the message. */
+        std::optional<double> between(const std::string &option, double least, double most,
+                                      const std::string &unit) const;
 
         /** \brief See wholeNumber(). */
         std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;

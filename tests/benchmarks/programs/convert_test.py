@@ -244,6 +244,13 @@ class ScenariosTest(ConvertTest):
                                 (['case.csv', '-', '--to', 'yaml'], "'-'"),
                                 (['case.csv', 'x.yaml', '--goal', '1,2'], 'X,Y,YAW'),
                                 (['case.csv', 'no/such/x.yaml'], 'no/such'), (['--hope', 'hard', 'x'], 'extreme'),
+                                (['case.csv', 'x.yaml', '--vehicle', ''], '--vehicle'),
+                                (['case.csv', 'x.yaml', '--count', '3'], '--hope only'),
+                                (['case.csv', 'x.yaml', '--seed', '3'], '--seed goes'),
+                                (['case.csv', '--check', '--to', 'yaml'], '--to is'),
+                                (['--hope', 'normal', 'x', '--start', '0,0,0'], '--start changes'),
+                                (['--hope', 'normal', 'x', '--goal', '0,0,0'], '--goal changes'),
+                                (['--hope', 'normal', 'x', '--vehicle', 'tpcap'], '--vehicle changes'),
                                 (['--hope', 'normal'], 'folder'), (['--hope', 'normal', 'x', '--count', '-1'], 'count')):
             self.assertIn(word, self.refused(*arguments))
 
@@ -345,6 +352,8 @@ class ResultsTest(ConvertTest):
 
     def test_results_that_are_none(self):
         result = self.result()
+        for option, value in (('--vehicle', 'tpcap'), ('--start', '0,0,0'), ('--goal', '0,0,0')):
+            self.assertIn(option + ' changes a problem', self.refused('result.json', 'out.csv', option, value))
         del result['planned_trajectory']
         self.write('plain.json', json.dumps(result))
         self.assertIn('--trajectory', self.refused('plain.json', 'out.csv'))

@@ -108,6 +108,10 @@ class Options(ProgramTest):
         self.refused('--vehicle', 'vw_golf', parts=["did you mean 'vw_golf8'"])
         self.refused('--space', 'se3', parts=["did you mean 'se2'"])
         self.refused('--footprint', 'square', parts=['rectangle'])
+        self.refused('--vehicle', '', parts=['--vehicle'])
+        self.refused('--circle-radius', 1, parts=['--circle-radius', '--footprint circle'])
+        self.refused('--circle-radius', 1, '--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle',
+                     parts=['--circle-radius'])
         self.refused('--run', 3, parts=["did you mean '--runs'"])
         self.refused(bundled('perpendicular'), parts=['too many'])
         self.refused_plan(parts=['no scenario'])

@@ -83,6 +83,7 @@ class QueriesTest(ProgramTest):
                                  (('--output', 'x', '--queries', '0'), ('queries', '0')),
                                  (('--output', 'x', '--worlds', 'many'), ('worlds', 'many')),
                                  (('--output', 'x', '--vehicle', 'vw_golf9'), ('vw_golf9', 'vw_golf8')),
+                                 (('--output', 'x', '--vehicle', ''), ('--vehicle',)),
                                  (('--output', 'x', '--from', 'nowhere'), ('nowhere',)),
                                  (('--output', 'x', '--from', SCENARIOS, '--from', SCENARIOS), ('two worlds',)),
                                  (('--output', '/dev/null/x'), ('/dev/null/x',)),

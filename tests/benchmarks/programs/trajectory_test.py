@@ -117,8 +117,11 @@ class TrajectoryTest(ProgramTest):
         self.assertGreater(greatest_jerk(free['planned_trajectory']), 3.0)
         self.assertLess(greatest_jerk(limited['planned_trajectory']), 1.5001)
         self.refused_plan(bundled('parallel'), '--max-jerk', '1', parts=['--trajectory'])
-        for text in ('0', '-1', 'nan', 'much', '1e9', '0.001'):
-            self.refused_plan(bundled('parallel'), '--trajectory', '--max-jerk', text, parts=['jerk'])
+        for text in ('0', '-1', 'nan', 'much', '1e9', '1e308', '10000.1', '0.0099'):
+            self.refused_plan(bundled('parallel'), '--trajectory', '--max-jerk', text,
+                              parts=['--max-jerk must be a number from 0.01 to 10000 m/s^3', text])
+        for text in ('0.01', '10000'):
+            self.plan(bundled('parallel'), '--trajectory', '--max-jerk', text)
 
     def test_paths_that_no_car_can_drive_are_refused_in_one_line(self):
         result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
