@@ -4,6 +4,7 @@
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
 #include "benchmarks/problems/PathDrive.h"
+#include "benchmarks/system/Counted.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/drawing/Svg.h"
@@ -137,11 +138,6 @@ namespace parking
             each["cusps"] = run.path ? json(run.path->cusps) : json(nullptr);
             each["valid"] = run.path ? json(run.hasValidPath()) : json(nullptr);
             return each;
-        }
-
-        std::string counted(std::size_t count, const std::string &what)
-        {
-            return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
         }
 
         /** The optimizer's messages begin with what they are about, which is said anyway where they are shown. */
@@ -293,7 +289,7 @@ namespace parking
             std::size_t solved = 0;
             for (const PlanRun &each : result.runs)
                 solved += each.isSolved() ? 1 : 0;
-            text += "  solved " + std::to_string(solved) + " of " + std::to_string(result.runs.size()) + " runs\n";
+            text += "  solved " + std::to_string(solved) + " of " + counted(result.runs.size(), "run") + "\n";
         }
         if (run.path)
         {

@@ -5,6 +5,7 @@
 #include "benchmarks/formats/ResultFormat.h"
 #include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/system/CommandLine.h"
+#include "benchmarks/system/Counted.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/referee/FreeSpace.h"
 #include "parking_geometry/text/Text.h"
@@ -127,7 +128,7 @@ namespace
                text(scenario.goals.front()) + ", " +
                (scenario.grid ? "a map of " + std::to_string(scenario.grid->width()) + " x " +
                                     std::to_string(scenario.grid->height()) + " cells"
-                              : std::to_string(scenario.polygons.size()) + " obstacles");
+                              : counted(scenario.polygons.size(), "obstacle"));
     }
 
     int report(const std::string &file, const std::vector<std::string> &faults)
@@ -153,7 +154,7 @@ namespace
             faults.emplace_back("the goal is not that of the input");
         const std::vector<Polygon> ours = obstaclePolygons(written), theirs = obstaclePolygons(wanted);
         if (ours.size() != theirs.size())
-            faults.push_back(std::to_string(ours.size()) + " obstacles instead of " + std::to_string(theirs.size()));
+            faults.push_back(counted(ours.size(), "obstacle") + " instead of " + std::to_string(theirs.size()));
         else
             for (std::size_t i = 0; i < ours.size(); ++i)
                 for (const Eigen::Vector2d &corner : theirs[i])
@@ -202,8 +203,8 @@ namespace
         if (line.given("check"))
             std::cout << input << ": " << result.planner << ", " << result.status << ", path of "
                       << formatNumber(std::round(1e3 * result.path.length()) / 1e3) << " m in "
-                      << result.path.stretches().size() << " stretches, trajectory of " << result.trajectory.size()
-                      << " samples\n";
+                      << counted(result.path.stretches().size(), "stretch", "stretches") << ", trajectory of "
+                      << counted(result.trajectory.size(), "sample") << "\n";
         if (!output)
             return DONE;
         std::string name = line.text("to").value_or("");
@@ -239,7 +240,7 @@ namespace
             if (line.given("check"))
                 status = std::max(status, report(file, faultsOf(format.read(file, {}))));
         }
-        std::cout << count << " problems: " << folder << "\n";
+        std::cout << counted(count, "problem") << ": " << folder << "\n";
         return status;
     }
 

@@ -3,6 +3,7 @@
 #include "benchmarks/queries/MadeWorlds.h"
 #include "benchmarks/queries/Queries.h"
 #include "benchmarks/system/CommandLine.h"
+#include "benchmarks/system/Counted.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
@@ -110,10 +111,7 @@ namespace
             options.kinds = worldKinds();
         options.worlds = line.whole("worlds", 1, 10000).value_or(options.worlds);
         options.queries = line.whole("queries", 1, 100000).value_or(options.queries);
-        if (const auto margin = line.text("margin"))
-            if (!parseNumber(*margin, options.margin) || options.margin < 0.0 || options.margin > WIDEST_MARGIN)
-                throw Error("--margin must be a number from 0 to " + formatNumber(WIDEST_MARGIN) + " m, not " +
-                            inQuotes(*margin));
+        options.margin = line.between("margin", 0.0, WIDEST_MARGIN, "m").value_or(options.margin);
         const fs::path folder(options.output);
         std::error_code failed;
         if (fs::exists(folder / "index.json", failed))
@@ -152,8 +150,8 @@ namespace
             }
         }
         writeFileAtomically((folder / "index.json").string(), index.dump(1) + "\n");
-        std::cout << index["queries"].size() << " queries in " << worlds.size() << " worlds: " << options.output
-                  << "\n";
+        std::cout << counted(index["queries"].size(), "query", "queries") << " in " << counted(worlds.size(), "world")
+                  << ": " << options.output << "\n";
         return DONE;
     }
 }  // namespace

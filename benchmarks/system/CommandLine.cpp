@@ -68,7 +68,10 @@ namespace parking
         }
         catch (const po::too_many_positional_options_error &)
         {
-            throw Error("too many files given; one is expected (see --help)");
+            throw Error(
+                positional.max_total_count() == 0
+                    ? "something was given that belongs to no option, and nothing like that is expected (see --help)"
+                    : "too many files given; one is expected (see --help)");
         }
         catch (const po::error &error)
         {

@@ -236,6 +236,13 @@ class ScenariosTest(ConvertTest):
             self.assert_refused(self.run_program(os.environ['PARKING_QUERIES'], '--output', 'q', '--from', name), *parts)
         self.assertEqual(sorted(os.listdir(self.folder)), ['case.csv', 'knot.csv', 'knot.yaml', 'ok.yaml'])
 
+    def test_one_is_one(self):
+        self.write('case.csv', '0,0,0,9,0,0,1,3,20,20,22,20,22,22\n')
+        self.assertRegex(self.convert('case.csv', '--check').stdout, ', 1 obstacle$')
+        self.write('result.json', json.dumps(self.planned('case.csv', '--trajectory')))
+        self.assertIn(' in 1 stretch, trajectory', self.convert('result.json', '--check').stdout)
+        self.assertEqual(self.convert('--hope', 'normal', 'hope', '--count', 1).stdout, '1 problem: hope\n')
+
     def test_bad_usage_is_one_line(self):
         self.write('case.csv', CASE)
         for arguments, word in ((['case.csv'], 'OUTPUT'), ([], 'INPUT'), (['case.csv', 'x.doc'], '.yaml'),

@@ -35,6 +35,9 @@ class QueriesTest(ProgramTest):
         self.assertEqual({query['name'] + '.yaml' for query in index['queries']} | {'index.json'}, set(first))
         self.assertEqual([query['goal_at_obstacle'] for query in index['queries']], [False, True] * 9)
 
+    def test_one_is_one(self):
+        self.assertIn('1 query in 1 world: one', self.queries('one', '--kind', 'clutter', '--worlds', 1, '--queries', 1))
+
     def test_a_world_does_not_depend_on_the_others(self):
         self.queries('all', '--worlds', 1, '--queries', 1)
         self.queries('one', '--kind', 'clutter', '--worlds', 2, '--queries', 3)
@@ -87,6 +90,7 @@ class QueriesTest(ProgramTest):
                                  (('--output', 'x', '--from', 'nowhere'), ('nowhere',)),
                                  (('--output', 'x', '--from', SCENARIOS, '--from', SCENARIOS), ('two worlds',)),
                                  (('--output', '/dev/null/x'), ('/dev/null/x',)),
+                                 (('--output', 'x', 'extra'), ('belongs to no option',)),
                                  (('--outputs', 'x'), ('outputs', 'output'))):
             with self.subTest(arguments):
                 self.assert_refused(self.run_program(QUERIES, *arguments), *parts)
