@@ -91,6 +91,59 @@ namespace
         return worlds;
     }
 
+    /** The files of a folder that is written as a whole: unless it is kept, what was written is gone again. */
+    class NewFiles
+    {
+    public:
+        explicit NewFiles(const std::string &folder) : folder_(folder)
+        {
+            makeFolder(folder_);
+        }
+        NewFiles(const NewFiles &) = delete;
+        NewFiles &operator=(const NewFiles &) = delete;
+        ~NewFiles()
+        {
+            std::error_code ignored;
+            while (!made_.empty())  // a folder after what is in it; one that others have put something into stays
+            {
+                fs::remove(made_.back(), ignored);
+                made_.pop_back();
+            }
+        }
+
+        void write(const fs::path &name, const std::string &content)
+        {
+            const fs::path file = folder_ / name;
+            makeFolder(file.parent_path());
+            std::error_code ignored;
+            const bool isNew = !fs::exists(file, ignored);
+            writeFileAtomically(file.string(), content);
+            if (isNew)
+                made_.push_back(file);
+        }
+
+        void keep()
+        {
+            made_.clear();
+        }
+
+    private:
+        void makeFolder(const fs::path &folder)
+        {
+            std::vector<fs::path> missing;
+            std::error_code failed;
+            for (fs::path each = folder; !each.empty() && !fs::exists(each, failed); each = each.parent_path())
+                missing.insert(missing.begin(), each);
+            fs::create_directories(folder, failed);
+            if (failed)
+                throw Error(inQuotes(folder.string()) + ": cannot be made: " + failed.message());
+            made_.insert(made_.end(), missing.begin(), missing.end());
+        }
+
+        fs::path folder_;
+        std::vector<fs::path> made_;  // in the order in which they were made
+    };
+
     int writeQueries(const std::vector<std::string> &arguments)
     {
         const CommandLine line(arguments, describe(), po::positional_options_description());
@@ -117,10 +170,7 @@ namespace
         if (fs::exists(folder / "index.json", failed))
             throw Error(inQuotes(options.output) + " holds queries already; name another folder, or remove it");
         const std::vector<QueryWorld> worlds = worldsFor(options);
-        fs::create_directories(folder, failed);
-        if (failed)
-            throw Error(inQuotes(options.output) + ": cannot be made: " + failed.message());
-
+        NewFiles files(options.output);
         nlohmann::json index{{"format", 1}, {"seed", options.seed}, {"margin", options.margin}};
         index["queries"] = nlohmann::json::array();
         for (const QueryWorld &world : worlds)
@@ -128,9 +178,8 @@ namespace
             const fs::path map = fs::path("maps") / (world.name + ".yaml");
             if (world.scenario.grid)
             {
-                fs::create_directories(folder / "maps", failed);
-                writeFileAtomically((folder / "maps" / (world.name + ".pgm")).string(), mapImage(*world.scenario.grid));
-                writeFileAtomically((folder / map).string(), mapYaml(*world.scenario.grid, world.name + ".pgm"));
+                files.write(fs::path("maps") / (world.name + ".pgm"), mapImage(*world.scenario.grid));
+                files.write(map, mapYaml(*world.scenario.grid, world.name + ".pgm"));
             }
             parking_test::Random random(seedOf(options.seed + " " + world.name + " queries"));
             for (std::size_t i = 0; i < options.queries; ++i)
@@ -140,7 +189,7 @@ namespace
                     throw Error("world " + inQuotes(world.name) + ": no free pose found for the car with " +
                                 formatNumber(options.margin) + " m on all sides");
                 const std::string name = world.name + "_" + std::to_string(i + 1);
-                writeFileAtomically((folder / (name + ".yaml")).string(), queryText(world, *query, map.string()));
+                files.write(name + ".yaml", queryText(world, *query, map.string()));
                 index["queries"].push_back({{"name", name},
                                             {"world", world.name},
                                             {"vehicle", world.scenario.vehicle.name},
@@ -149,7 +198,8 @@ namespace
                                             {"goal_at_obstacle", query->goalAtObstacle}});
             }
         }
-        writeFileAtomically((folder / "index.json").string(), index.dump(1) + "\n");
+        files.write("index.json", index.dump(1) + "\n");
+        files.keep();
         std::cout << counted(index["queries"].size(), "query", "queries") << " in " << counted(worlds.size(), "world")
                   << ": " << options.output << "\n";
         return DONE;

@@ -75,6 +75,19 @@ class QueriesTest(ProgramTest):
         self.assertEqual(result['vehicle']['name'], 'smart_fortwo')
         self.assertNotIn(result['status'], ('invalid_start', 'invalid_goal'))
 
+    def test_nothing_stays_of_what_fails(self):
+        self.write('worlds/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('worlds/a.pgm', b'P5\n400 400\n255\n' + b'\xfe' * 160000)
+        self.write('worlds/b.yaml', 'image: b.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('worlds/b.pgm', b'P5\n9 9\n255\n' + b'\xfe' * 81)  # no car has room there
+        self.write('old/maps/mine.txt', 'mine')
+        for output in ('new/folder', 'old'):
+            self.assert_refused(self.run_program(QUERIES, '--from', 'worlds', '--output', output), "'b'", 'no free pose')
+        self.assertEqual(sorted(os.listdir(self.folder)), ['old', 'worlds'])
+        self.assertEqual((os.listdir(self.path('old')), os.listdir(self.path('old/maps'))), (['maps'], ['mine.txt']))
+        self.queries('new/folder', '--from', 'worlds/a.yaml', '--queries', 1)
+        self.assertEqual(sorted(os.listdir(self.path('new/folder'))), ['a_1.yaml', 'index.json', 'maps'])
+
     def test_bad_input_is_one_line(self):
         self.write('old/index.json', '{}')
         for arguments, parts in ((('--seed', 1), ('--output',)),
