@@ -42,8 +42,10 @@ last one.
 ```sh
 parking_queries --output queries --seed {seed}{draw}
 parking_benchmark benchmarks/general.cfg --scenarios queries --output results-general{run}
-benchmarks/report/general_page results-general queries
+benchmarks/report/general_page results-general queries --output page/general.md
 ```
+
+Without `--output` the last one writes this page and its pictures anew, docs/general.md.
 
 Nobody has to believe in our worlds, or in this seed:
 

@@ -30,6 +30,16 @@ class External(ProgramTest):
         self.assertEqual(result['status'], 'invalid_path')
         self.assertEqual(result['recheck']['fault'], 'collision')
 
+    def test_the_page_says_how_its_example_ends(self):
+        with open(os.path.join(SOURCE, 'docs', 'comparison.md')) as stream:
+            page = stream.read()
+        example = page[page.index('--planner external'):]
+        self.assertEqual(self.outcome('python3 ' + STRAIGHT, bundled('parallel'), status=4)['status'], 'invalid_path')
+        self.assertIn('`NOT VALID` and status 4', example[:1000])
+        row = next(line for line in page.splitlines() if line.startswith('| `status` | `exact`'))
+        for command in ('true', 'exit 3', 'echo 1 2'):
+            self.assertIn('`%s`' % self.outcome(command, status=4)['status'], row)
+
     def test_programs_that_find_nothing_or_hang(self):
         self.assertEqual(self.outcome('true', status=4)['status'], 'infeasible')
         begin = time.monotonic()

@@ -59,6 +59,7 @@ class QueriesTest(ProgramTest):
         self.assertRegex(page, r'\| improved_astar \| [0-2] of 2 \| 0 \|')
         self.assertIn('--worlds 1', page)
         self.assertIn('--time 0.2', page)
+        self.assertIn('results-general queries --output ', page)  # not over the page of the project
         for name in ('solved', 'lengths'):
             xml.etree.ElementTree.parse(self.path(f'page/images/general_{name}.svg'))
         self.assert_refused(self.run_program(sys.executable, '-B', script, 'results', 'results'), 'index.json')
