@@ -2,7 +2,6 @@
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/ReadFile.h"
-#include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
 
 #ifdef PARKING_HAVE_MATIO

@@ -1,7 +1,7 @@
 // Reads MATLAB 5 files, by their published format (MATLAB's "MAT-File Format", level 5).
 //
 // libmatio, which writes them, believes the sizes that it reads: damaged files made it crash, or turn round for ever.
-// Here nothing can be read that is not in the file, and all that is said twice must agree.
+// Here nothing can be read that is not in the file, and sizes that do not agree are refused.
 
 #include "benchmarks/formats/MatFile.h"
 
@@ -26,9 +26,9 @@ namespace parking
 #ifdef PARKING_HAVE_MATIO
     namespace
     {
-        constexpr std::size_t LARGEST = std::size_t(256) << 20;  // bytes
-        constexpr std::size_t HEADER = 128;                      // bytes
-        constexpr int DEEPEST = 32;                              // values within values
+        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes, of a file and of what is compressed in it
+        constexpr std::size_t HEADER = 128;                     // bytes
+        constexpr int DEEPEST = 32;                             // values within values
 
         // What the data of an element are.
         enum Type : std::uint32_t
@@ -133,8 +133,8 @@ namespace parking
             /** The same of an element that must be of one of these types, and of so many bytes unless they are 0. */
             Bytes element(std::initializer_list<Type> types, std::size_t size);
 
-            /** What zlib makes of it. */
-            std::string inflated() const;
+            /** What zlib makes of it: so many bytes at most. */
+            std::string inflated(std::size_t most) const;
 
             Bytes within(const std::string &inflated) const
             {
@@ -194,7 +194,7 @@ namespace parking
             }
         };
 
-        std::string Bytes::inflated() const
+        std::string Bytes::inflated(std::size_t most) const
         {
             z_stream stream{};
             if (inflateInit(&stream) != Z_OK)
@@ -203,16 +203,17 @@ namespace parking
             std::string input(bytes_), text;
             stream.next_in = reinterpret_cast<Bytef *>(input.data());
             stream.avail_in = static_cast<uInt>(input.size());
-            std::array<char, 1 << 16> buffer{};
+            std::array<char, 1 << 16> buffer;
             int state = Z_OK;
             while (state == Z_OK)
             {
                 stream.next_out = reinterpret_cast<Bytef *>(buffer.data());
                 stream.avail_out = static_cast<uInt>(buffer.size());
                 state = inflate(&stream, Z_NO_FLUSH);
-                text.append(buffer.data(), buffer.size() - stream.avail_out);
-                if (text.size() > LARGEST)
-                    fail("more than " + std::to_string(LARGEST) + " bytes are compressed here");
+                const std::size_t made = buffer.size() - stream.avail_out;
+                if (made > most - text.size())
+                    fail("more than " + std::to_string(LARGEST) + " bytes are compressed in it, which no case needs");
+                text.append(buffer.data(), made);
             }
             // The end is reached only when zlib's own sum over all that was compressed is right.
             if (state != Z_STREAM_END)
@@ -307,7 +308,7 @@ namespace parking
             std::vector<std::size_t> size;
             std::string name;
 
-            std::uint32_t kind() const
+            std::uint32_t classOf() const
             {
                 return flags & 0xffU;
             }
@@ -319,7 +320,7 @@ namespace parking
             Matrix head;
             Bytes flags = data.element({UINT32}, 8);
             head.flags = flags.number<std::uint32_t>();
-            if (head.kind() == OPAQUE)
+            if (head.classOf() == OPAQUE)
                 return head;
             const Bytes before = data;
             Bytes size = data.element(WHOLE_NUMBERS, 0);
@@ -343,7 +344,8 @@ namespace parking
             return valueOf(data.element({MATRIX}, 0), depth + 1);
         }
 
-        std::vector<std::string> takeFieldNames(Bytes &data)
+        /** \param count of structures, each of which has a value for each name */
+        std::vector<std::string> takeFieldNames(Bytes &data, std::size_t count)
         {
             const Bytes before = data;
             const auto width = data.element(WHOLE_NUMBERS, 4).number<std::int32_t>();
@@ -351,8 +353,13 @@ namespace parking
             if (width <= 0 || names.size() % static_cast<std::size_t>(width) != 0)
                 before.fail("names of fields of " + std::to_string(width) + " bytes each in " +
                             std::to_string(names.size()));
+            constexpr std::size_t LEAST_VALUE = 8;  // bytes
+            const std::size_t fields = names.size() / static_cast<std::size_t>(width);
+            if (count > 0 && fields > data.size() / LEAST_VALUE / count)
+                before.fail(std::to_string(count) + " structures of " + std::to_string(fields) + " fields in " +
+                            std::to_string(data.size()) + " bytes");
             std::vector<std::string> taken;
-            while (names.size() > 0)
+            while (count > 0 && names.size() > 0)
             {
                 const std::string_view name = names.take(static_cast<std::size_t>(width)).text();
                 taken.emplace_back(name.substr(0, name.find('\0')));
@@ -371,10 +378,10 @@ namespace parking
             if (columns != 0 && rows > LARGEST / columns)
                 throw Error("it holds a matrix that is too large");
             const std::size_t count = rows * columns;
-            if (head.kind() == STRUCT)
+            if (head.classOf() == STRUCT)
             {
                 value.kind = MatValue::Kind::Struct;
-                const std::vector<std::string> names = takeFieldNames(data);
+                const std::vector<std::string> names = takeFieldNames(data, count);
                 for (std::size_t i = 0; !names.empty() && i < count; ++i)
                     for (const std::string &name : names)
                     {
@@ -383,18 +390,18 @@ namespace parking
                             value.fields.emplace_back(name, std::move(inner));
                     }
             }
-            else if (head.kind() == CELL)
+            else if (head.classOf() == CELL)
             {
                 value.kind = MatValue::Kind::Cell;
                 for (std::size_t i = 0; i < count; ++i)
                     value.cells.push_back(innerValue(data, depth));
             }
-            else if (head.kind() == CHARACTERS)
+            else if (head.classOf() == CHARACTERS)
             {
                 value.kind = MatValue::Kind::Text;
                 value.text = textOf(data.element(), count);
             }
-            else if (head.kind() >= FIRST_NUMBERS && head.kind() <= LAST_NUMBERS)
+            else if (head.classOf() >= FIRST_NUMBERS && head.classOf() <= LAST_NUMBERS)
             {
                 value.kind = (head.flags & LOGICAL) != 0 ? MatValue::Kind::Logical : MatValue::Kind::Numbers;
                 value.rows = rows;
@@ -435,6 +442,7 @@ namespace parking
         {
             MatValue value;
             bool found = false;
+            std::size_t left = LARGEST;
             while (file.size() > 0)  // to the end, though it may have been found: the file must be whole
             {
                 const Element element = file.element();
@@ -445,7 +453,8 @@ namespace parking
                     found = isFound(element, name, value);
                     continue;
                 }
-                const std::string inflated = element.data.inflated();
+                const std::string inflated = element.data.inflated(left);
+                left -= inflated.size();
                 Bytes inner = element.data.within(inflated);
                 found = isFound(inner.element(), name, value);
                 if (inner.size() > 0)
@@ -460,7 +469,7 @@ namespace parking
     MatValue readMat(const std::string &file, const std::string &variable)
     {
         const std::string content = readFile(file, LARGEST);
-        // The text is for people. The version is two bytes at 124, in either order; the order is said at 126.
+        // The text is for people. The version is two bytes at 124, in the order of bytes that is said at 126.
         const std::string version = content.size() < HEADER ? std::string() : content.substr(124, 2);
         const bool five = version == std::string("\0\1", 2) || version == std::string("\1\0", 2);
         const bool seven = version == std::string("\0\2", 2) || version == std::string("\2\0", 2);
@@ -469,8 +478,8 @@ namespace parking
         if (content.compare(0, 10, "MATLAB 5.0") != 0 || !five)
             throw Error(file + ": no MATLAB 5 file (what save(..., '-v7') or '-v6' writes)");
         const std::string order = content.substr(126, 2);
-        if (order != "IM" && order != "MI")
-            throw Error(file + ": damaged at byte 126: the order of the bytes must be IM or MI");
+        if (order != (version.back() == '\1' ? "IM" : "MI"))
+            throw Error(file + ": damaged at byte 126: the order of the bytes must be IM or MI, as at byte 124");
         try
         {
             return find({std::string_view(content).substr(HEADER), HEADER, order == "MI", ""}, variable);

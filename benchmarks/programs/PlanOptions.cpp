@@ -122,9 +122,8 @@ namespace parking
         text << "\nVehicles:";
         for (const std::string &each : vehicleNames())
             text << ' ' << each;
-        text << "\n\nStatus: 0 exact solution, 3 only an approximate one, 4 none found, or nothing to write with --csv "
-                "or\n"
-                "--html, 2 bad input or usage\n";
+        text << "\n\nStatus: 0 exact solution, 3 only an approximate one, 4 none found, or nothing to write with\n"
+                "--csv or --html, 2 bad input or usage\n";
         return text.str();
     }
 }  // namespace parking

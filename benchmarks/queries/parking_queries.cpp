@@ -115,11 +115,11 @@ namespace
         {
             const fs::path file = folder_ / name;
             makeFolder(file.parent_path());
-            std::error_code ignored;
-            const bool isNew = !fs::exists(file, ignored);
+            if (std::error_code ignored; fs::exists(file, ignored))
+                throw Error(inQuotes(file.string()) +
+                            " is there already: name another folder, or worlds of other names");
             writeFileAtomically(file.string(), content);
-            if (isNew)
-                made_.push_back(file);
+            made_.push_back(file);
         }
 
         void keep()

@@ -187,9 +187,7 @@ namespace parking
         {
             const std::string &file = outputs[i];
             if (file == "-")
-                throw Error(
-                    "'-' would be a file of that name: only --json writes to standard output by it; if a file "
-                    "is meant, name it './-'");
+                throw Error("'-' is not standard output here; if a file of that name is meant, name it './-'");
             requireWritable(file);
             for (const std::string &input : inputs)
                 if (std::error_code ignored; std::filesystem::exists(input, ignored) && areSameFile(file, input))

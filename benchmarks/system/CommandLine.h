@@ -16,7 +16,7 @@
 namespace parking
 {
     /** \brief Seconds: the longest that a run may be given. OMPL computes the end of a run in nanoseconds since 1970,
-       which overflow when it lies some hundred years ahead. */
+       which overflow when it lies more than two hundred years ahead. */
     constexpr double LONGEST_RUN = 1e6;
 
     /** \brief The value of an option, a text; \e name stands for it in the help. */

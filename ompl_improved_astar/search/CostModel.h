@@ -89,7 +89,7 @@ namespace parking::search
     /** \brief A path and what it costs. */
     struct PricedPath
     {
-        Path path;
+        Path path;                      ///< what is driven
         std::vector<double> closeness;  ///< extra cost of each of its pieces because of the obstacles nearby
         double cost{0.0};               ///< of the whole, closeness included
     };

@@ -138,10 +138,10 @@ namespace parking::search
             cost of any path that the model can drive. */
         virtual double distance(const Pose &from, const Pose &to) const = 0;
 
-        /** \brief A lower bound of distance() that takes no time to tell: the straight line, or more. */
-        virtual double leastDistance(const Pose &from, const Pose &to) const
+        /** \brief A lower bound of distance() that takes no time to tell; what it rules out is not looked at closer. */
+        virtual double leastDistance(const Pose & /*from*/, const Pose & /*to*/) const
         {
-            return positionDistance(from, to);
+            return 0.0;
         }
 
         /** \brief The curves by which parts of a path may be replaced; nullptr for a model whose paths stay as they

@@ -343,8 +343,7 @@ namespace parking::search
         node.parent = parentIndex;
         node.farthest = successor.farthest;
         node.g = costWithoutCloseness(own, own.node(parentIndex), successor);
-        // Below the cost of a solution about half of what is generated is of no use: what takes least time is asked
-        // first.
+        // Once a cost is known about half of what is generated is of no use: what takes least time is asked first.
         const bool isBounded = costBound_ < INFINITE, isEstimated = isBounded && parameters_.cost.pricesCloseness();
         if (isBounded && !mayImproveAtBest(own.side(), node))
             return;

@@ -266,9 +266,9 @@ namespace parking::search
         bool finishExpansion();
         void noteExhaustion(Frontier &own) const;
         void endTurn();
-        /** What it costs to get to a successor, but for the obstacles nearby, */
+        /** What it costs to get to a successor, but for the obstacles nearby. */
         double costWithoutCloseness(const Frontier &own, const Node &parent, const Successor &successor) const;
-        /** and what those add to it. */
+        /** What these add to it. */
         double closeness(const Node &parent, const Successor &successor) const;
         void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, NodeIndex index);
@@ -293,7 +293,7 @@ namespace parking::search
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
-        /** Whether it may if what lies ahead is as short as can be: no estimate is asked for. */
+        /** The same by the least that can lie ahead: no estimate is asked for. */
         bool mayImproveAtBest(Side side, const Node &node) const;
         double weightAt(const Frontier &own, const Node &node) const;
         /** Its priority in the first queue, as it was when it was put there. */
@@ -305,6 +305,7 @@ namespace parking::search
         void push(Frontier &own, std::size_t level, NodeIndex index);
         void rekey(Frontier &own);
         float estimateOf(Side side, const Pose &pose);
+        float rounded(double estimate) const;
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
 
         /** Length of the shortest motion from a node of that side outwards, obstacles or not. */

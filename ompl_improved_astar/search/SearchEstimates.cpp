@@ -157,9 +157,14 @@ namespace parking::search
 
     float Search::estimateOf(Side side, const Pose &pose)
     {
+        return rounded(estimate(side, pose));
+    }
+
+    float Search::rounded(double estimate) const
+    {
         // As a bound it must not be rounded up.
-        const auto rounded = static_cast<float>(estimate(side, pose));
-        return boundIsKept_ ? std::nextafter(rounded, 0.0f) : rounded;
+        const auto nearest = static_cast<float>(estimate);
+        return boundIsKept_ ? std::nextafter(nearest, 0.0f) : nearest;
     }
 
     double Search::admissible(Side side, const Pose &pose)
@@ -177,13 +182,13 @@ namespace parking::search
 
     bool Search::mayImproveAtBest(Side side, const Node &node) const
     {
-        // Rounded as estimates are: what only looks cheaper for that is refused by neither or by both.
+        // Rounded as estimates are, so that nothing is refused that only they make look cheaper.
         const auto mayImproveTo = [&](const Pose &target)
         {
-            return node.g + static_cast<float>(model_->leastDistance(node.pose, target)) < costBound_;
+            return node.g + rounded(model_->leastDistance(node.pose, target)) < costBound_;
         };
         const std::vector<Pose> &targets = guides_[static_cast<std::size_t>(side)].targets;
-        return targets.empty() || std::any_of(targets.begin(), targets.end(), mayImproveTo);
+        return hasTarget_ || targets.empty() || std::any_of(targets.begin(), targets.end(), mayImproveTo);
     }
 
     double Search::weightAt(const Frontier &own, const Node &node) const

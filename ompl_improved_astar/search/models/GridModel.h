@@ -49,6 +49,10 @@ namespace parking::search
         {
             return positionDistance(from, to);
         }
+        double leastDistance(const Pose &from, const Pose &to) const override
+        {
+            return positionDistance(from, to);
+        }
         bool load(const StopFunction &stop) override;
         std::size_t bytes() const override
         {

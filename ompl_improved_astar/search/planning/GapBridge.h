@@ -56,7 +56,8 @@ namespace parking::search
 
         /** \brief Cuts out what lies between \e begin and \e end, metres along the path, of which the latter is more.
 
-            \param priced by the same cost: of pieces that are cut out whole nothing is asked again */
+            \param priced its cost, by the same model; what is cut out whole is not priced again. Pieces that could be
+            one, as Path::append() makes them, are one */
         Gap cutOut(const PricedPath &priced, double begin, double end);
 
         /** \brief Whether the cheapest curve from end to end of the gap, free or not, costs less than \e bound.

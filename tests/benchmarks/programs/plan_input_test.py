@@ -160,7 +160,7 @@ class Output(ProgramTest):
                 with self.subTest(option=option, name=name):
                     self.refused_plan('case.csv', '--vehicle', 'car.yaml', *drive, option, name, parts=[name, 'is the input'])
             if option != '--json':
-                self.refused_plan('case.csv', *drive, option, '-', parts=["'-'", '--json'])
+                self.refused_plan('case.csv', *drive, option, '-', parts=["'-'", 'standard output', "'./-'"])
                 self.refused_plan('case.csv', *drive, '--json', 'out', option, 'out', parts=['out', 'twice'])
                 self.refused_plan('case.csv', *drive, '--json', 'out', option, './out', parts=['out', 'twice'])
         self.assertEqual((self.read('case.csv'), sorted(os.listdir(self.folder))), (CASE, before))

@@ -89,6 +89,14 @@ class QueriesTest(ProgramTest):
         self.queries('new/folder', '--from', 'worlds/a.yaml', '--queries', 1)
         self.assertEqual(sorted(os.listdir(self.path('new/folder'))), ['a_1.yaml', 'index.json', 'maps'])
 
+    def test_nothing_is_written_over(self):
+        self.write('q/maps/a.yaml', 'image: a.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('q/maps/a.pgm', b'P5\n400 400\n255\n' + b'\xfe' * 160000)
+        before = self.read('q/maps/a.yaml')
+        done = self.run_program(QUERIES, '--from', 'q/maps', '--output', 'q', '--queries', '1')
+        self.assert_refused(done, 'maps/a.pgm', 'there already')
+        self.assertEqual((self.read('q/maps/a.yaml'), os.listdir(self.path('q'))), (before, ['maps']))
+
     def test_bad_input_is_one_line(self):
         self.write('old/index.json', '{}')
         for arguments, parts in ((('--seed', 1), ('--output',)),
