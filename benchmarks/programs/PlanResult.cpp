@@ -329,7 +329,7 @@ namespace parking
             result.planner + ", " + statusOf(run) + ", " + formatNumber(MS * run.planningTime, 1) + " ms";
         if (run.path)
             subtitle += ", " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
-                        " of direction, least clearance " + formatNumber(run.path->clearance, 2) + " m";
+                        " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
         SvgFigure figure(scenario.name, subtitle);
         const Trajectory planned = plannedSamples(scenario, result);
         SampledPath seen = path;
