@@ -421,7 +421,7 @@ namespace parking
                         const std::vector<std::string> found = findScenarios(value, folder);
                         config.scenarios.insert(config.scenarios.end(), found.begin(), found.end());
                         for (const std::string &each : found)
-                            config.places.emplace(each, lines.at(i));
+                            config.scenarioLines.emplace(each, lines.at(i));
                     }
                     else if (section == "problem")
                         setProblemOption(base, key, value);

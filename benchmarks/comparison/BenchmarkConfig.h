@@ -50,15 +50,15 @@ namespace parking
     /** \brief A comparison, as a .cfg file describes it (see docs/comparison.md). */
     struct BenchmarkConfig
     {
-        std::string file;                           ///< that it was read from
-        std::vector<std::string> scenarios;         ///< files, in the order given; those of a pattern or folder sorted
-        std::map<std::string, std::string> places;  ///< of scenarios: the line that names them, as messages begin
-        double timeLimit{5.0};                      ///< seconds per run
-        double memoryLimit{4096.0};                 ///< MB
-        std::size_t runCount{10};                   ///< runs of each planner on each experiment
-        std::string output;                         ///< folder; empty: the caller chooses
-        SavePaths savePaths{SavePaths::None};       ///< which paths are written to files of their own
-        std::uint_fast32_t seed{1};                 ///< of the comparison; every run has its own from it, see seedOf()
+        std::string file;                    ///< that it was read from
+        std::vector<std::string> scenarios;  ///< files, in the order given; those of a pattern or folder sorted
+        std::map<std::string, std::string> scenarioLines;  ///< by scenario: "FILE:LINE: " where it is named
+        double timeLimit{5.0};                             ///< seconds per run
+        double memoryLimit{4096.0};                        ///< MB
+        std::size_t runCount{10};                          ///< runs of each planner on each experiment
+        std::string output;                                ///< folder; empty: the caller chooses
+        SavePaths savePaths{SavePaths::None};              ///< which paths are written to files of their own
+        std::uint_fast32_t seed{1};         ///< of the comparison; every run has its own from it, see seedOf()
         bool processorTime{false};          ///< limit and measure processor time instead of that of the wall clock
         bool simplify{false};               ///< let OMPL simplify each path, too, and report that beside it
         bool track{false};                  ///< drive each path with the controller

@@ -207,8 +207,8 @@ namespace parking
                 }
                 catch (const Error &error)
                 {
-                    const auto place = config.places.find(file);
-                    throw Error((place == config.places.end() ? "" : place->second) + error.what());
+                    const auto line = config.scenarioLines.find(file);
+                    throw Error((line == config.scenarioLines.end() ? "" : line->second) + error.what());
                 }
             };
             const ProblemOptions &common = config.planners.front().problem;

@@ -26,9 +26,11 @@ namespace parking
 #ifdef PARKING_HAVE_MATIO
     namespace
     {
-        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes, of a file and of what is compressed in it
-        constexpr std::size_t HEADER = 128;                     // bytes
-        constexpr int DEEPEST = 32;                             // values within values
+        // Of a file, and of what is compressed in it, in bytes: a world of a million corners takes less.
+        constexpr std::size_t LARGEST = std::size_t(64) << 20;
+        constexpr std::size_t MOST_VALUES = 1000000;  // each takes more memory than it need take in a file
+        constexpr std::size_t HEADER = 128;           // bytes
+        constexpr int DEEPEST = 32;                   // values within values
 
         // What the data of an element are.
         enum Type : std::uint32_t
@@ -212,7 +214,7 @@ namespace parking
                 state = inflate(&stream, Z_NO_FLUSH);
                 const std::size_t made = buffer.size() - stream.avail_out;
                 if (made > most - text.size())
-                    fail("more than " + std::to_string(LARGEST) + " bytes are compressed in it, which no case needs");
+                    fail("more than " + std::to_string(LARGEST) + " bytes are compressed in the file");
                 text.append(buffer.data(), made);
             }
             // The end is reached only when zlib's own sum over all that was compressed is right.
@@ -224,59 +226,49 @@ namespace parking
         }
 
         template <class Number>
-        void takeNumbers(Bytes data, std::size_t count, std::vector<double> &numbers)
+        std::vector<double> numbersOf(Bytes data, std::size_t count)
         {
             if (data.size() != count * sizeof(Number))
                 data.fail(std::to_string(data.size()) + " bytes for " + std::to_string(count) + " numbers of " +
                           std::to_string(sizeof(Number)));
+            std::vector<double> numbers;
             numbers.reserve(count);
             for (std::size_t i = 0; i < count; ++i)
                 numbers.push_back(static_cast<double>(data.number<Number>()));
+            return numbers;
         }
 
         /** Of whatever type: MATLAB stores whole numbers in the smallest that holds them. */
         std::vector<double> numbersOf(const Element &element, std::size_t count)
         {
-            std::vector<double> numbers;
             const Bytes &data = element.data;
             switch (element.type)
             {
                 case INT8:
-                    takeNumbers<std::int8_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::int8_t>(data, count);
                 case UINT8:
-                    takeNumbers<std::uint8_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::uint8_t>(data, count);
                 case INT16:
-                    takeNumbers<std::int16_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::int16_t>(data, count);
                 case UINT16:
                 case UTF16:
-                    takeNumbers<std::uint16_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::uint16_t>(data, count);
                 case INT32:
-                    takeNumbers<std::int32_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::int32_t>(data, count);
                 case UINT32:
                 case UTF32:
-                    takeNumbers<std::uint32_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::uint32_t>(data, count);
                 case INT64:
-                    takeNumbers<std::int64_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::int64_t>(data, count);
                 case UINT64:
-                    takeNumbers<std::uint64_t>(data, count, numbers);
-                    break;
+                    return numbersOf<std::uint64_t>(data, count);
                 case SINGLE:
-                    takeNumbers<float>(data, count, numbers);
-                    break;
+                    return numbersOf<float>(data, count);
                 case DOUBLE:
-                    takeNumbers<double>(data, count, numbers);
-                    break;
+                    return numbersOf<double>(data, count);
                 default:
                     data.fail("data of type " + std::to_string(element.type) + ", which are no numbers");
             }
-            return numbers;
         }
 
         /** What is not ASCII becomes a question mark. */
@@ -337,11 +329,12 @@ namespace parking
             return head;
         }
 
-        MatValue valueOf(Bytes data, int depth);
+        MatValue valueOf(Bytes data, int depth, std::size_t &values);
 
-        MatValue innerValue(Bytes &data, int depth)
+        /** \param values that were made so far in the whole file */
+        MatValue innerValue(Bytes &data, int depth, std::size_t &values)
         {
-            return valueOf(data.element({MATRIX}, 0), depth + 1);
+            return valueOf(data.element({MATRIX}, 0), depth + 1, values);
         }
 
         /** \param count of structures, each of which has a value for each name */
@@ -368,7 +361,7 @@ namespace parking
         }
 
         /** Fills in what follows the head. */
-        void takeContents(const Matrix &head, Bytes &data, int depth, MatValue &value)
+        void takeContents(const Matrix &head, Bytes &data, int depth, std::size_t &values, MatValue &value)
         {
             if (head.size.size() != 2)
                 throw Error("it holds an array that is no matrix");
@@ -385,7 +378,7 @@ namespace parking
                 for (std::size_t i = 0; !names.empty() && i < count; ++i)
                     for (const std::string &name : names)
                     {
-                        MatValue inner = innerValue(data, depth);
+                        MatValue inner = innerValue(data, depth, values);
                         if (i == 0)
                             value.fields.emplace_back(name, std::move(inner));
                     }
@@ -394,7 +387,7 @@ namespace parking
             {
                 value.kind = MatValue::Kind::Cell;
                 for (std::size_t i = 0; i < count; ++i)
-                    value.cells.push_back(innerValue(data, depth));
+                    value.cells.push_back(innerValue(data, depth, values));
             }
             else if (head.classOf() == CHARACTERS)
             {
@@ -412,15 +405,17 @@ namespace parking
                 throw Error("it holds a variable of a class that is not understood");
         }
 
-        MatValue valueOf(Bytes data, int depth)
+        MatValue valueOf(Bytes data, int depth, std::size_t &values)
         {
             MatValue value;
+            if (++values > MOST_VALUES)
+                throw Error("it holds more than " + std::to_string(MOST_VALUES) + " values");
             if (depth > DEEPEST)
                 throw Error("it nests values deeper than any case does");
             if (data.size() == 0)  // nothing, as in the fields of a struct
                 return value;
             const Matrix head = takeHead(data);
-            takeContents(head, data, depth, value);
+            takeContents(head, data, depth, values, value);
             if (data.size() > 0)
                 data.fail(std::to_string(data.size()) + " bytes are left over at the end of a variable");
             return value;
@@ -434,7 +429,8 @@ namespace parking
                 data.fail("data of type " + std::to_string(element.type) + " where a variable is expected");
             if (data.size() == 0 || takeHead(data).name != name)
                 return false;
-            value = valueOf(element.data, 0);
+            std::size_t values = 0;
+            value = valueOf(element.data, 0, values);
             return true;
         }
 

@@ -95,7 +95,7 @@ namespace parking
         if (!options.scenarios.empty())
         {
             config_.scenarios.clear();
-            config_.places.clear();
+            config_.scenarioLines.clear();
             for (const std::string &name : options.scenarios)
             {
                 const std::vector<std::string> found = findScenarios(name, "");

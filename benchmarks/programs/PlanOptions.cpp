@@ -3,6 +3,7 @@
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
+#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <limits>
 #include <sstream>
@@ -14,7 +15,6 @@ namespace parking
     namespace
     {
         constexpr std::size_t MAX_RUNS = 1000000;
-        constexpr double LEAST_JERK = 0.01, MOST_JERK = 1e4;  // m/s^3, what TrajectoryOptions take
 
         po::options_description describe()
         {
@@ -94,7 +94,8 @@ namespace parking
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");
-        result.maxJerk = line.between("max-jerk", LEAST_JERK, MOST_JERK, "m/s^3").value_or(0.0);
+        result.maxJerk = line.between("max-jerk", TrajectoryOptions::LEAST_JERK, TrajectoryOptions::MOST_JERK, "m/s^3")
+                             .value_or(0.0);
         result.track = line.given("track");
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");

@@ -197,9 +197,11 @@ namespace parking
         return states;
     }
 
-    int exitStatus(const PlanRun &run)
+    int exitStatus(const PlanRun &run, bool isAllWritten)
     {
         constexpr int EXACT = 0, APPROXIMATE = 3, NOTHING = 4;
+        if (!isAllWritten)
+            return NOTHING;
         if (run.isSolved())
             return EXACT;
         return run.status == PlanStatus::Approximate && run.hasValidPath() ? APPROXIMATE : NOTHING;

@@ -41,8 +41,8 @@ namespace parking
     nlohmann::json pathJson(const Scenario &scenario, const SampledPath &path);
 
     /** \brief What parking_plan exits with: 0 for an exact solution, 3 for only an approximate one, 4 for none that the
-        referee accepts. */
-    int exitStatus(const PlanRun &run);
+        referee accepts, and where not all files could be written that were asked for. */
+    int exitStatus(const PlanRun &run, bool isAllWritten = true);
 
     /** \brief For each file that was asked for and that there is nothing to write into, although a path was found: its
         name, and why. */

@@ -19,7 +19,7 @@
 
 namespace
 {
-    constexpr int HELPED = 0, NOT_ALL_WRITTEN = 4;
+    constexpr int HELPED = 0;
 
     int plan(const std::vector<std::string> &arguments)
     {
@@ -96,7 +96,7 @@ namespace
         const std::vector<std::string> missing = missingFiles(options, result);
         for (const std::string &each : missing)
             std::cerr << "parking_plan: " << each << std::endl;
-        return missing.empty() ? exitStatus(run) : NOT_ALL_WRITTEN;
+        return exitStatus(run, missing.empty());
     }
 }  // namespace
 

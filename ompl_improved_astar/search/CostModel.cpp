@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/CostModel.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace parking::search
@@ -9,25 +10,21 @@ namespace parking::search
     {
         constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
 
-        /** Calls visit(closeness) for each piece of the path. */
-        template <class Visit>
-        void visitCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment,
-                            const Visit &visit)
+        std::vector<double> closenessOfPieces(const CostModel &model, const Path &path, MotionEnvironment &environment)
         {
+            std::vector<double> closeness(path.pieces.size(), 0.0);
             Pose pose = path.start;
             for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness(); ++i)
             {
-                visit(model.closeness(pose, path.pieces[i], environment));
+                closeness[i] = model.closeness(pose, path.pieces[i], environment);
                 pose = advance(pose, path.pieces[i].curvature, path.pieces[i].length);
             }
+            return closeness;
         }
 
-        double costWithoutCloseness(const CostModel &model, const Path &path)
+        double sumOf(const std::vector<double> &costs)
         {
-            double cost = 0.0;
-            for (std::size_t i = 0; i < path.pieces.size(); ++i)
-                cost += model.drive(path.pieces[i]) + (i > 0 ? model.join(path.pieces[i - 1], path.pieces[i]) : 0.0);
-            return cost;
+            return std::accumulate(costs.begin(), costs.end(), 0.0);
         }
     }  // namespace
 
@@ -91,11 +88,17 @@ namespace parking::search
         return cost;
     }
 
-    double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment)
+    double costWithoutCloseness(const CostModel &model, const Path &path)
     {
         double cost = 0.0;
-        visitCloseness(model, path, environment, [&](double closeness) { cost += closeness; });
+        for (std::size_t i = 0; i < path.pieces.size(); ++i)
+            cost += model.drive(path.pieces[i]) + (i > 0 ? model.join(path.pieces[i - 1], path.pieces[i]) : 0.0);
         return cost;
+    }
+
+    double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment)
+    {
+        return sumOf(closenessOfPieces(model, path, environment));
     }
 
     double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
@@ -105,16 +108,8 @@ namespace parking::search
 
     PricedPath pricePath(const CostModel &model, Path path, MotionEnvironment &environment)
     {
-        PricedPath priced{std::move(path), {}, 0.0};
-        priced.closeness.reserve(priced.path.pieces.size());
-        visitCloseness(model, priced.path, environment,
-                       [&](double closeness)
-                       {
-                           priced.closeness.push_back(closeness);
-                           priced.cost += closeness;
-                       });
-        priced.closeness.resize(priced.path.pieces.size(), 0.0);
-        priced.cost += costWithoutCloseness(model, priced.path);
-        return priced;
+        std::vector<double> closeness = closenessOfPieces(model, path, environment);
+        const double cost = sumOf(closeness) + costWithoutCloseness(model, path);
+        return {std::move(path), std::move(closeness), cost};
     }
 }  // namespace parking::search

@@ -80,6 +80,9 @@ namespace parking::search
     double curveCloseness(const CostModel &model, const Pose &from, const ReedsSheppCurve &curve,
                           MotionEnvironment &environment, double most = std::numeric_limits<double>::infinity());
 
+    /** \brief Cost of a whole path, wherever it is. */
+    double costWithoutCloseness(const CostModel &model, const Path &path);
+
     /** \brief Extra cost of a whole path because of the obstacles nearby. */
     double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment);
 

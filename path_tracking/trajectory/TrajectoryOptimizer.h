@@ -35,6 +35,9 @@ namespace parking
             there is more to correct with, and errors of noise and lags are up to three times smaller. */
         bool sharpest{true};
 
+        static constexpr double LEAST_JERK = 0.01;  ///< m/s^3 that maxJerk may be, unless it is 0,
+        static constexpr double MOST_JERK = 1e4;    ///< and at most
+
         /** m/s^3 by which the acceleration may change; 0 for no limit. The motion that is the quickest without one is
             then driven along the same way with it, see withJerkLimit(): 1 ms in the median, up to 0.3 s for hundreds
             of metres, in which nobody is asked about interruptions. */

@@ -9,7 +9,7 @@ namespace parking::search
     GapBridge::Gap GapBridge::cutOut(const PricedPath &priced, double begin, double end)
     {
         const Path &path = priced.path, untilEnd = path.first(end), part = untilEnd.rest(begin);
-        Gap gap{path.first(begin), path.rest(end), part.start, 0.0};
+        Gap gap{path.first(begin), path.rest(end), part.start, costWithoutCloseness(cost_, part)};
         const std::size_t first = untilEnd.pieces.size() - part.pieces.size();
         Pose pose = part.start;
         for (std::size_t i = 0; i < part.pieces.size(); ++i)
@@ -17,7 +17,6 @@ namespace parking::search
             const PathPiece &piece = part.pieces[i], &uncut = path.pieces[first + i];
             const bool isWhole = piece.length == uncut.length && piece.curvature == uncut.curvature;
             gap.cost += isWhole ? priced.closeness[first + i] : cost_.closeness(pose, piece, environment_);
-            gap.cost += cost_.drive(piece) + (i > 0 ? cost_.join(part.pieces[i - 1], piece) : 0.0);
             pose = advance(pose, piece.curvature, piece.length);
         }
         if (!gap.before.pieces.empty())

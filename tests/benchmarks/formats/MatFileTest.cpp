@@ -139,6 +139,20 @@ namespace
         expectError([&] { readMat(name, "w"); }, {name, "w cannot be read", "no such variable"});
     }
 
+    TEST_F(MatFileTest, ReadsLargeWorldsThatItWrites)
+    {
+        Scenario scenario;
+        scenario.goals = {{2.0, 0.0, 0.0}};
+        for (int i = 0; i < 100000; ++i)
+        {
+            const double x = i % 400, y = 10.0 + static_cast<double>(i / 400);
+            scenario.polygons.push_back({{x, y}, {x + 0.5, y}, {x + 0.5, y + 0.5}, {x, y + 0.5}});
+        }
+        const Scenario made = makeScenario(scenario, "made");
+        commonParkingFormat().write(made, folder_.path("Case08.mat"));
+        EXPECT_EQ(commonParkingFormat().read(folder_.path("Case08.mat"), {}).polygons.size(), 100000U);
+    }
+
     TEST_F(MatFileTest, ReadsWhatTheFormatAllows)
     {
         const auto read = [&](const std::string &content)
@@ -212,18 +226,27 @@ namespace
             writeMat(name, "v", MatValue::row(std::vector<double>((megabytes << 20) / 8)));
             return contentOf(name);
         };
-        const std::string bomb = zeros(17);
+        const std::string bomb = zeros(65);
         EXPECT_LT(bomb.size(), 1U << 20);
         const auto refused = [&](const std::string &content, const std::string &variable, const std::string &part)
         {
             const std::string name = folder_.write("e.mat", content);
             expectError([&] { readMat(name, variable); }, {name + ": ", part});
         };
-        refused(bomb, "v", "more than 16777216 bytes are compressed");
-        const std::string nine = zeros(9);
-        EXPECT_EQ(readMat(folder_.write("f.mat", nine), "v").columns, 9U << 17);
-        refused(nine, "w", "no such variable");
-        refused(nine + nine.substr(HEADER), "w", "more than 16777216 bytes are compressed");
+        refused(bomb, "v", "more than 67108864 bytes are compressed");
+        const std::string half = zeros(33);
+        EXPECT_EQ(readMat(folder_.write("f.mat", half), "v").columns, 33U << 17);
+        refused(half, "w", "no such variable");
+        refused(half + half.substr(HEADER), "w", "more than 67108864 bytes are compressed");
+        const auto nothings = [](std::uint32_t count)
+        {
+            std::string contents;
+            for (std::uint32_t i = 0; i < count; ++i)
+                contents += element(14, "");
+            return file(matrix(1, 1, count, contents));
+        };
+        refused(nothings(1000000), "v", "more than 1000000 values");  // with the array itself
+        EXPECT_EQ(readMat(folder_.write("f.mat", nothings(999999)), "v").cells.size(), 999999U);
         // Names and structures without anything in them.
         refused(file(matrix(2, 1, 1000, element(5, word(1)) + element(1, std::string(1000, 'x')))), "v",
                 "1000 structures of 1000 fields in 0 bytes");
