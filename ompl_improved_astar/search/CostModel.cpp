@@ -8,8 +8,6 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double SAMPLES_APART = 0.25;  // metres, of what is driven nearer than preferred
-
         std::vector<double> closenessOfPieces(const CostModel &model, const Path &path, MotionEnvironment &environment)
         {
             std::vector<double> closeness(path.pieces.size(), 0.0);
@@ -52,7 +50,7 @@ namespace parking::search
         }
         if (clear >= length)
             return cost;
-        const double rest = length - clear, samples = std::ceil(rest / SAMPLES_APART);
+        const double rest = length - clear, samples = std::ceil(rest / samplesApart);
         const double apart = rest / samples, perSample = clearanceCost * apart;
         const double affordable = std::clamp((most - cost) / perSample, 0.0, samples);
         const std::size_t nearer = environment.countNearer(

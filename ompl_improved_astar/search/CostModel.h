@@ -24,6 +24,7 @@ namespace parking::search
         double fullLockCurvature{1.0};      ///< 1/m, of full lock
         double preferredClearance{0.0};     ///< metres that the car keeps from obstacles where that is cheap; 0: none
         double clearanceCost{0.0};          ///< extra cost per metre driven nearer than that
+        double samplesApart{0.25};          ///< metres from one look at what is driven nearer to the next
 
         /** \brief Cost of driving \e segment in the direction in which the car will drive, wherever it is. */
         double drive(const PathPiece &segment) const

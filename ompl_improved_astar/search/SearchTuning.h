@@ -16,8 +16,8 @@ namespace parking::search
     /** \brief The constants that the search was tuned with, none of which changes what is found free.
 
         Lengths are in turning radii unless said otherwise, so that they hold for cars of any size. Unless another
-        origin is given the values were chosen by hand on the 62 problems of docs/planner.md (TPCAP, bundled, maps), for
-        the time to the first solution and its length. */
+        origin is given the values were chosen by hand on the 62 problems of docs/planner-figures.md (TPCAP, bundled,
+        maps), for the time to the first solution and its length. */
     struct SearchTuning
     {
         /** \name Motions of the car
@@ -56,7 +56,8 @@ namespace parking::search
 
         /** \name Looking ahead along the disc's way
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner.md names, and on the 62 problems.
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names, and on the 62
+            problems.
             @{ */
         double lookahead{3.0};         ///< to the place on the way that is made for,
         double lookaheadHeading{1.5};  ///< with the heading that the way has from so far before it to so far behind it,
@@ -65,7 +66,8 @@ namespace parking::search
 
         /** \name Spreading out, until there is a solution; what waits then goes on waiting
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner.md names, and on the 62 problems.
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names, and on the 62
+            problems.
             @{ */
         double waitPerExpansion{0.5};   ///< added to the cost of an open node for each expansion that there was in its
         double crowdedPlace{2.0};       ///< place, a square with this side,
@@ -76,7 +78,7 @@ namespace parking::search
 
         /** \name Detours, when the search is stuck
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner.md names.
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names.
             @{ */
         std::uint64_t leastExpansions{60};    ///< before a search is called stuck,
         std::uint64_t stalledExpansions{20};  ///< and so many of the more confined side since it came nearer
@@ -99,9 +101,9 @@ namespace parking::search
 
         /** \name Proving that there is no way, when the search stays stuck
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner.md names. Each try has finer cells
-            than the one before: coarse ones soon get to the end of large yards, fine ones close gaps that are only a
-            little too narrow.
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names. Each try has
+            finer cells than the one before: coarse ones soon get to the end of large yards, fine ones close gaps that
+            are only a little too narrow.
             @{ */
         std::uint64_t enclosureAfter{400};        ///< expansions with detours before the proof begins
         std::uint64_t expansionsPerColumn{10};    ///< an expansion is worth a column of cells at each end, and one
@@ -155,8 +157,8 @@ namespace parking::search
 
         /** \name Moving the poses between the pieces of a path
 
-            Chosen by hand with 0.17 s of anytime on 183 random queries of the tuning seeds that docs/planner.md names
-            and on the 62 problems, and for first paths on 537 such queries.
+            Chosen by hand with 0.17 s of anytime on 183 random queries of the tuning seeds that docs/planner-figures.md
+            names and on the 62 problems, and for first paths on 537 such queries.
             @{ */
         double dearToRelaxOnce{1.2};    ///< a first path that costs more than this times what it promised is relaxed,
         double onlyStep{0.08};          ///< once by this step and no farther than relaxReach,
@@ -192,6 +194,8 @@ namespace parking::search
         double weightDecay{0.8};                ///< factor on the weights from round to round, down to 1
         std::uint64_t shorteningsPerRound{3};   ///< passes, each with other knots
         std::uint64_t leastRounds{50};          ///< before a search that finds nothing more may end
+        double closerSamples{0.02};             ///< metres from one look at what is nearer than preferred to the next,
+                                                ///< before a path takes the place of a dearer one
         /** @} */
 
         /** \name Beginning anew meanwhile, for as many expansions in each round

@@ -1,5 +1,6 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/Knots.h"
 #include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
@@ -13,21 +14,6 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-        /** Where a path is cut to be shortened, in units of what the spacing is given in. */
-        struct Knots
-        {
-            double spacing, offset;
-        };
-
-        /** Spacings from \e least to that and \e range, and offsets, that do not repeat for long: the golden ratio's
-            multiples fill the interval. */
-        Knots otherKnots(std::uint64_t number, double least, double range)
-        {
-            const double fraction = std::fmod(0.618033988749895 * static_cast<double>(number), 1.0);
-            const double spacing = least + range * fraction;
-            return {spacing, spacing * std::fmod(7.0 * fraction, 1.0)};
-        }
     }  // namespace
 
     void PathPlanner::begin(MotionEnvironment &environment, const PathPlannerParameters &parameters)
@@ -53,7 +39,7 @@ namespace parking::search
 
     bool PathPlanner::take(const Path &path, double cost)
     {
-        if (!(cost < bestCost_ - 1e-9))
+        if (!(cost < bestCost_ - 1e-9) || (hasSolution() && !isCheaperAtACloserLook(path)))
             return false;
         bestPath_ = path;
         bestCost_ = cost;
@@ -61,6 +47,16 @@ namespace parking::search
         if (improved_ && improved_(bestPath_, bestCost_))
             goodEnough_ = true;
         return true;
+    }
+
+    bool PathPlanner::isCheaperAtACloserLook(const Path &path)
+    {
+        // What looks cheaper and cheaper may do so by being near to obstacles where nobody looks, between the samples.
+        CostModel model = search_.cost();
+        if (!model.prefersClearance())
+            return true;
+        model.samplesApart = parameters_.search.tuning.closerSamples;
+        return pathCost(model, path, *environment_) < pathCost(model, bestPath_, *environment_);
     }
 
     bool PathPlanner::shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset,
@@ -457,7 +453,9 @@ namespace parking::search
             search = approach_.get();
             if (std::exchange(hasApproach_, true))
                 approaches_ += approach_->statistics();
-            search->begin(*environment_, parameters_.search);
+            SearchParameters parameters = parameters_.search;
+            parameters.maxMemory -= std::min(parameters.maxMemory, search_.memory());
+            search->begin(*environment_, parameters);
             for (const Pose &start : starts_)
                 search->addStart(start);
         }
@@ -477,12 +475,12 @@ namespace parking::search
         return true;
     }
 
-    double PathPlanner::suboptimalityBound()
+    double PathPlanner::suboptimalityBound(double cost)
     {
         if (!hasSolution())
             return INFINITE;
         const double bound = search_.lowerBound();
-        return bound > 0.0 ? std::max(1.0, bestCost_ / bound) : INFINITE;
+        return bound > 0.0 ? std::max(1.0, cost / bound) : INFINITE;
     }
 
     SearchStatistics PathPlanner::statistics() const

@@ -66,7 +66,7 @@ namespace parking::search
 
             Spends what is left of the time on a search of its own, unless there is none left, or no memory, or
             everything has been seen from the start: then what the frontiers have seen has to do. \return false when
-           there is no start */
+            there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         /** \brief Is there a path from a start to a goal? */
@@ -91,7 +91,13 @@ namespace parking::search
         double closeness(const Path &path) const;
 
         /** \brief Best cost over Search::lowerBound(), at least 1; infinite without a solution. */
-        double suboptimalityBound();
+        double suboptimalityBound()
+        {
+            return suboptimalityBound(bestCost_);
+        }
+
+        /** \brief The same for a path that was the best once and cost that much. */
+        double suboptimalityBound(double cost);
 
         /** \brief The search, to be changed: its bounds and weights. */
         Search &search()
@@ -122,6 +128,8 @@ namespace parking::search
         }
 
         bool take(const Path &path, double cost);
+        /** Does \e path still cost less than the best one where both are looked at more closely? */
+        bool isCheaperAtACloserLook(const Path &path);
         void takeFirst();
         /** Searches on, for so many expansions, for what is cheaper than the best path. */
         void goOn(std::uint64_t expansions);
