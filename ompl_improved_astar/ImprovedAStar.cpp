@@ -30,9 +30,10 @@ namespace ompl::geometric
         // Between states asked for along a motion with a checker that knows states only, in turning radii.
         constexpr double CHECK_STEP = 0.02;
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
+        constexpr double FARTHEST_DUBINS = 1e7;   // coordinates in turning radii
 
         constexpr unsigned int MAX_GOALS = 16;        // of a region that offers ever more of them
-        constexpr unsigned int GOAL_ATTEMPTS = 1000;  // to find a first valid one
+        constexpr unsigned int GOAL_ATTEMPTS = 1000;  // to find a first valid one, or one that can be reached
 
         /** The object if it is of just this class: one that is derived from it may say something else. */
         template <class Class, class Base>
@@ -40,6 +41,12 @@ namespace ompl::geometric
         {
             const Base *known = object.get();
             return known != nullptr && typeid(*known) == typeid(Class) ? static_cast<const Class *>(known) : nullptr;
+        }
+
+        /** Are there only so many goals, now at least? */
+        bool isFinite(const ob::GoalSampleableRegion &region)
+        {
+            return region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
         }
 
         std::optional<Pose> anyGoal(const ob::Goal &goal, const ob::SpaceInformationPtr &si)
@@ -83,9 +90,17 @@ namespace ompl::geometric
     void ImprovedAStar::setup()
     {
         Planner::setup();
-        query_->space.emplace(*si_->getStateSpace());
-        requireFittingModel();
-        query_->begun = false;
+        try
+        {
+            query_->space.emplace(*si_->getStateSpace());
+            requireFittingModel();
+        }
+        catch (...)
+        {
+            setup_ = false;  // asked again, it refuses again
+            throw;
+        }
+        clearQuery();
     }
 
     void ImprovedAStar::requireFittingModel() const
@@ -150,8 +165,12 @@ namespace ompl::geometric
             car = parking::search::carInSpace(checker.vehicle(), checker.margin(), bounds);
             // The motion validator has the last word unless it asks the same questions of the same checker.
             const auto *validator = exactly<parking::SweptMotionValidator>(query_->validator);
-            const bool swept = !query_->isPlain() && parameters_.steeringAngles == 3 && validator != nullptr &&
-                               &validator->footprint() == &footprint->footprint() &&
+            // So far from the origin OMPL's Dubins curve between two states of a path may be another one.
+            const double farthest = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+            const bool mayDeviate =
+                query_->space->kind() == parking::SpaceKind::Dubins && farthest > FARTHEST_DUBINS * radius;
+            const bool swept = !query_->isPlain() && !mayDeviate && parameters_.steeringAngles == 3 &&
+                               validator != nullptr && &validator->footprint() == &footprint->footprint() &&
                                validator->tolerance() <= SWEEP_TOLERANCE;
             query_->footprintEnvironment = std::make_unique<parking::FootprintEnvironment>(
                 footprint->footprint(), bounds, SWEEP_TOLERANCE, swept ? nullptr : query_->stateEnvironment.get());
@@ -220,27 +239,48 @@ namespace ompl::geometric
         return !query_->starts.empty();
     }
 
+    bool ImprovedAStar::addGoal(const Pose &pose)
+    {
+        for (const Pose &known : query_->goals)
+            if (known.x == pose.x && known.y == pose.y && known.yaw == pose.yaw)
+                return false;
+        query_->goals.push_back(pose);
+        query_->planner.addGoal(pose);
+        return true;
+    }
+
+    bool ImprovedAStar::mayHaveOtherGoals() const
+    {
+        const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(pdef_->getGoal().get());
+        return pis_.haveMoreGoalStates() || (lazy != nullptr && lazy->isSampling());
+    }
+
+    bool ImprovedAStar::readAnotherGoal(const ob::PlannerTerminationCondition &ptc)
+    {
+        // Those that are on their way are worth waiting for. A region always has others: so many must do.
+        const bool isLazy = dynamic_cast<const ob::GoalLazySamples *>(pdef_->getGoal().get()) != nullptr;
+        const bool finite = isFinite(*pdef_->getGoal()->as<ob::GoalSampleableRegion>());
+        while (!ptc && mayHaveOtherGoals() && (finite || isLazy || query_->otherGoals++ < GOAL_ATTEMPTS))
+        {
+            const ob::State *state = isLazy ? pis_.nextGoal(ptc) : pis_.nextGoal();
+            if (state != nullptr && addGoal(parking::poseOf(state)))
+                return true;
+        }
+        return false;
+    }
+
     ImprovedAStar::GoalReading ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region,
                                                         const ob::PlannerTerminationCondition &ptc)
     {
-        const auto add = [&](const ob::State *state)
-        {
-            const Pose pose = parking::poseOf(state);
-            for (const Pose &known : query_->goals)
-                if (known.x == pose.x && known.y == pose.y && known.yaw == pose.yaw)
-                    return;
-            query_->goals.push_back(pose);
-            query_->planner.addGoal(pose);
-        };
-        const bool finite = region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
+        const bool finite = isFinite(region);
         unsigned int attempt = 0;
         // The first is looked at in any case.
-        for (; attempt < GOAL_ATTEMPTS && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
+        for (; (finite || attempt < GOAL_ATTEMPTS) && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
         {
             if (!finite && query_->goals.size() >= MAX_GOALS)
                 break;
             if (const ob::State *state = pis_.nextGoal())
-                add(state);
+                addGoal(parking::poseOf(state));
             else if (!finite && !query_->goals.empty())
                 break;
         }
@@ -251,11 +291,11 @@ namespace ompl::geometric
         const bool mayHaveMore = lazy != nullptr ? lazy->isSampling() : !finite && !region.canSample();
         if (query_->goals.empty() && region.couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
-                add(state);
+                addGoal(parking::poseOf(state));
         if (!query_->goals.empty())
             return GoalReading::Some;
         // That the time is up does not make those invalid that nobody has looked at.
-        const bool hasSeenAll = attempt == GOAL_ATTEMPTS || !(pis_.haveMoreGoalStates() || mayHaveMore);
+        const bool hasSeenAll = (!finite && attempt == GOAL_ATTEMPTS) || !(pis_.haveMoreGoalStates() || mayHaveMore);
         return hasSeenAll || !ptc ? GoalReading::NoneValid : GoalReading::TimeUp;
     }
 
@@ -325,6 +365,7 @@ namespace ompl::geometric
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return query_->hasSolution ? query_->planner.suboptimalityBound() : std::numeric_limits<double>::infinity();
+        return query_->hasSolution ? query_->planner.suboptimalityBound(query_->plannedCost)
+                                   : std::numeric_limits<double>::infinity();
     }
 }  // namespace ompl::geometric

@@ -154,6 +154,9 @@ namespace ompl::geometric
             TimeUp  // before all, or any, had been looked at
         };
         GoalReading readGoals(const base::GoalSampleableRegion &region, const base::PlannerTerminationCondition &ptc);
+        bool addGoal(const parking::Pose &pose);
+        bool mayHaveOtherGoals() const;
+        bool readAnotherGoal(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus search(const base::PlannerTerminationCondition &ptc);
         base::PlannerStatus approach(const base::PlannerTerminationCondition &ptc,
                                      const parking::search::StopFunction &stop);
@@ -162,7 +165,8 @@ namespace ompl::geometric
         base::Cost costOf(const parking::Path &path, const PathGeometric &geometric, const parking::Path &found) const;
         void priceAnew();
         double differenceFromGoal(const base::State *state) const;
-        bool takeImprovement(const parking::Path &path, const base::PlannerTerminationCondition &ptc);
+        bool takeImprovement(const parking::Path &path, double plannedCost,
+                             const base::PlannerTerminationCondition &ptc);
         void endAtGoal(std::vector<parking::Pose> &poses) const;
         base::PlannerStatus report(std::vector<parking::Pose> poses, bool approximate);
 

@@ -49,11 +49,13 @@ namespace ompl::geometric
         base::MotionValidatorPtr validator;           ///< likewise
         std::vector<parking::Pose> starts,            ///< valid ones, as far as they were read
             goals;                                    ///< likewise
+        unsigned int otherGoals{0};                   ///< asked of a region since none of the first can be reached
         std::optional<parking::Pose> fallbackTarget;  ///< a goal to come near to when none is valid
         parking::search::PlanOutcome outcome{parking::search::PlanOutcome::Timeout};  ///< of the last solve()
         std::string reason;                                            ///< why there is no solution, where known
         bool hasSolution{false};                                       ///< there is an exact one: path
         parking::Path path;                                            ///< the best one by the problem's objective
+        double plannedCost{std::numeric_limits<double>::infinity()};   ///< of path, by the planner's own model
         std::vector<parking::Pose> states;                             ///< of it, for OMPL
         base::Cost bestCost{std::numeric_limits<double>::infinity()};  ///< of path
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: length and closeness, in metres
@@ -104,6 +106,7 @@ namespace ompl::geometric
             goal.reset();
             starts.clear();
             goals.clear();
+            otherGoals = 0;
             fallbackTarget.reset();
             hasSolution = false;
             outcome = parking::search::PlanOutcome::Timeout;

@@ -71,7 +71,8 @@ namespace ompl::geometric
         bestCost_.store(query_->bestCost.value(), std::memory_order_relaxed);
     }
 
-    bool ImprovedAStar::takeImprovement(const Path &found, const ob::PlannerTerminationCondition &ptc)
+    bool ImprovedAStar::takeImprovement(const Path &found, double plannedCost,
+                                        const ob::PlannerTerminationCondition &ptc)
     {
         const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
         const Path path = smoothed(found, ptc);
@@ -83,6 +84,7 @@ namespace ompl::geometric
             return false;
         query_->hasSolution = true;
         query_->path = path;
+        query_->plannedCost = plannedCost;
         query_->states = states;
         query_->bestCost = cost;
         query_->objective = objective;
@@ -105,12 +107,19 @@ namespace ompl::geometric
             expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
             return ptc();
         };
-        const auto improved = [this, &ptc](const Path &path, double)
+        const auto improved = [this, &ptc](const Path &path, double cost)
         {
-            return takeImprovement(path, ptc);
+            return takeImprovement(path, cost, ptc);
         };
         using Outcome = parking::search::PathPlanner::Outcome;
-        if (!query_->goals.empty() && query_->planner.solve(stop, improved) == Outcome::Exhausted)
+        Outcome outcome = query_->goals.empty() ? Outcome::Stopped : query_->planner.solve(stop, improved);
+        // That one goal cannot be reached says nothing of those that nobody has asked for yet.
+        while (outcome == Outcome::Exhausted && readAnotherGoal(ptc))
+            outcome = query_->planner.solve(stop, improved);
+        if (outcome == Outcome::Exhausted && mayHaveOtherGoals())
+            query_->reason = "none of the " + std::to_string(query_->goals.size()) +
+                             " goals that were sampled can be reached; others may be";
+        else if (outcome == Outcome::Exhausted)
         {
             query_->outcome = PlanOutcome::Infeasible;
             query_->reason = parking::search::reasonOf(query_->planner.search().exhaustion(), query_->car);

@@ -162,6 +162,17 @@ namespace parking::search
         {
             return outgrowsMemory() || (stop && stop());
         };
+        const SearchOutcome outcome = goOn(mostExpansions);
+        // What is asked between two calls is answered from what is known: whom stop asks may be gone by then.
+        stop_ = []
+        {
+            return true;
+        };
+        return outcome;
+    }
+
+    SearchOutcome Search::goOn(std::uint64_t mostExpansions)
+    {
         exhaustion_ = Exhaustion::None;
         for (;;)
         {

@@ -91,7 +91,7 @@ namespace parking::search
                           std::uint64_t mostExpansions = std::numeric_limits<std::uint64_t>::max());
 
         /** \brief Bytes that nodes, cells, open lists, the ways round obstacles, proofs and the tables of the model
-           take at most, growing included. */
+            take at most, growing included. */
         std::size_t memory() const;
 
         /** \brief Changes SearchParameters::maxMemory. */
@@ -260,6 +260,8 @@ namespace parking::search
         void forgetNearest();
         bool load();
         bool isHopeless() const;
+        /** The search itself, until it is stopped, has found something or has nothing left. */
+        SearchOutcome goOn(std::uint64_t mostExpansions);
         bool chooseSide(Side &side);
         void step(Frontier &own);
         void expand(Frontier &own, std::size_t level, NodeIndex index);

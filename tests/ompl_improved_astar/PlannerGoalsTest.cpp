@@ -7,6 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -235,6 +237,96 @@ namespace
             EXPECT_DOUBLE_EQ(problem.poses().back().x, 4.0);
             EXPECT_TRUE(problem.path().check());
         }
+    }
+
+    TEST_F(PlannerGoals, LazySamplesThatCannotBeReachedAreNotTheLast)
+    {
+        PlanningProblem problem(Space::ReedsShepp, closedSite());
+        problem.set("approximate", false);
+        problem.from({-8.0, 0.0, 0.0});
+        std::atomic<int> made{0};
+        const auto sample = [&](const ob::GoalLazySamples * /*goal*/, ob::State *state)
+        {
+            const int number = made++;
+            if (number > 0)
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            parking::setPose(state, number == 0 ? Pose{8.0, 0.0, 0.0} : Pose{-8.0, 8.0, 1.0});
+            return number < 2;
+        };
+        const auto goal = std::make_shared<ob::GoalLazySamples>(problem.si, sample);
+        problem.pdef->setGoal(goal);
+        EXPECT_EQ(problem.solve(60.0), Status::EXACT_SOLUTION);
+        goal->stopSampling();
+    }
+
+    /** Goals on both sides of a wall without a door. */
+    class Rooms : public ob::GoalSampleableRegion
+    {
+    public:
+        Rooms(const ob::SpaceInformationPtr &si, unsigned int period) : GoalSampleableRegion(si), period_(period)
+        {
+            setThreshold(1.0);
+        }
+
+        void sampleGoal(ob::State *state) const override
+        {
+            // One in so many is in the start's room.
+            const bool isHere = ++samples % period_ == 0;
+            parking::setPose(state, {isHere ? random_.uniformReal(-13.0, -4.0) : random_.uniformReal(4.0, 9.0),
+                                     random_.uniformReal(-10.0, 10.0), random_.uniformReal(-3.0, 3.0)});
+        }
+
+        unsigned int maxSampleCount() const override
+        {
+            return std::numeric_limits<unsigned int>::max();
+        }
+
+        double distanceGoal(const ob::State * /*state*/) const override
+        {
+            return 0.0;
+        }
+
+        mutable unsigned int samples{0};
+
+    private:
+        unsigned int period_;
+        mutable ompl::RNG random_{3};
+    };
+
+    TEST_F(PlannerGoals, RegionsOfWhichLittleCanBeReached)
+    {
+        for (const unsigned int period : {1u, 20u, 50u})
+        {
+            PlanningProblem problem(Space::ReedsShepp, closedSite());
+            problem.set("approximate", false);
+            problem.from({-8.0, 0.0, 0.0});
+            problem.pdef->setGoal(std::make_shared<Rooms>(problem.si, period));
+            EXPECT_EQ(problem.solve(60.0), Status::EXACT_SOLUTION) << period;
+        }
+    }
+
+    TEST_F(PlannerGoals, NoneOfARegionThatCanBeReachedIsNoProof)
+    {
+        PlanningProblem problem(Space::ReedsShepp, closedSite());
+        problem.set("approximate", false);
+        problem.from({-8.0, 0.0, 0.0});
+        const auto rooms = std::make_shared<Rooms>(problem.si, std::numeric_limits<unsigned int>::max());
+        problem.pdef->setGoal(rooms);
+        EXPECT_EQ(problem.solve(60.0), Status::TIMEOUT);
+        EXPECT_EQ(problem.planner->outcome(), parking::search::PlanOutcome::Timeout);
+        EXPECT_NE(problem.planner->reason().find("goals that were sampled can be reached"), std::string::npos);
+        EXPECT_GT(rooms->samples, 500u);
+        EXPECT_LT(rooms->samples, 5000u);
+    }
+
+    TEST_F(PlannerGoals, AllOfAListAreLookedAt)
+    {
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.set("approximate", false);
+        std::vector<Pose> goals(1000, Pose{-2.5, 2.0, 0.0});  // in an obstacle
+        goals.push_back({8.0, -6.0, 1.0});
+        problem.from(AISLE).to(goals);
+        EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
     }
 
     TEST_F(PlannerGoals, LazySamplesThatNeverComeEndWithTheTime)

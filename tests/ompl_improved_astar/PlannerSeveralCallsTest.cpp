@@ -43,6 +43,43 @@ namespace
         }
     }
 
+    TEST_F(PlannerSeveralCalls, SetUpAgainBeginsAnew)
+    {
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from(AISLE).to({SLOT});
+        ASSERT_NE(problem.solveForQuestions(3), Status::EXACT_SOLUTION);
+        problem.planner->setup();
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        problem.planner->setup();
+        problem.pdef->clearSolutionPaths();
+        ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_GT(problem.planner->statistics().expanded, 0u);
+    }
+
+    TEST_F(PlannerSeveralCalls, NobodyAsksATerminationConditionThatIsGone)
+    {
+        // The goal that is farther is behind a long wall: the way round it is asked for again by the bound.
+        Site site = openSite(400.0);
+        site.obstacles.push_back(box(-1.0, -400.0, 1.0, 390.0));
+        for (unsigned int questions = 1; questions < 400; questions += 9)
+        {
+            PlanningProblem problem(Space::ReedsShepp, site);
+            problem.set("anytime", true);
+            problem.from({-30.0, -300.0, 0.0}).to({{-10.0, -300.0, 0.0}, {30.0, -300.0, 1.0}});
+            unsigned int asked = 0;
+            bool isOver = false;
+            const ob::PlannerTerminationCondition condition(
+                [&]
+                {
+                    EXPECT_FALSE(isOver);
+                    return ++asked > questions;
+                });
+            problem.planner->solve(condition);
+            isOver = true;
+            EXPECT_GE(problem.planner->suboptimalityBound(), 1.0);
+        }
+    }
+
     TEST_F(PlannerSeveralCalls, SolvesAgainOnGrids)
     {
         PlanningProblem problem(Space::SE2, openSite(15.0));

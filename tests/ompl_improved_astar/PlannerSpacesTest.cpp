@@ -203,6 +203,78 @@ namespace
         }
     }
 
+    TEST_F(PlannerSpaces, WhatIsRefusedIsRefusedAgain)
+    {
+        const auto space = std::make_shared<ob::RealVectorStateSpace>(3);
+        space->setBounds(-10.0, 10.0);
+        const auto si = std::make_shared<ob::SpaceInformation>(space);
+        si->setStateValidityChecker([](const ob::State * /*state*/) { return true; });
+        si->setup();
+        const auto pdef = std::make_shared<ob::ProblemDefinition>(si);
+        ob::ScopedState<> start(space), goal(space);
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+            start[i] = 0.0;
+            goal[i] = 1.0;
+        }
+        pdef->setStartAndGoalStates(start, goal);
+        og::ImprovedAStar planner(si);
+        planner.setProblemDefinition(pdef);
+        for (int call = 0; call < 2; ++call)
+            EXPECT_THROW(planner.solve(ob::timedPlannerTerminationCondition(0.5)), ompl::Exception);
+    }
+
+    TEST_F(PlannerSpaces, FarFromTheOriginWhatIsCalledExactIsFree)
+    {
+        // At four million kilometres OMPL rounds a Dubins curve to one with a whole circle more.
+        constexpr double FAR = 4e9;
+        for (const Space kind : {Space::Dubins, Space::ReedsShepp})
+            for (std::uint64_t seed = 1; seed <= 10; ++seed)
+            {
+                Random random(seed);
+                Site site{{}, {{FAR - 15.0, FAR - 15.0}, {FAR + 15.0, FAR + 15.0}}};
+                const auto somewhere = [&]
+                {
+                    return FAR + random.between(-13.0, 13.0);
+                };
+                for (int k = 0; k < 8; ++k)
+                {
+                    const double x = somewhere(), y = somewhere();
+                    site.obstacles.push_back(box(x, y, x + random.between(0.3, 3.3), y + random.between(0.3, 3.3)));
+                }
+                PlanningProblem problem(kind, site);
+                problem.set("approximate", false);
+                const auto freePose = [&]
+                {
+                    for (;;)
+                        if (const Pose pose{somewhere(), somewhere(), random.between(-3.1, 3.1)};
+                            problem.si->isValid(problem.state(pose).get()))
+                            return pose;
+                };
+                problem.from(freePose());
+                problem.to({freePose()});
+                if (problem.solve(0.5) == Status::EXACT_SOLUTION)
+                {
+                    EXPECT_TRUE(problem.path().check()) << seed;
+                }
+            }
+    }
+
+    TEST_F(PlannerSpaces, AlmostAtTheGoalAlready)
+    {
+        // A heading written with ten digits.
+        PlanningProblem problem(Space::ReedsShepp, slotSite());
+        problem.from({0.0, 4.0, -0.5 * parking::PI}).to({{0.0, 4.0, -1.5707963268}});
+        EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        for (const double off : {1e-12, 2e-12, 4e-12, 1e-11, 1e-10, 1e-9})
+            for (const double yaw : {0.0, 0.7, -2.0})
+            {
+                PlanningProblem open(Space::ReedsShepp, openSite(15.0));
+                open.from({1.0, 2.0, yaw}).to({{1.0, 2.0, yaw + off}});
+                EXPECT_EQ(open.solve(), Status::EXACT_SOLUTION) << off << ", " << yaw;
+            }
+    }
+
     TEST_F(PlannerSpaces, GridsBelongOnAPlainSpace)
     {
         for (const Space kind : {Space::ReedsShepp, Space::Dubins})

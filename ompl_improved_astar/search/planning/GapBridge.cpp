@@ -19,6 +19,9 @@ namespace parking::search
             gap.cost += isWhole ? priced.closeness[first + i] : cost_.closeness(pose, piece, environment_);
             pose = advance(pose, piece.curvature, piece.length);
         }
+        // Nothing is left of what is shorter than what a path is cut at.
+        if (part.pieces.empty())
+            return gap;
         if (!gap.before.pieces.empty())
             gap.cost += cost_.join(gap.before.pieces.back(), part.pieces.front());
         if (!gap.after.pieces.empty())
