@@ -13,6 +13,10 @@ namespace parking
     {
         constexpr double CLEARANCE_REACH = 1.0;  // metres beyond the circle within which distances are exact
         constexpr double TOLERANCE = 1e-3;       // metres kept along motions
+        constexpr double TOUCHING = 1e-9;        // metres from an obstacle that no motion begins at
+        /** Steps nearer to an obstacle than is kept otherwise. Straight away from it each is twice as long as the one
+            before; along it they would be short for ever. */
+        constexpr int MOST_NEAR_STEPS = 200;
 
         double checked(double radius)
         {
@@ -65,14 +69,17 @@ namespace parking
         const double length = positionDistance(to, from);
         if (!std::isfinite(length))
             return 0.0;
-        double driven = 0.0;
+        double driven = 0.0, least = TOUCHING;
+        int nearSteps = 0;
         while (driven < length)
         {
             const double share = driven / length;
             const double kept = clearance(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-            // From the start the circle may move away from an obstacle that it all but touches.
-            if (kept < (driven == 0.0 ? 1e-9 : TOLERANCE))
+            if (kept < least || (kept < TOLERANCE && ++nearSteps > MOST_NEAR_STEPS))
                 return share;
+            // From the start the circle may move away from an obstacle that it all but touches.
+            if (driven == 0.0)
+                least = std::min(TOLERANCE, kept);
             driven += kept;
         }
         return 1.0;

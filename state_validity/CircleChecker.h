@@ -41,7 +41,8 @@ namespace parking
         double roomAt(double x, double y) const;
 
         /** \brief How much of the straight line between two points the circle can go along: 1 when all of it, otherwise
-            the share up to where it comes nearer than a millimetre. The first point is taken to be free. */
+            the share up to where it comes nearer than a millimetre, or than it is at the start if that is less. The
+            first point is taken to be free. */
         double freeShare(const Pose &from, const Pose &to) const;
 
     private:

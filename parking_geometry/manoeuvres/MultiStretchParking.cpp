@@ -113,6 +113,9 @@ namespace parking
         while (high - low > precision)
         {
             tried.*dimension = 0.5 * (low + high);
+            // A precision may be finer than the numbers are.
+            if (!(tried.*dimension > low && tried.*dimension < high))
+                break;
             (fits(tried) ? high : low) = tried.*dimension;
         }
         return high;

@@ -204,6 +204,16 @@ namespace parking
             const LaneExit tight = narrowestLaneExit(kerb, body, smallest, exit.minRadius);
             result.neededAisleWidth = laneNeeded(kerb, body, tight);
             const double aisle = exit.options.aisleWidth;
+            if (result.status == ReverseParkingStatus::Fits && !passes(kerb, body, tight))
+            {
+                // At a right angle it passes a neighbour that far away.
+                const double far = std::max(kerb.aisleSide + body.halfWidth, smallest + exit.minRadius);
+                const double missing = (slot.depth ? 1.0 : 2.0) * std::max(1e-3, far - kerb.front);
+                result.neededSlotLength = std::max(result.neededSlotLength, slot.length + missing);
+                exit.refuse(ReverseParkingStatus::SlotTooShort, missing,
+                            "the slot, " + inMetres(slot.length) + " long, is up to " + inCentimetres(missing) +
+                                " too short for one sweep: the car would have to turn by more than a right angle");
+            }
             if (result.status == ReverseParkingStatus::Fits)
                 if (const double missing = result.neededAisleWidth - aisle; missing > TOLERANCE)
                     exit.refuse(ReverseParkingStatus::AisleTooNarrow, missing,
@@ -216,12 +226,14 @@ namespace parking
             {
                 const double spare = aisle - laneNeeded(kerb, body, lane);
                 const LaneExit wider = widened(lane, std::min(EXTRA_ROOM, 0.5 * std::max(0.0, spare)));
-                variants.push_back(laneVariant(exit, laneNeeded(kerb, body, wider) <= aisle ? wider : lane));
+                const bool isBetter = laneNeeded(kerb, body, wider) <= aisle && passes(kerb, body, wider);
+                variants.push_back(laneVariant(exit, isBetter ? wider : lane));
             };
             const double wanted =
                 std::max(smallest, std::min(exit.preferredRadius, std::max(result.maxRadius, smallest)));
             const LaneExit comfortable = shallowestExit(kerb, body, wanted, std::max(wanted, exit.preferredRadius));
-            add(laneNeeded(kerb, body, comfortable) <= aisle ? comfortable : tight);
+            const bool isComfortable = laneNeeded(kerb, body, comfortable) <= aisle && passes(kerb, body, comfortable);
+            add(isComfortable ? comfortable : tight);
             if (allVariants)
                 for (const double first : {smallest, wanted})
                     for (const double second : {exit.minRadius, exit.preferredRadius, 2.0 * exit.minRadius})

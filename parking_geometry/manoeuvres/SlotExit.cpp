@@ -11,6 +11,14 @@ namespace parking
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
+        /** Of both arcs out of a parallel slot: a right angle, but for rounding. */
+        constexpr double LARGEST_TURN = 0.5 * PI + 1e-9;
+
+        /** Second radii that are tried where the one that is wanted needs more of a turn, and by how much each is
+            larger than the one before. */
+        constexpr int MOST_RADII = 64;
+        constexpr double LARGER = 1.06;
+
         /** Radii beyond this many times the smallest one are as good as a straight line for a car park. */
         constexpr double LARGEST_RADIUS_FACTOR = 40.0;
 
@@ -82,16 +90,6 @@ namespace parking
         {
             return std::acos(unitClamp(1.0 - offset / radii));
         }
-
-        /** Does an exit that leaves at least along the slot's edge pass P? Either P is still ahead of the rear axle
-            when the second arc ends, and the straight line goes past it, or the second arc turns round it. */
-        bool passes(const KerbSlot &slot, const ExitBody &body, const LaneExit &exit)
-        {
-            if ((exit.first + exit.second) * std::sin(exit.turn) <= slot.front)
-                return true;
-            const PassingTurns turns = passingTurns(slot, body, exit.first, exit.second);
-            return exit.turn >= turns.smallest && exit.turn <= turns.largest;
-        }
     }  // namespace
 
     double straightBeforeTurn(const Bay &bay, const ExitBody &body, double radius)
@@ -162,12 +160,29 @@ namespace parking
         return (first + second) * (1.0 - std::cos(turn));
     }
 
+    bool passes(const KerbSlot &slot, const ExitBody &body, const LaneExit &exit)
+    {
+        // Farther round the car drives back into the neighbour.
+        if (exit.turn > LARGEST_TURN)
+            return false;
+        if ((exit.first + exit.second) * std::sin(exit.turn) <= slot.front)
+            return true;
+        const PassingTurns turns = passingTurns(slot, body, exit.first, exit.second);
+        return exit.turn >= turns.smallest && exit.turn <= turns.largest;
+    }
+
     LaneExit shallowestExit(const KerbSlot &slot, const ExitBody &body, double first, double second)
     {
-        LaneExit exit{first, second, turnForOffset(slot.aisleSide + body.halfWidth, first + second)};
-        if (!passes(slot, body, exit))
-            exit.turn = std::max(exit.turn, passingTurns(slot, body, first, second).smallest);
-        return exit;
+        const double offset = slot.aisleSide + body.halfWidth;
+        LaneExit exit{first, std::max(second, offset - first), 0.0};
+        for (int tried = 1;; ++tried, exit.second *= LARGER)
+        {
+            exit.turn = turnForOffset(offset, first + exit.second);
+            if (!passes(slot, body, exit))
+                exit.turn = std::max(exit.turn, passingTurns(slot, body, first, exit.second).smallest);
+            if (exit.turn <= LARGEST_TURN || tried == MOST_RADII)
+                return exit;
+        }
     }
 
     LaneExit widened(const LaneExit &exit, double extra)

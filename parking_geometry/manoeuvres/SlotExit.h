@@ -75,12 +75,18 @@ namespace parking
         double offset() const;
     };
 
+    /** \brief Does an exit that leaves at least along the slot's edge pass P? Either P is still ahead of the rear axle
+        when the second arc ends, and the straight line goes past it, or the second arc turns round it. None that turns
+        by more than a right angle does. */
+    bool passes(const KerbSlot &slot, const ExitBody &body, const LaneExit &exit);
+
     /** \brief The exit with these radii that moves the least to the side: out of the slot, and with P passed by the
-        second arc. Needs first <= cornerRadius(). */
+        second arc. Where the arcs would have to turn by more than a right angle to get out, the second is made larger.
+        Needs first <= cornerRadius(). */
     LaneExit shallowestExit(const KerbSlot &slot, const ExitBody &body, double first, double second);
 
-    /** \brief \e exit with \e extra metres (small against the radii) more of lateral displacement. It passes P as \e
-        exit does: the second arc ends that much farther from P, which weighs more than that it ends farther on. */
+    /** \brief \e exit with \e extra metres (small against the radii) more of lateral displacement. Mostly it passes P
+        as \e exit does: the second arc ends that much farther from P, but farther on, too. */
     LaneExit widened(const LaneExit &exit, double extra);
 
     /** \brief Width of the lane that the exit needs, from the slot's edge. */

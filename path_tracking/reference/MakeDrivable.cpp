@@ -56,7 +56,9 @@ namespace parking
                         fail("curvature " + formatNumber(curvature) + " 1/m is beyond the car's " +
                              formatNumber(1.0 / vehicle.minTurningRadius()) + " 1/m");
             }
-            if (!(path.length() >= SHORTEST_PIECE))
+            // Shorter pieces are dropped, however many there are.
+            if (std::none_of(path.pieces.begin(), path.pieces.end(),
+                             [](const PathPiece &piece) { return piece.driven() >= SHORTEST_PIECE; }))
                 throw Error("path: it must have a length");
         }
 

@@ -104,6 +104,15 @@ namespace parking
                 return knots_.back().steering;
             }
 
+            /** The highest speed on it. */
+            double top() const
+            {
+                double most = 0.0;
+                for (const MotionKnot &knot : knots_)
+                    most = std::max(most, knot.v);
+                return most;
+            }
+
             /** The ways to the knots. */
             const std::vector<double> &knots() const
             {
@@ -242,8 +251,9 @@ namespace parking
             double acceleration_, jerk_, step_, look_;
         };
 
-        /** Appends the drive along a way, with \e direction for the sign of its speeds; slower where it would turn the
-            wheels faster than \e steeringRate by a rounding error. */
+        /** Appends the drive along a way, with \e direction for the sign of its speeds; slower where it would be faster
+            than before, or turn the wheels faster than \e steeringRate, by what straight lines between its knots leave
+            or add. */
         void appendDrive(const DrivenWay &way, const std::vector<Phase> &phases, double direction, double steeringRate,
                          TimedMotion &motion)
         {
@@ -252,7 +262,7 @@ namespace parking
             const auto add = [&knots](double t, double v)
             {
                 if (t - knots.back().t >= LEAST_STEP)
-                    knots.push_back({t, v, 0.0});
+                    knots.push_back({t, std::max(0.0, v), 0.0});  // never the other way by rounding
             };
             Progress now;
             double begin = 0.0;
@@ -283,11 +293,12 @@ namespace parking
             for (std::size_t k = 1; k < knots.size(); ++k)
                 ways.push_back(ways.back() + 0.5 * (knots[k].t - knots[k - 1].t) * (knots[k].v + knots[k - 1].v));
             const double scale = way.length() / ways.back();
-            double slower = 1.0;
+            double slower = std::max(1.0, scale);
             for (std::size_t k = 0; k < knots.size(); ++k)
             {
                 knots[k].v *= scale;
                 knots[k].steering = k + 1 < knots.size() ? way.at(scale * ways[k]).steering : way.lastAngle();
+                slower = std::max(slower, knots[k].v / way.top());
                 if (k > 0)
                     slower = std::max(slower, std::abs(knots[k].steering - knots[k - 1].steering) /
                                                   ((knots[k].t - knots[k - 1].t) * steeringRate));

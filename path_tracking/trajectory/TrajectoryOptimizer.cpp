@@ -344,10 +344,12 @@ namespace parking
             throw Error("trajectory: there is no path");
         OptimizedTrajectory result;
         result.fallback = true;
+        // Within the limits that are asked for, but along the paths, which may need all of the steering angle.
+        Vehicle used = body_;
+        used.maxSteeringAngle = checker_.vehicle().maxSteeringAngle;
         for (std::size_t i = 0; i < paths.size(); ++i)
         {
-            TimedMotion motion =
-                stopAndSteer(paths[i], checker_.vehicle(), options_.initialSteering, options_.finalSteering);
+            TimedMotion motion = stopAndSteer(paths[i], used, options_.initialSteering, options_.finalSteering);
             if (!touchesNothing(checker_, paths[i]))
                 throw Error("trajectory: the path collides");
             if (i > 0 && costOf(motion) >= costOf(result.motion))
@@ -370,10 +372,12 @@ namespace parking
         auto found = search.run(paths, costOf(result.motion));
         result.rounds = search.solver().rounds();
         result.iterations = search.solver().iterations();
-        if (!found)
-            result.reason = search.solver().reason();
-        else if (costOf(found->motion) >= costOf(result.motion))
+        // Where even turning the wheels in no time would cost as much nothing was solved, and the solver has no reason.
+        const bool isPointless = !found && search.solver().reason().empty();
+        if (isPointless || (found && costOf(found->motion) >= costOf(result.motion)))
             result.reason = "stopping to steer is as quick";
+        else if (!found)
+            result.reason = search.solver().reason();
         else
         {
             result.motion = std::move(found->motion);

@@ -2,6 +2,7 @@
 import glob
 import json
 import os
+import pathlib
 import re
 import sqlite3
 
@@ -48,7 +49,7 @@ def _runs_of_file(file):
 
 def _runs_of_database(file):
     try:
-        connection = sqlite3.connect(f'file:{os.path.abspath(file)}?mode=ro', uri=True)
+        connection = sqlite3.connect(pathlib.Path(file).absolute().as_uri() + '?mode=ro', uri=True)
         try:
             connection.row_factory = sqlite3.Row
             experiments = {row['id']: str(row['name']) for row in connection.execute('SELECT * FROM experiments')}

@@ -60,7 +60,7 @@ namespace parking::python
                    R"(The referee's word on a path, by code that shares nothing with the planner: does it lead from the
 start to a goal, can the car steer like that, and does its body stay clear, looked at every 5 mm?
 
-path : a Result, a ParkingPlan, or an array of n rows (x, y, yaw, ...) with an arc between each two
+path : a Result, a ParkingPlan, or an array of n rows (x, y, yaw, ...), joined by arcs
 exact : False for a path that only comes near to a goal
 
 Returns a Verdict.)");

@@ -133,16 +133,24 @@ namespace parking::python
                 "One line: what was planned, or why nothing was.")
             .def_property_readonly(
                 "goal",
-                [](const ParkingHandle &self)
-                { return toPython(self.scenario().scenario().toWorld(self.plan().goal)); },
-                "The one that was chosen.")
+                [](const ParkingHandle &self) -> py::object
+                {
+                    if (!self.hasPath())
+                        return py::none();
+                    return toPython(self.scenario().scenario().toWorld(self.plan().goal));
+                },
+                "The one that was chosen; None without a path.")
             .def_property_readonly(
                 "gap", [](const ParkingHandle &self) { return self.plan().gap; },
                 "Metres kept all round the car while planning.")
             .def_property_readonly(
                 "turning_radius", [](const ParkingHandle &self) { return self.plan().turningRadius; },
                 "Metres, planned with.")
-            .def_property_readonly("cost", [](const ParkingHandle &self) { return self.plan().cost; })
+            .def_property_readonly(
+                "cost",
+                [](const ParkingHandle &self)
+                { return self.hasPath() ? self.plan().cost : std::numeric_limits<double>::infinity(); },
+                "Metres and penalties; infinite without a path.")
             .def_property_readonly(
                 "is_smooth", [](const ParkingHandle &self) { return !self.plan().smooth.path.pieces.empty(); },
                 "Is the curvature of the path continuous between its cusps?")

@@ -85,11 +85,30 @@ namespace parking::python
             /** Without the interpreter's lock. */
             void run(std::size_t threads, Signals &signals)
             {
-                working_ = std::max<std::size_t>(1, std::min(threads, scenarios_.size()));
+                const std::size_t count = std::max<std::size_t>(1, std::min(threads, scenarios_.size()));
                 std::vector<std::thread> workers;
-                const std::size_t count = working_;
-                for (std::size_t i = 0; i < count; ++i)
-                    workers.emplace_back([this] { work(); });
+                workers.reserve(count);
+                working_ = count;
+                try
+                {
+                    while (workers.size() < count)
+                        workers.emplace_back([this] { work(); });
+                }
+                catch (const std::exception &)
+                {
+                    // The system gives no more of them: those that run do all of the work, or this one does.
+                    const std::lock_guard<std::mutex> lock(mutex_);
+                    working_ -= count - workers.size();
+                }
+                if (workers.empty())
+                {
+                    question_.limits.interrupted = [this, &signals]
+                    {
+                        return stop_ = signals.arrived();
+                    };
+                    working_ = 1;
+                    work();
+                }
                 {
                     std::unique_lock<std::mutex> lock(mutex_);
                     while (!done_.wait_for(lock, std::chrono::milliseconds(3), [this] { return working_ == 0; }))

@@ -1,6 +1,7 @@
 #include "python/src/Values.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/curves/Biarc.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -39,6 +40,12 @@ namespace parking::python
             failFor(value, field, right);
         }
 
+        bool isFlag(const py::handle &value)
+        {
+            return py::isinstance<py::bool_>(value) ||
+                   py::isinstance(value, py::module_::import("numpy").attr("bool_"));
+        }
+
         bool isNumber(const py::handle &value)
         {
             return !py::isinstance<py::bool_>(value) && !py::isinstance<py::str>(value) &&
@@ -60,6 +67,64 @@ namespace parking::python
                     return std::nullopt;
             }
         }
+        /** A drive from row to row of a path. */
+        class RowsDriver
+        {
+        public:
+            RowsDriver(const Pose &start, double maxCurvature)
+              : path_{start, {}},
+                reached_(start),
+                maxCurvature_(maxCurvature)
+            {
+            }
+
+            void turn(double angle)
+            {
+                append({{}, {PathPiece::turnOnTheSpot(angle)}});
+            }
+
+            /** Drives to \e to, by two arcs in general. One is for what two would have to bend too much for: rows that
+                are rounded. What it misses the row by is made good by those that come after it, so that it does not
+                add up.
+
+                \param arc from the row before to this one, if it were not for what it misses it by
+                \return whether there is such a way */
+            bool drive(const PathPiece &arc, const Pose &to)
+            {
+                const std::optional<Path> exact = biarc(reached_, to, arc.direction());
+                const bool bends = !exact || std::any_of(exact->pieces.begin(), exact->pieces.end(),
+                                                         [this](const PathPiece &piece)
+                                                         { return std::abs(piece.curvature) > maxCurvature_; });
+                if (bends && positionDistance(advance(reached_, arc), to) <= ROUNDED)
+                    append({{}, {arc}});
+                else if (exact)
+                    append(*exact);
+                else
+                    return false;
+                return true;
+            }
+
+            Path finish()
+            {
+                return std::move(path_);
+            }
+
+        private:
+            static constexpr double ROUNDED = 2e-5;  // metres
+
+            void append(const Path &pieces)
+            {
+                for (const PathPiece &piece : pieces.pieces)
+                {
+                    path_.pieces.push_back(piece);
+                    reached_ = advance(reached_, piece);
+                }
+            }
+
+            Path path_;
+            Pose reached_;
+            double maxCurvature_;
+        };
     }  // namespace
 
     void failFor(const py::handle &value, const std::string &field, const std::string &right)
@@ -70,16 +135,19 @@ namespace parking::python
 
     bool flagFrom(const py::handle &value, const std::string &field)
     {
-        if (!py::isinstance<py::bool_>(value) && !py::isinstance(value, py::module_::import("numpy").attr("bool_")))
+        if (!isFlag(value))
             failFor(value, field, "True or False");
         return value.cast<bool>();
     }
 
     std::size_t countFrom(const py::handle &value, const std::string &field)
     {
-        if (!py::isinstance<py::int_>(value) || py::isinstance<py::bool_>(value))
+        // Whatever may be an index counts, such as NumPy's whole numbers.
+        const bool isWhole = PyIndex_Check(value.ptr()) != 0 && isNumber(value) && !isFlag(value);
+        const auto whole = py::reinterpret_steal<py::object>(isWhole ? PyNumber_Index(value.ptr()) : nullptr);
+        if (!whole)
             failFor(value, field, "a whole number");
-        const std::size_t count = PyLong_AsSize_t(value.ptr());
+        const std::size_t count = PyLong_AsSize_t(whole.ptr());
         if (PyErr_Occurred() != nullptr)
             failFor(value, field, "a whole number that is not negative");
         return count;
@@ -177,7 +245,7 @@ namespace parking::python
 
     Path pathFrom(const py::handle &value, const Scenario &scenario)
     {
-        constexpr double JOINT = 1e-3;  // metres by which the end of an arc may miss the next state
+        constexpr double JOINT = 1e-3;  // metres by which the end of one arc may miss the next state
         constexpr double SAME = 1e-9;   // metres: the same place
         const std::string right = "a result, or an array of n rows (x, y, yaw, ...)";
         const Doubles array = doublesFrom(value, "path", right);
@@ -190,7 +258,7 @@ namespace parking::python
             return Pose{array.at(i, 0) - scenario.worldOffset.x(), array.at(i, 1) - scenario.worldOffset.y(),
                         array.at(i, 2)};
         };
-        Path path{state(0), {}};
+        RowsDriver driver(state(0), 1.0 / scenario.vehicle.minTurningRadius());
         for (py::ssize_t i = 1; i < array.shape(0); ++i)
         {
             const Pose from = state(i - 1), to = state(i);
@@ -201,19 +269,18 @@ namespace parking::python
             if (chord < SAME)
             {
                 if (std::abs(turn) > SAME)
-                    path.pieces.push_back(PathPiece::turnOnTheSpot(turn));
+                    driver.turn(turn);
                 continue;
             }
             const double aside = dy * std::cos(middle) - dx * std::sin(middle);
-            if (std::abs(aside) > JOINT)
+            const double ahead = dx * std::cos(middle) + dy * std::sin(middle);
+            const double length = std::copysign(chord * (std::abs(half) < 1e-6 ? 1.0 : half / std::sin(half)), ahead);
+            if (std::abs(aside) > JOINT || !driver.drive({turn / length, length}, to))
                 throw Error("path: no arc joins rows " + std::to_string(i - 1) + " and " + std::to_string(i) +
                             ": one that leaves as the first of them heads misses the other by " +
                             formatNumber(std::round(1e4 * std::abs(aside)) / 1e4) + " m");
-            const double ahead = dx * std::cos(middle) + dy * std::sin(middle);
-            const double length = std::copysign(chord * (std::abs(half) < 1e-6 ? 1.0 : half / std::sin(half)), ahead);
-            path.pieces.emplace_back(turn / length, length);
         }
-        return path;
+        return driver.finish();
     }
 
     py::tuple toPython(const Pose &pose)

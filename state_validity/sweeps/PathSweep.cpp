@@ -2,7 +2,7 @@
 
 #include "parking_geometry/curves/PathArcs.h"
 
-#include <functional>
+#include <algorithm>
 
 namespace parking
 {
@@ -16,6 +16,14 @@ namespace parking
 
         /** From the arcs that are swept in the place of a clothoid; a share of the enlargement. */
         constexpr double DEVIATION = 0.1;
+
+        /** How paths are swept. */
+        struct Sweeping
+        {
+            const FootprintChecker &checker;
+            double enlargement;
+            bool bothWays;  ///< backwards as well: a sweep is more patient with what is near where it begins
+        };
 
         FootprintQueries poseQueriesOf(const FootprintChecker &checker)
         {
@@ -40,44 +48,78 @@ namespace parking
             return isPathFree(poseQueriesOf(checker), body, Path{pose, {turn}});
         }
 
-        bool isArcFree(const FootprintChecker &checker, const Pose &from, const PathPiece &arc, double enlargement)
+        /** Is it free to drive \e arc from where the sweep begins? */
+        bool isArcFree(const Sweeping &sweeping, const FootprintChecker::SweepStart &start, const PathPiece &arc)
         {
             CheckCounts counts;
-            return checker.freeLength(from, arc.curvature, arc.length, enlargement, counts) >= arc.driven();
+            return sweeping.checker.freeLength(start, arc.curvature, arc.length, counts) >= arc.driven();
         }
 
-        /** Visits path in arcs that deviate from it by less than the enlargement. */
-        bool isPathFree(const FootprintChecker &checker, const Path &path, double enlargement,
-                        const std::function<bool(const Pose &, const PathPiece &)> &isFree)
+        bool isArcFree(const Sweeping &sweeping, const Pose &from, const PathPiece &arc)
         {
-            const auto isPieceFree = [&](const Pose &from, const PathPiece &piece)
+            CheckCounts counts;
+            const auto isFree = [&](const Pose &begin, const PathPiece &way)
             {
-                return piece.turn != 0.0 ? isTurnFree(checker, from, piece) : isFree(from, piece);
+                return isArcFree(sweeping, sweeping.checker.sweepStart(begin, sweeping.enlargement, counts), way);
             };
+            return isFree(from, arc) || (sweeping.bothWays && isFree(advance(from, arc), {arc.curvature, -arc.length}));
+        }
+
+        /** By arcs from which the body deviates by less than \e deviation metres. Where a sweep begins so near to an
+            obstacle that it enlarges the body by less than covers that, the arcs are divided. */
+        bool isClothoidFree(const Sweeping &sweeping, const Pose &from, const PathPiece &clothoid, double deviation)
+        {
+            // Parts of a quarter of the length. No sweep enlarges the body by less than a part of a nanometre, so that
+            // dividing ends soon.
+            constexpr double FINER = 1.0 / 16.0;
+            double driven = 0.0;
+            const auto isPartFree = [&](const Pose &begin, const PathPiece &arc)
+            {
+                const PathPiece part{clothoid.curvatureAt(driven), arc.length, clothoid.sharpness};
+                driven += arc.driven();
+                double covered = 0.0;
+                const auto isFree = [&](const Pose &pose, const PathPiece &way)
+                {
+                    CheckCounts counts;
+                    const auto start = sweeping.checker.sweepStart(pose, sweeping.enlargement, counts);
+                    if (deviation <= DEVIATION * start.enlargement)
+                        return isArcFree(sweeping, start, way);
+                    covered = std::max(covered, DEVIATION * start.enlargement);
+                    return false;
+                };
+                return isFree(begin, arc) ||
+                       (sweeping.bothWays && isFree(advance(begin, arc), {arc.curvature, -arc.length})) ||
+                       (covered > 0.0 && isClothoidFree(sweeping, begin, part, std::min(covered, FINER * deviation)));
+            };
+            return visitArcs({from, {clothoid}}, sweeping.checker.farthestPoint(), deviation, isPartFree);
+        }
+
+        bool isPathFree(const Sweeping &sweeping, const Path &path)
+        {
+            Pose pose = path.start;
+            for (const PathPiece &piece : path.pieces)
+            {
+                const bool isFree = piece.turn != 0.0 ? isTurnFree(sweeping.checker, pose, piece)
+                                    : piece.sharpness != 0.0
+                                        ? isClothoidFree(sweeping, pose, piece, DEVIATION * sweeping.enlargement)
+                                        : isArcFree(sweeping, pose, piece);
+                if (!isFree)
+                    return false;
+                pose = advance(pose, piece);
+            }
             // The sweep looks at the pose where it begins.
-            return visitArcs(path, checker.farthestPoint(), DEVIATION * enlargement, isPieceFree) &&
-                   checker.isFree(path.end());
+            return sweeping.checker.isFree(path.end());
         }
     }  // namespace
 
     bool isPathFree(const FootprintChecker &checker, const Path &path)
     {
-        return isPathFree(checker, path, USUAL_ENLARGEMENT,
-                          [&checker](const Pose &from, const PathPiece &arc)
-                          { return isArcFree(checker, from, arc, USUAL_ENLARGEMENT); });
+        return isPathFree({checker, USUAL_ENLARGEMENT, false}, path);
     }
 
     bool touchesNothing(const FootprintChecker &checker, const Path &path)
     {
-        // Backwards as well: a sweep is more patient with what is near where it begins.
-        return isPathFree(checker, path) ||
-               isPathFree(checker, path, LEAST_ENLARGEMENT,
-                          [&checker](const Pose &from, const PathPiece &arc)
-                          {
-                              return isArcFree(checker, from, arc, LEAST_ENLARGEMENT) ||
-                                     isArcFree(checker, advance(from, arc), {arc.curvature, -arc.length},
-                                               LEAST_ENLARGEMENT);
-                          });
+        return isPathFree(checker, path) || isPathFree({checker, LEAST_ENLARGEMENT, true}, path);
     }
 
     FootprintQueries queriesOf(const FootprintChecker &checker)

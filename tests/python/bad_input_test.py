@@ -116,6 +116,11 @@ def test_bad_pictures_are_refused():
 def test_numbers_of_numpy_are_numbers():
     result = ia.plan(world(), heading_bins=numpy.int64(36), detours=numpy.bool_(False), gear_change_penalty=numpy.float32(1))
     assert result and not result.parameters['detours'] and result.parameters['heading_bins'] == 36
+    counted = [ia.plan(world(), max_expansions=count).statistics for count in (100, numpy.int64(100), numpy.uint8(100))]
+    assert counted[0]['expanded'] == counted[1]['expanded'] == counted[2]['expanded']
+    for wrong in (True, numpy.bool_(True), 100.0, numpy.float64(100), '100', numpy.array([100]), None):
+        with pytest.raises(ia.Error, match='max_expansions must be a whole number, not'):
+            ia.plan(world(), max_expansions=wrong)
 
 
 def test_what_cannot_be_is_a_result_and_no_error():

@@ -83,6 +83,9 @@ def test_runs_of_a_database(tmp_path):
     pytest.importorskip('pandas')
     with pytest.raises(ia.Error, match='holds no results'):
         ia.read_runs(tmp_path)
+    # In a folder whose name would mean something else in an address.
+    tmp_path = tmp_path / 'run#1?50%41'
+    tmp_path.mkdir()
     file = tmp_path / 'benchmark.db'
     connection = sqlite3.connect(file)
     connection.executescript('''

@@ -103,6 +103,29 @@ def test_the_referee_accepts_results_and_refuses_others():
     assert ia.check(problem, result.path[:-5], exact=False)
 
 
+def test_the_referee_judges_the_way_through_the_rows():
+    # Each row is 0.9 mm beside the arc from the one before: so the rows go through the wall.
+    half, aside = ia.Vehicle().width / 2, 0.9e-3
+    ahead = math.sqrt(0.01 - aside**2)
+    rows = numpy.array([[ahead * i, aside * i, 0.0] for i in range(101)])
+    wall = [[-5, half + 0.03], [20, half + 0.03], [20, half + 1], [-5, half + 1]]
+    problem = ia.Scenario.from_polygons([wall], (0, 0, 0), (10, 0, 0))
+    assert not problem.is_free(rows).all()
+    assert not ia.check(problem, rows) and not ia.check(problem, rows, exact=False)
+    # The rows of smooth plans, and of such that steer as far as the car can, also when they are rounded.
+    for name in ('parallel', 'perpendicular', 'narrow_parallel', 'narrow_perpendicular'):
+        problem = scenario(name)
+        plan = ia.ParkingPlanner(time_limit=8.0).plan(problem)
+        assert plan and ia.check(problem, plan) and ia.check(problem, plan.path), name
+        assert ia.check(problem, numpy.round(plan.path, 9)), name
+    radius = ia.Vehicle().turning_radius
+    circle = numpy.array([[radius * math.sin(a), radius * (1 - math.cos(a)), a] for a in numpy.arange(0, 3, 0.1 / radius)])
+    problem = ia.Scenario.from_polygons([], circle[0], circle[-1])
+    assert ia.check(problem, circle)
+    circle[:, :2] = numpy.round(circle[:, :2], 6)
+    assert ia.check(problem, circle)
+
+
 def test_polygons_and_grid_of_the_same_world():
     cells = numpy.zeros((60, 80), dtype=bool)
     cells[:34, 38:42] = cells[42:, 38:42] = True
@@ -164,6 +187,7 @@ def test_the_parking_planner_plans_smooth_ways():
     assert tight and ia.check(tight.scenario, tight)
     taken = ia.ParkingPlanner(time_limit=2.0).plan(scenario('unreachable'))
     assert not taken and taken.status in ('no_path', 'invalid_goal') and taken.message
+    assert taken.goal is None and taken.cost == math.inf and plan.goal in plan.scenario.goals and plan.cost < math.inf
 
 
 def test_the_grid_models_plan_for_the_circle():
@@ -180,6 +204,25 @@ def test_a_batch_gives_what_single_plans_give():
     for one, other in zip(single, batch):
         assert (one.path == other.path).all()
     assert ia.plan_batch([]) == []
+
+
+@pytest.mark.parametrize('memory', ['512', '96'])
+def test_a_batch_does_with_the_threads_that_there_are(memory):
+    # Each thread takes 8 MB of addresses for its stack, if no more.
+    program = '''if True:
+        import resource, sys
+        import improved_astar as ia
+        problem = ia.Scenario.read(sys.argv[1])
+        ia.plan(problem)
+        with open('/proc/self/statm', encoding='utf-8') as stream:
+            used = int(stream.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + (int(sys.argv[2]) << 20),) * 2)
+        batch = ia.plan_batch([problem] * 200, threads=200, max_expansions=10)
+        print(len(batch), len({each.status for each in batch}))
+        '''
+    done = subprocess.run([sys.executable, '-c', program, os.path.join(SCENARIOS, 'parallel.yaml'), memory],
+                          capture_output=True, text=True, check=False, timeout=120)
+    assert (done.returncode, done.stdout) == (0, '200 1\n'), done.stderr
 
 
 def test_other_threads_run_while_one_plans():

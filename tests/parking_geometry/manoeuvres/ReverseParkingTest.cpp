@@ -98,6 +98,46 @@ TEST(ReverseParking, TheBodyStaysFreeAlongTheWholeManoeuvre)
     EXPECT_GT(fits, 1000);
 }
 
+TEST(ReverseParking, CarsThatTurnNearlyOnTheSpotStayFreeToo)
+{
+    // Broad cars with little between the axles: their circles may be smaller than the way to the side is long.
+    RandomParking random(27);
+    int fits = 0, roundly = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+        Vehicle car;
+        car.wheelbase = random.between(0.3, 3.0);
+        car.frontOverhang = random.between(0.05, 2.0);
+        car.rearOverhang = random.between(0.05, 2.0);
+        car.width = random.between(0.3, 3.0);
+        car.maxSteeringAngle = random.between(0.2, 1.2);
+        ParkingSlot slot;
+        slot.kind = SlotKind::Parallel;
+        slot.length = car.length() + random.between(0.0, 6.0);
+        slot.width = car.width + random.between(0.0, 1.5);
+        slot.entry = random.chance(0.5) ? SlotEntry::Reverse : SlotEntry::Forward;
+        slot.side = random.chance(0.5) ? SlotSide::Right : SlotSide::Left;
+        ReverseParkingOptions options;
+        options.aisleWidth = random.chance(0.3) ? INFINITE : random.between(1.0, 15.0);
+        const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
+        if (!result.fits())
+        {
+            ASSERT_GT(result.missing, 0.0);
+            continue;
+        }
+        ++fits;
+        const PolygonWorld world(car, slotSurroundings(slot, slot.side, options.aisleWidth, 20.0), 1e-6);
+        ASSERT_TRUE(world.isPathFree(result.path)) << i;
+        for (const PathPiece &piece : result.path.pieces)
+        {
+            ASSERT_LE(std::abs(piece.curvature * piece.length), 0.5 * PI + 1e-6) << i;
+            roundly += std::abs(piece.curvature * piece.length) > 1.4;
+        }
+    }
+    EXPECT_GT(fits, 2000);
+    EXPECT_GT(roundly, 20);
+}
+
 TEST(ReverseParking, ClearanceIsKept)
 {
     RandomParking random(23);

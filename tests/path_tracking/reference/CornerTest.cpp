@@ -105,6 +105,10 @@ namespace parking::test
             both.turn = 1.0;
             EXPECT_NE(errorOf(both).find("both drives and turns"), std::string::npos);
             EXPECT_THROW(makeDrivable({}, Vehicle()), Error);
+            // Each piece is too short to be one.
+            EXPECT_THROW(makeDrivable({{}, {{0.0, 6e-8}, {0.0, -6e-8}}}, Vehicle()), Error);
+            EXPECT_THROW(makeDrivable({{}, {{0.0, 6e-8}, PathPiece::turnOnTheSpot(1.0), {0.0, 6e-8}}}, Vehicle()),
+                         Error);
             EXPECT_THROW(makeDrivable({{}, {PathPiece::turnOnTheSpot(1.0)}}, Vehicle()), Error);
             EXPECT_THROW(makeDrivable({{std::nan(""), 0.0, 0.0}, {{0.0, 1.0}}}, Vehicle()), Error);
         }

@@ -17,7 +17,7 @@ namespace parking
     namespace
     {
         /** The greatest change of the acceleration by time, from the middle of one interval to that of the next, and
-           from and to none at the ends of standstills. */
+            from and to none at the ends of standstills. */
         double greatestJerk(const TimedMotion &motion)
         {
             double greatest = 0.0, before = 0.0, middle = motion.knots.front().t;
@@ -99,6 +99,33 @@ namespace parking
                 EXPECT_LE(withJerkLimit(motion, car, 1e4).duration(),
                           1.01 * motion.duration() + 0.05 * static_cast<double>(path.pieces.size() + 1))
                     << seed;
+            }
+        }
+
+        TEST(JerkLimit, IsNoFasterThanTheCarAndNeverDrivesBack)
+        {
+            // Ways that are short for their steps, where straight lines between knots leave the most.
+            for (std::uint64_t seed = 1; seed <= 300; ++seed)
+            {
+                test::Random random(seed);
+                Vehicle car;
+                car.maxSpeed = random.between(0.2, 4.0);
+                car.maxAcceleration = random.between(0.2, 4.0);
+                const double length = std::exp(random.between(-4.0, 3.0));
+                const double jerk = std::exp(random.between(-2.0, 5.0)), step = random.between(0.005, 0.1);
+                const TimedMotion motion = stopAndSteer({{}, {{0.0, length}}}, car, 0.0, 0.0);
+                double top = 0.0;
+                for (const MotionKnot &knot : motion.knots)
+                    top = std::max(top, knot.v);
+                const TimedMotion limited = withJerkLimit(motion, car, jerk, step);
+                for (const MotionKnot &knot : limited.knots)
+                {
+                    EXPECT_GE(knot.v, 0.0) << seed;
+                    EXPECT_LE(knot.v, top * (1.0 + 1e-12)) << seed;
+                }
+                EXPECT_LE(greatestJerk(limited), jerk) << seed;
+                EXPECT_LE(greatestAcceleration(limited), car.maxAcceleration) << seed;
+                EXPECT_NEAR(endOf(limited, car).x, length, 1e-9) << seed;
             }
         }
 

@@ -297,6 +297,46 @@ namespace parking
             EXPECT_FALSE(TrajectoryOptimizer(checker).optimize(path).fallback);
         }
 
+        TEST(TrajectoryOptimizer, KeepsToItsSharesOfTheLimitsWhateverItFallsBackTo)
+        {
+            // A straight line is driven as it is; the other one is quicker without stops.
+            const Path straight{{}, {{0.0, 12.0}}}, shunt{{}, {{0.0, 8.0}, {0.1, 4.0}, {0.0, -8.0}}};
+            const Vehicle car;
+            for (const Path &path : {straight, shunt})
+                for (const double share : {1.0, 0.5, 0.2})
+                {
+                    TrajectoryOptions options;
+                    options.speedShare = options.accelerationShare = options.steeringRateShare = share;
+                    const OptimizedTrajectory found = TrajectoryOptimizer(checkerOf({}), options).optimize(path);
+                    EXPECT_EQ(found.fallback, path.pieces.size() == 1) << share;
+                    EXPECT_EQ(found.reason, found.fallback ? "stopping to steer is as quick" : "") << share;
+                    const std::vector<MotionKnot> &knots = found.motion.knots;
+                    for (std::size_t k = 1; k < knots.size(); ++k)
+                    {
+                        const MotionKnot &a = knots[k - 1], &b = knots[k];
+                        const double most = share * (b.t - a.t) * (1.0 + 1e-9);
+                        EXPECT_LE(std::abs(b.v), share * car.maxSpeed * (1.0 + 1e-9)) << share;
+                        EXPECT_LE(std::abs(b.v - a.v), car.maxAcceleration * most) << share;
+                        EXPECT_LE(std::abs(b.steering - a.steering), car.maxSteeringRate * most) << share;
+                    }
+                }
+        }
+
+        TEST(MotionCheck, SeesWhatIsTouchedByLessThanAnArcLeaves)
+        {
+            // Straight on at first, the wheels turning right: the arc of the first 20 ms never comes nearer to the
+            // post.
+            const Vehicle car;
+            const TimedMotion motion{{}, {{0.0, 2.5, 0.005}, {0.3, 2.5, -0.145}, {2.8, 0.0, -0.145}}};
+            for (const double gap : {1e-6, 1e-5, 5e-5, 7.5e-5, 5e-4})
+            {
+                // The true motion comes 0.08 mm nearer.
+                const double y = 0.5 * car.width + gap;
+                const FootprintChecker checker = checkerOf({{{3.6, y}, {3.62, y + 0.3}, {3.58, y + 0.3}}});
+                EXPECT_EQ(collisionsOf(motion, checker, 1).empty(), gap > 8e-5) << gap;
+            }
+        }
+
         TEST(MotionCheck, FindsWhatARefereeFinds)
         {
             // Motions that were optimised in a world without obstacles, driven among some.

@@ -162,6 +162,41 @@ TEST(PathSweep, APathThatPassesWithinAMillimetreTouchesNothing)
     EXPECT_GT(touched, 20);
 }
 
+TEST(PathSweep, AClothoidThatBeginsBesideAPostTouchesNoMoreThanItSays)
+{
+    // Towards a post at first, and away from it: the arcs that take the place of such a clothoid never come nearer.
+    RandomParking random(5);
+    const Vehicle car;
+    int touching = 0, near = 0;
+    for (int i = 0; i < 200; ++i)
+    {
+        const double sharpness = -random.between(0.05, 0.3), length = random.between(0.5, 2.0);
+        const double reach = std::hypot(car.wheelbase + car.frontOverhang, 0.5 * car.width);
+        const double parts = 1.0 + std::floor(length * std::sqrt(-sharpness * (reach / 8.0 + length / 12.0) / 1e-4));
+        const Path path{{}, {{-0.5 * sharpness * length / parts, length, sharpness}}};
+        const double x = random.between(2.5, 3.6), y = 0.5 * car.width + std::pow(10.0, random.between(-6.0, -3.5));
+        const std::vector<Polygon> post{{{x, y}, {x + 0.02, y + 0.2}, {x - 0.02, y + 0.2}}};
+        const FootprintChecker checker(ObstacleSet::fromPolygons(post, Box{{-12.0, -12.0}, {12.0, 12.0}}), car);
+        // How far the tip is from the car's left side.
+        double least = 1.0;
+        for (double driven = 0.0; driven < length; driven += 1e-3)
+            least = std::min(least, relativeTo(advance({}, path.pieces[0], driven), {x, y, 0.0}).y - 0.5 * car.width);
+        if (least <= 0.0)
+        {
+            ++touching;
+            EXPECT_FALSE(isPathFree(checker, path)) << i;
+            EXPECT_FALSE(touchesNothing(checker, path)) << i;
+        }
+        else if (least > 2e-5)
+        {
+            ++near;
+            EXPECT_TRUE(touchesNothing(checker, path)) << i << ": " << least;
+        }
+    }
+    EXPECT_GT(touching, 50);
+    EXPECT_GT(near, 20);
+}
+
 TEST(PathSweep, TheEndOfAPathCountsAndSoDoesItsOnlyPose)
 {
     const Vehicle car;
