@@ -66,7 +66,7 @@ namespace parking_examples
             parking::SvgMap map(parking::viewAround(scenario_, path, 2.0));
             parking::drawScenario(map, scenario_);
             for (const auto &[pose, car] : parked_)
-                parking::drawCar(map, pose, car, parking::svg_colour::OBSTACLE_EDGE);
+                parking::drawCar(map, pose, car, parking::svg_colour::OBSTACLE_EDGE, "parked car");
             parking::drawPath(map, path, scenario_.vehicle);
             parking::SvgFigure figure(title, subtitle);
             figure.setMap(map);

@@ -7,6 +7,7 @@
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double UNIT = 1e-4;       // metres, radians and so on to which numbers are written
-        constexpr double DRAWN_STEP = 0.1;  // metres between the states of a drawn path
+        constexpr double UNIT = 1e-4;            // metres, radians and so on to which numbers are written
+        constexpr double DRAWN_STEP = 0.1;       // metres between the states of a drawn path
+        constexpr double RIGHT_OF_FRAME = 16.0;  // pixels for half of the last tick's label
 
         std::string number(double value)
         {
@@ -65,8 +67,8 @@ namespace parking
                 style.stroke = reverse ? svg_colour::REVERSE : svg_colour::FORWARD;
                 style.strokeWidth = 2.5;
                 style.strokeOpacity = 0.55;
-                map.drawLine(SvgLayer::Lines, line, style);
-                map.addLegend({reverse ? "planned, reverse" : "planned, forwards", style, true});
+                if (map.drawLine(SvgLayer::Lines, line, style))
+                    map.addLegend({reverse ? "planned, reverse" : "planned, forwards", style, SvgSample::Line});
                 line.clear();
             }
         }
@@ -77,26 +79,32 @@ namespace parking
             for (const TrajectoryPoint &point : reference)
                 line.emplace_back(point.x, point.y);
             SvgStyle style;
-            style.stroke = "#0f172a";
+            style.stroke = svg_colour::PLANNED;
             style.strokeWidth = 1.2;
             style.dash = "5 3";
-            map.drawLine(SvgLayer::Lines, line, style);
-            map.addLegend({"planned trajectory", style, true});
+            if (map.drawLine(SvgLayer::Lines, line, style))
+                map.addLegend({"planned trajectory", style, SvgSample::Line});
         }
 
-        std::string legendOf(const SvgMap &map)
+        /** Of the map and of what the page itself draws: the track behind the car, and the plots. */
+        std::string legendOf(SvgMap map, const Trajectory &drive)
         {
+            SvgStyle driven, reverse, limit;
+            driven.stroke = svg_colour::DRIVEN;
+            driven.strokeWidth = 2.0;
+            reverse.fill = svg_colour::REVERSE;
+            reverse.fillOpacity = 0.09;
+            limit.stroke = "#64748b";
+            limit.dash = "6 4";
+            map.addLegend({"driven", driven, SvgSample::Line});
+            if (std::any_of(drive.begin(), drive.end(), [](const TrajectoryPoint &point) { return point.v < -1e-3; }))
+                map.addLegend({"in reverse (plots)", reverse});
+            map.addLegend({"limit of the car (plots)", limit, SvgSample::Line});
             std::string text;
             for (const SvgLegendEntry &entry : map.legend())
-            {
-                const std::string mark = entry.line ? "<path d=\"M1 7H21\"" + attributes(entry.style) + "/>"
-                                                    : "<rect x=\"2\" y=\"1\" width=\"18\" height=\"12\" rx=\"2\"" +
-                                                          attributes(entry.style) + "/>";
-                text += "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\">" + mark + "</svg>" +
-                        escaped(entry.label) + "</li>\n";
-            }
-            return text + "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\"><path d=\"M1 7H21\" stroke=\"" +
-                   svg_colour::DRIVEN + "\" stroke-width=\"2\"/></svg>driven</li>\n";
+                text += "<li><svg width=\"" + px(SAMPLE_WIDTH) + "\" height=\"16\" aria-hidden=\"true\">" +
+                        legendSample(entry, 0.0, 0.0) + "</svg>" + escaped(entry.label) + "</li>\n";
+            return text;
         }
 
         void replace(std::string &text, const std::string &mark, const std::string &value)
@@ -150,8 +158,9 @@ namespace parking
         data += "}";
 
         std::string page = DRIVE_ANIMATION_PAGE;
-        replace(page, "@WIDTH@", px(map.width()));
-        replace(page, "@HEIGHT@", px(map.height()));
+        replace(page, "@VIEW@",
+                px(-SvgMap::LEFT_OF_FRAME) + " 0 " + px(SvgMap::LEFT_OF_FRAME + map.width() + RIGHT_OF_FRAME) + ' ' +
+                    px(map.height() + SvgMap::BELOW_FRAME));
         // Metres, y up, on the pixels of the map.
         replace(page, "@METRES@",
                 "matrix(" + formatNumber(map.scale()) + " 0 0 " + formatNumber(-map.scale()) + " " +
@@ -162,7 +171,7 @@ namespace parking
         replace(page, "@FORWARD@", svg_colour::FORWARD);
         replace(page, "@DATA@", data);
         replace(page, "@MAP@", map.toSvg(0.0, 0.0));
-        replace(page, "@LEGEND@", legendOf(map));
+        replace(page, "@LEGEND@", legendOf(map, driven));
         // What users write comes last, so that no mark in it is taken for one of the page's.
         replace(page, "@SUBTITLE@", escaped(subtitle));
         replace(page, "@TITLE@", escaped(title));

@@ -38,7 +38,7 @@ namespace parking
 <h1>@TITLE@</h1>
 <p>@SUBTITLE@</p>
 <div class="panel">
-<svg id="scene" viewBox="0 0 @WIDTH@ @HEIGHT@" role="img" aria-label="The car on the map">
+<svg id="scene" viewBox="@VIEW@" role="img" aria-label="The car on the map">
 @MAP@
 <g transform="@METRES@">
   <path id="track" fill="none" stroke="@DRIVEN@" stroke-width="0.07" stroke-linejoin="round" stroke-linecap="round"/>
@@ -164,8 +164,8 @@ function show() {
   if (byId('follow').checked) {
     const wide = Math.min(whole[2], 22 * drive.scale), high = wide * whole[3] / whole[2];
     const px = metres.a * x + metres.e, py = metres.d * y + metres.f;
-    const within = (middle, size, all) => Math.min(all - size, Math.max(0, middle - size / 2));
-    scene.setAttribute('viewBox', `${within(px, wide, whole[2])} ${within(py, high, whole[3])} ${wide} ${high}`);
+    const within = (middle, size, k) => Math.min(whole[k] + whole[k + 2] - size, Math.max(whole[k], middle - size / 2));
+    scene.setAttribute('viewBox', `${within(px, wide, 0)} ${within(py, high, 1)} ${wide} ${high}`);
   } else scene.setAttribute('viewBox', whole.join(' '));
 }
 

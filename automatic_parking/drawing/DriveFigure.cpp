@@ -2,6 +2,7 @@
 
 #include "parking_geometry/drawing/SvgScenario.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,7 +24,7 @@ namespace parking
             {
                 const bool reverse = point.v < -STANDING;
                 if (reverse && !open)
-                    bands.push_back({point.t, point.t, svg_colour::REVERSE});
+                    bands.push_back({point.t, point.t, svg_colour::REVERSE, "reverse"});
                 if (open)
                     bands.back().end = point.t;
                 open = reverse;
@@ -49,19 +50,53 @@ namespace parking
             plot.title = title;
             plot.xLabel = "time, s";
             plot.yLabel = unit;
-            plot.bands = reverseBands(driven);
+            plot.bands = reverseBands(driven.empty() ? planned : driven);
             plot.limits = {-factor * limit, factor * limit};
+            plot.limitsLabel = "limit of the car";
             plot.yRange = {-ROOM * factor * limit, ROOM * factor * limit};
             plot.height = 170.0;
-            plot.series.push_back(seriesOf(driven, field, factor));
-            plot.series.back().colour = svg_colour::DRIVEN;
-            if (planned.empty())
-                return plot;
-            plot.series.back().label = "driven";
-            plot.series.push_back(seriesOf(planned, field, factor));
-            plot.series.back().label = "planned";
-            plot.series.back().dashed = true;
+            const auto add = [&](const Trajectory &trajectory, const char *label, const char *colour)
+            {
+                if (trajectory.empty())
+                    return;
+                plot.series.push_back(seriesOf(trajectory, field, factor));
+                plot.series.back().label = label;
+                plot.series.back().colour = colour;
+                plot.series.back().dashed = &trajectory != &driven && !driven.empty();
+            };
+            add(driven, "driven", svg_colour::DRIVEN);
+            add(planned, "planned", svg_colour::PLANNED);
             return plot;
+        }
+
+        std::vector<Pose> posesOf(const SampledPath &states)
+        {
+            std::vector<Pose> poses;
+            for (const PathState &state : states)
+                poses.push_back(state.pose);
+            return poses;
+        }
+
+        /** What a car goes along, with the direction it goes in; while it stands that is the one before. */
+        SampledPath statesOf(const Trajectory &trajectory)
+        {
+            SampledPath states;
+            const auto moves = [](const TrajectoryPoint &point)
+            {
+                return std::abs(point.v) > STANDING;
+            };
+            const auto first = std::find_if(trajectory.begin(), trajectory.end(), moves);
+            int direction = first != trajectory.end() && first->v < 0.0 ? -1 : 1;
+            double driven = 0.0;
+            for (const TrajectoryPoint &point : trajectory)
+            {
+                if (moves(point))
+                    direction = point.v < 0.0 ? -1 : 1;
+                if (!states.empty())
+                    driven += std::hypot(point.x - states.back().pose.x, point.y - states.back().pose.y);
+                states.push_back({{point.x, point.y, point.yaw}, driven, 0.0, direction});
+            }
+            return states;
         }
     }  // namespace
 
@@ -74,25 +109,40 @@ namespace parking
                        vehicle.maxSteeringAngle)};
     }
 
+    SvgMap driveMap(const Scenario &scenario, const SampledPath &path, const Trajectory &planned,
+                    const Trajectory &driven)
+    {
+        struct Way
+        {
+            SampledPath states;
+            const char *name;           // of what the car is drawn along
+            const char *beside, *dash;  // of a line beside that
+        };
+        std::vector<Way> ways{{path, "path", "planned path", "1 4"},
+                              {statesOf(planned), "trajectory", "planned trajectory", "5 3"},
+                              {statesOf(driven), "drive", "", ""}};
+        ways.erase(std::remove_if(ways.begin(), ways.end(), [](const Way &way) { return way.states.size() < 2; }),
+                   ways.end());
+        SampledPath seen;
+        for (const Way &way : ways)
+            seen.insert(seen.end(), way.states.begin(), way.states.end());
+        SvgMap map(viewAround(scenario, seen));
+        drawScenario(map, scenario);
+        if (ways.empty())
+            return map;
+        drawPath(map, ways.back().states, scenario.vehicle, ways.back().name);
+        ways.pop_back();
+        for (const Way &way : ways)
+            drawTrack(map, posesOf(way.states), svg_colour::PLANNED, way.beside, way.dash);
+        return map;
+    }
+
     SvgFigure driveFigure(const Scenario &scenario, const Path &planned, const Trajectory &driven,
                           const std::string &title, const std::string &subtitle)
     {
         SvgFigure figure(title, subtitle);
-        const SampledPath states = planned.pieces.empty() ? SampledPath{} : planned.sample(DRAWN_STEP);
-        SampledPath seen = states;
-        std::vector<Pose> track;
-        for (const TrajectoryPoint &point : driven)
-        {
-            track.push_back({point.x, point.y, point.yaw});
-            seen.push_back({track.back(), 0.0, 0.0, 1});
-        }
-        SvgMap map(viewAround(scenario, seen));
-        drawScenario(map, scenario);
-        if (!planned.pieces.empty())
-            drawPath(map, states, scenario.vehicle);
-        if (track.size() > 1)
-            drawTrack(map, track, svg_colour::DRIVEN, "driven");
-        figure.setMap(map);
+        figure.setMap(
+            driveMap(scenario, planned.pieces.empty() ? SampledPath{} : planned.sample(DRAWN_STEP), {}, driven));
         if (driven.size() > 1)
             for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle))
                 figure.addPlot(plot);

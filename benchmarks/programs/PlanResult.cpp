@@ -147,14 +147,6 @@ namespace parking
             return message.compare(0, subject.size(), subject) == 0 ? message.substr(subject.size()) : message;
         }
 
-        std::vector<Pose> trackOf(const Trajectory &trajectory)
-        {
-            std::vector<Pose> track;
-            for (const TrajectoryPoint &point : trajectory)
-                track.push_back({point.x, point.y, point.yaw});
-            return track;
-        }
-
         /** The planned trajectory in the scenario's coordinates; empty without one. */
         Trajectory plannedSamples(const Scenario &scenario, const PlanResult &result)
         {
@@ -330,29 +322,20 @@ namespace parking
         std::string subtitle =
             result.planner + ", " + statusOf(run) + ", " + formatNumber(MS * run.planningTime, 1) + " ms";
         if (run.path)
-            subtitle += ", " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+            subtitle += ", path of " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
                         " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
+        if (result.trajectory)
+            subtitle += ", trajectory of " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) + " s";
+        if (result.drive)
+            subtitle += ", driven in " + formatNumber(result.drive->evaluation.travelTime, 1) + " s";
         SvgFigure figure(scenario.name, subtitle);
         const Trajectory planned = plannedSamples(scenario, result);
-        SampledPath seen = path;
-        for (const TrajectoryPoint &point : planned)
-            seen.push_back({{point.x, point.y, point.yaw}, 0.0, 0.0, 1});
-        SvgMap map(viewAround(scenario, seen));
-        drawScenario(map, scenario);
-        if (!path.empty())
-            drawPath(map, path, scenario.vehicle);
-        if (result.drive)
-            drawTrack(map, trackOf(result.drive->trajectory), svg_colour::DRIVEN, "driven");
-        else if (!planned.empty())
-            drawTrack(map, trackOf(planned), svg_colour::DRIVEN, "trajectory");
-        figure.setMap(map);
+        const Trajectory driven = result.drive ? result.drive->trajectory : Trajectory();
+        figure.setMap(driveMap(scenario, path, planned, driven));
         if (path.size() > 1)
             figure.addPlot(curvaturePlot(path, scenario.vehicle));
-        if (result.drive)
-            for (const SvgPlot &plot : drivePlots(result.drive->trajectory, scenario.vehicle, planned))
-                figure.addPlot(plot);
-        else if (!planned.empty())
-            for (const SvgPlot &plot : drivePlots(planned, scenario.vehicle))
+        if (!driven.empty() || !planned.empty())
+            for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle, planned))
                 figure.addPlot(plot);
         return figure.toString();
     }

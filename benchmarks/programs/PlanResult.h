@@ -54,7 +54,8 @@ namespace parking
     /** \brief The result for a reader in a hurry: a few lines. */
     std::string resultSummary(const Problem &problem, const PlanResult &result);
 
-    /** \brief Map, car along the path, curvature; with a drive its track, speed, acceleration and steering angle. */
+    /** \brief Map, curvature of the path, and with a trajectory or a drive speed, acceleration and steering angle. The
+        car is drawn along its drive, without one along the trajectory, without that along the path. */
     std::string resultSvg(const Problem &problem, const PlanResult &result);
 
     /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result.

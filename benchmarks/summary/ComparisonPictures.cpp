@@ -75,7 +75,7 @@ namespace parking
                                (record->isSuccess() ? ""
                                 : record->exact     ? " (invalid)"
                                                     : " (approximate)"),
-                           style, true});
+                           style, SvgSample::Line});
         }
         figure.setMap(map);
         return figure.toString();

@@ -15,24 +15,19 @@ namespace parking
         /** The legend in rows, from \e y downwards, which is moved below it. */
         std::string legendRows(const std::vector<SvgLegendEntry> &entries, double width, double &y)
         {
-            constexpr double SIZE = 12.5, SAMPLE = 22.0, ROW = 20.0;
+            constexpr double SIZE = 12.5, ROW = 20.0;
             std::string text;
             double x = MARGIN;
             for (const SvgLegendEntry &entry : entries)
             {
-                const double space = SAMPLE + 6.0 + textWidth(entry.label, SIZE) + 20.0;
+                const double space = SAMPLE_WIDTH + 6.0 + textWidth(entry.label, SIZE) + 20.0;
                 if (x > MARGIN && x + space - 20.0 > MARGIN + width)
                 {
                     x = MARGIN;
                     y += ROW;
                 }
-                if (entry.line)
-                    text += "<path d=\"M" + px(x) + ' ' + px(y + 8) + 'h' + px(SAMPLE) + '"' + attributes(entry.style) +
-                            " stroke-linecap=\"round\"/>\n";
-                else
-                    text += "<rect x=\"" + px(x) + "\" y=\"" + px(y + 2) + "\" width=\"" + px(SAMPLE) +
-                            "\" height=\"12\" rx=\"2\"" + attributes(entry.style) + "/>\n";
-                text += textElement(x + SAMPLE + 6.0, y + 12.5, SIZE, "#334155", "start", entry.label);
+                text += legendSample(entry, x, y);
+                text += textElement(x + SAMPLE_WIDTH + 6.0, y + 12.5, SIZE, "#334155", "start", entry.label);
                 x += space;
             }
             y += ROW + 6.0;
@@ -58,7 +53,7 @@ namespace parking
 
     std::string SvgFigure::toString() const
     {
-        const double panel = map_ ? map_->width() : PANEL_WIDTH;
+        const double panel = map_ ? SvgMap::LEFT_OF_FRAME + map_->width() : PANEL_WIDTH;
         std::string body;
         double y = MARGIN;
         if (!title_.empty())
@@ -77,8 +72,8 @@ namespace parking
         {
             if (!map_->legend().empty())
                 body += legendRows(map_->legend(), panel, y);
-            body += map_->toSvg(MARGIN, y);
-            y += map_->height() + 14.0;
+            body += map_->toSvg(MARGIN + SvgMap::LEFT_OF_FRAME, y);
+            y += map_->height() + SvgMap::BELOW_FRAME + 8.0;
         }
         for (const SvgPlot &plot : plots_)
         {

@@ -13,6 +13,7 @@ namespace parking
     {
         constexpr double FLATTEST = 0.36;  ///< height of a panel as a part of its width
         constexpr double TALLEST = 1.0;
+        constexpr double SEEN = 0.5;  ///< pixels of an area that can be seen
 
         Box widened(Box view)
         {
@@ -23,6 +24,57 @@ namespace parking
                                        0.5 * std::max(size.y(), size.x() * FLATTEST));
             return {middle - half, middle + half};
         }
+
+        /** The side of an outline on which a coordinate is at least (\e sign 1) or at most (-1) \e limit. */
+        Polygon cut(const Polygon &outline, Eigen::Index axis, double sign, double limit)
+        {
+            Polygon result;
+            for (std::size_t i = 0; i < outline.size(); ++i)
+            {
+                const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+                const double in = sign * (a[axis] - limit), next = sign * (b[axis] - limit);
+                if (in >= 0.0)
+                    result.push_back(a);
+                if ((in < 0.0) != (next < 0.0))
+                    result.emplace_back(a + in / (in - next) * (b - a));
+            }
+            return result;
+        }
+
+        /** The ticks of one axis: round coordinates of the world, where they lie in local ones, and how they read. */
+        struct WorldAxis
+        {
+            /** \param begin,end local \param offset of the local origin in the world */
+            WorldAxis(double begin, double end, double offset, double spacing) : step(spacing)
+            {
+                const auto label = [&](double tick)
+                {
+                    return tickLabel(tick - base, step);
+                };
+                if (std::max(label(begin + offset).size(), label(end + offset).size()) > MOST_CHARACTERS)
+                {
+                    const double unit = std::pow(10.0, std::max(3.0, std::ceil(std::log10(end - begin))));
+                    base = std::floor((begin + offset) / unit) * unit;
+                }
+                // Close to the base numbers are small, so that nothing is lost to the digits of far worlds.
+                const double shift = offset - base;
+                for (const double tick : roundTicks(begin + shift, end + shift, step))
+                    ticks.emplace_back(tick - shift, tickLabel(tick, step));
+            }
+
+            std::string title(const std::string &name) const
+            {
+                if (base == 0.0)
+                    return name + " (m)";
+                return name + (base < 0.0 ? " + " : " - ") + formatNumber(std::abs(base), 0) + " (m)";
+            }
+
+            static constexpr std::size_t MOST_CHARACTERS = 6;  ///< of a label; ticks are at least 60 pixels apart
+
+            double step;
+            double base{0.0};
+            std::vector<std::pair<double, std::string>> ticks;
+        };
     }  // namespace
 
     SvgMap::SvgMap(const Box &view, double width) : view_(widened(view)), width_(width)
@@ -50,15 +102,23 @@ namespace parking
         return (low.array() <= view_.max.array()).all() && (high.array() >= view_.min.array()).all();
     }
 
+    double SvgMap::visibleArea(const Polygon &outline) const
+    {
+        Polygon part = outline;
+        for (const Eigen::Index axis : {0, 1})
+            part = cut(cut(part, axis, 1.0, view_.min[axis]), axis, -1.0, view_.max[axis]);
+        return part.size() < 3 ? 0.0 : signedArea(part) * scale_ * scale_;
+    }
+
     std::string &SvgMap::layerText(SvgLayer layer)
     {
         return layers_[static_cast<std::size_t>(layer)];
     }
 
-    void SvgMap::drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style)
+    bool SvgMap::drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style)
     {
         if (!isVisible(corners))
-            return;
+            return false;
         std::string &text = layerText(layer);
         text += "<polygon points=\"";
         for (const Eigen::Vector2d &corner : corners)
@@ -68,12 +128,13 @@ namespace parking
         }
         text.back() = '"';
         text += attributes(style) + " stroke-linejoin=\"round\"/>\n";
+        return std::abs(visibleArea(corners)) > SEEN;
     }
 
-    void SvgMap::drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style)
+    bool SvgMap::drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style)
     {
         if (!isVisible(points))
-            return;
+            return false;
         std::string &text = layerText(layer);
         text += "<polyline points=\"";
         Eigen::Vector2d last(HUGE_VAL, HUGE_VAL);
@@ -88,15 +149,17 @@ namespace parking
         }
         text.back() = '"';
         text += attributes(style) + " stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
+        return true;
     }
 
-    void SvgMap::drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style)
+    bool SvgMap::drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style)
     {
         if (!isVisible({centre}))
-            return;
+            return false;
         const Eigen::Vector2d at = toPixels(centre);
         layerText(layer) += "<circle cx=\"" + px(at.x()) + "\" cy=\"" + px(at.y()) + "\" r=\"" + px(radius) + '"' +
                             attributes(style) + "/>\n";
+        return true;
     }
 
     void SvgMap::drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour)
@@ -110,13 +173,15 @@ namespace parking
                         "paint-order=\"stroke\" stroke-linejoin=\"round\"");
     }
 
-    void SvgMap::drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style)
+    bool SvgMap::drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style)
     {
         std::string data;
+        double area = 0.0;
         for (const Polygon &outline : outlines)
         {
             if (!isVisible(outline))
                 continue;
+            area += visibleArea(outline);
             std::string lastX, lastY;
             for (const Eigen::Vector2d &corner : outline)
             {
@@ -137,26 +202,12 @@ namespace parking
         }
         if (!data.empty())
             layerText(layer) += "<path d=\"" + data + "\" fill-rule=\"evenodd\"" + attributes(style) + "/>\n";
+        return std::abs(area) > SEEN;
     }
 
     void SvgMap::addLegend(const SvgLegendEntry &entry)
     {
-        const bool listed = std::any_of(legend_.begin(), legend_.end(),
-                                        [&entry](const SvgLegendEntry &other) { return other.label == entry.label; });
-        if (!listed)
-            legend_.push_back(entry);
-    }
-
-    std::string SvgMap::gridLines() const
-    {
-        // Lines about every 60 to 150 pixels, at round metres of the local frame.
-        const double step = roundStep(150.0 / scale_);
-        std::string data;
-        for (double x = std::ceil(view_.min.x() / step) * step; x <= view_.max.x(); x += step)
-            data += 'M' + px(toPixels({x, 0.0}).x()) + " 0V" + px(height_);
-        for (double y = std::ceil(view_.min.y() / step) * step; y <= view_.max.y(); y += step)
-            data += "M0 " + px(toPixels({0.0, y}).y()) + 'H' + px(width_);
-        return "<path d=\"" + data + "\" fill=\"none\" stroke=\"#e9edf2\"/>\n";
+        addToLegend(legend_, entry);
     }
 
     std::string SvgMap::scaleBar() const
@@ -173,17 +224,45 @@ namespace parking
 
     std::string SvgMap::toSvg(double x, double y) const
     {
+        constexpr const char *FAINT = "#64748b";
+        constexpr double SIZE = 12.0, MARK = 4.0;
+        // Lines about every 60 to 150 pixels.
+        const double step = roundStep(150.0 / scale_);
+        const WorldAxis across(view_.min.x(), view_.max.x(), worldOffset_.x(), step);
+        const WorldAxis upwards(view_.min.y(), view_.max.y(), worldOffset_.y(), step);
+        const double bottom = y + height_;
+        std::string lines, marks, labels;
+        for (const auto &[at, label] : across.ticks)
+        {
+            const double place = toPixels({at, 0.0}).x();
+            lines += 'M' + px(place) + " 0V" + px(height_);
+            marks += 'M' + px(x + place) + ' ' + px(bottom) + 'v' + px(MARK);
+            labels += textElement(x + place, bottom + 17.0, SIZE, FAINT, "middle", label);
+        }
+        for (const auto &[at, label] : upwards.ticks)
+        {
+            const double place = toPixels({0.0, at}).y();
+            lines += "M0 " + px(place) + 'H' + px(width_);
+            marks += 'M' + px(x) + ' ' + px(y + place) + 'h' + px(-MARK);
+            labels += textElement(x - 8.0, y + place + 4.0, SIZE, FAINT, "end", label);
+        }
+        const double left = x - LEFT_OF_FRAME + 14.0, middle = y + 0.5 * height_;
+        labels += textElement(x + 0.5 * width_, bottom + 34.0, SIZE, FAINT, "middle", across.title("x"));
+        labels += textElement(left, middle, SIZE, FAINT, "middle", upwards.title("y"),
+                              " transform=\"rotate(-90 " + px(left) + ' ' + px(middle) + ")\"");
+
         std::string text = "<svg x=\"" + px(x) + "\" y=\"" + px(y) + "\" width=\"" + px(width_) + "\" height=\"" +
                            px(height_) + "\" viewBox=\"0 0 " + px(width_) + ' ' + px(height_) +
                            "\" overflow=\"hidden\" data-left=\"" + formatNumber(view_.min.x()) + "\" data-top=\"" +
                            formatNumber(view_.max.y()) + "\" data-scale=\"" + formatNumber(scale_) +
-                           "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfcfd\"/>\n" + gridLines();
+                           "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfcfd\"/>\n<path d=\"" + lines +
+                           "\" fill=\"none\" stroke=\"#e9edf2\"/>\n";
         for (const std::string &layer : layers_)
             if (!layer.empty())
                 text += "<g>\n" + layer + "</g>\n";
         text += scaleBar();
         text += "<rect x=\"0.5\" y=\"0.5\" width=\"" + px(width_ - 1) + "\" height=\"" + px(height_ - 1) +
                 "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n</svg>\n";
-        return text;
+        return text + "<path d=\"" + marks + "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n" + labels;
     }
 }  // namespace parking

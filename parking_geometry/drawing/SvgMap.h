@@ -22,7 +22,8 @@ namespace parking
 
         /** \brief What a simulated car drove, where it stands beside what was planned. */
         constexpr const char *DRIVEN = "#be185d";
-    }  // namespace svg_colour
+        constexpr const char *PLANNED = "#0f172a";  ///< what was planned, beside what came of it
+    }                                               // namespace svg_colour
 
     /** \brief How a shape is drawn. Widths and dashes in pixels. */
     struct SvgStyle
@@ -46,20 +47,32 @@ namespace parking
         Marks       ///< texts and symbols
     };
 
+    /** \brief What the sample of a legend looks like. */
+    enum class SvgSample
+    {
+        Box,   ///< for areas and cars
+        Line,  ///< for paths
+        Dot    ///< for places
+    };
+
     /** \brief An entry of the legend: a sample of the style beside its meaning. */
     struct SvgLegendEntry
     {
-        std::string label;  ///< plain text; listed once
-        SvgStyle style;     ///< of the sample
-        bool line{false};   ///< the sample is a stroke, otherwise a box
+        std::string label;                 ///< plain text; listed once
+        SvgStyle style;                    ///< of the sample
+        SvgSample sample{SvgSample::Box};  ///< its shape
     };
 
-    /** \brief The map panel of a figure: shapes in metres, y up, at equal scale.
+    /** \brief The map panel of a figure: shapes in metres, y up, at equal scale, with ticks at its frame.
 
-        Coordinates are local ones of a scenario. Shapes that lie outside of the view are left out. */
+        Coordinates are local ones of a scenario; the ticks are labelled with those of the world, see
+        setWorldOffset(). Shapes that lie outside of the view are left out; what draws a shape tells whether it can be
+        seen, so that legends name only that. */
     class SvgMap
     {
     public:
+        static constexpr double LEFT_OF_FRAME = 62.0;  ///< pixels on the left of the panel that its ticks take
+        static constexpr double BELOW_FRAME = 40.0;    ///< and below
         /** \brief A panel \e width pixels wide that shows at least \e view: the shorter side is widened until the panel
             is neither a strip nor a tower.
 
@@ -89,22 +102,33 @@ namespace parking
             return scale_;
         }
 
-        /** \brief A closed shape. \param corners metres */
-        void drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style);
+        /** \brief Where the local origin lies in the world, metres; without it the local coordinates are the world's.
 
-        /** \brief An open line. */
-        void drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style);
+            At coordinates of more digits than can be read at a tick, an axis names a round number once and its ticks
+            what has to be added to it. */
+        void setWorldOffset(const Eigen::Vector2d &offset)
+        {
+            worldOffset_ = offset;
+        }
 
-        /** \brief A disc. \param radius pixels */
-        void drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
+        /** \brief A closed shape. \param corners metres \return can its inside be seen? */
+        bool drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style);
+
+        /** \brief An open line. \return can it be seen? */
+        bool drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style);
+
+        /** \brief A disc. \param radius pixels \return can it be seen? */
+        bool drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
 
         /** \brief A text centred on a point, with a pale halo. */
         void drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour);
 
-        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule). */
-        void drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);
+        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule).
 
-        /** \brief Explains a style in the figure's legend; the same label is listed once. */
+            \param outlines holes run the other way round than what they are in \return can its inside be seen? */
+        bool drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);
+
+        /** \brief Explains a style in the figure's legend; the same label is listed once, an empty one never. */
         void addLegend(const SvgLegendEntry &entry);
 
         /** \brief What addLegend() was told, in that order. */
@@ -113,7 +137,7 @@ namespace parking
             return legend_;
         }
 
-        /** \brief The panel as an svg element whose upper left corner is at \e x, \e y pixels.
+        /** \brief The panel as an svg element whose upper left corner is at \e x, \e y pixels, and its ticks beside it.
 
             Its attributes data-left, data-top (metres, of the corner) and data-scale (pixels per metre) say where its
             pixels lie, so that others can draw on it. */
@@ -122,7 +146,8 @@ namespace parking
     private:
         Eigen::Vector2d toPixels(const Eigen::Vector2d &point) const;
         bool isVisible(const std::vector<Eigen::Vector2d> &points) const;
-        std::string gridLines() const;
+        /** Pixels of an outline's inside that lie in the view; negative for one that runs clockwise. */
+        double visibleArea(const Polygon &outline) const;
         std::string scaleBar() const;
         std::string &layerText(SvgLayer layer);
 
@@ -130,6 +155,7 @@ namespace parking
         double width_;
         double height_{0.0};
         double scale_{1.0};
+        Eigen::Vector2d worldOffset_{0.0, 0.0};
         std::array<std::string, 6> layers_;
         std::vector<SvgLegendEntry> legend_;
     };

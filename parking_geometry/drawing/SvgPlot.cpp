@@ -41,6 +41,11 @@ namespace parking
             return range;
         }
 
+        bool isWithin(const Range &range, double value)
+        {
+            return value >= range.first && value <= range.second;
+        }
+
         /** A range that can be divided by, with a share of it added at both ends. */
         Range padded(Range range, double share)
         {
@@ -66,15 +71,11 @@ namespace parking
             {
                 const double pixels = std::abs(end - begin), size = range.second - range.first;
                 step = roundStep(size * std::min(1.0, 2.0 * spacing / pixels));
-                std::vector<double> values;
-                // Counted instead of added up, so that zero is zero.
-                for (double k = std::ceil(range.first / step - 1e-9); k * step <= range.second + 1e-9 * size; k += 1.0)
-                    values.push_back(k * step);
-                return values;
+                return roundTicks(range.first, range.second, step);
             }
         };
 
-        std::string curve(const SvgSeries &series, const std::string &colour, const Axis &x, const Axis &y)
+        std::string curve(const SvgSeries &series, const SvgStyle &style, const Axis &x, const Axis &y)
         {
             std::string data;
             bool pen = false;
@@ -95,17 +96,59 @@ namespace parking
                 lastX = atX;
                 lastY = atY;
             }
-            SvgStyle style;
-            style.stroke = colour;
-            style.strokeWidth = 1.8;
-            style.dash = series.dashed ? "6 4" : "";
             return data.empty() ? "" : "<path d=\"" + data + '"' + attributes(style) + " stroke-linejoin=\"round\"/>\n";
         }
 
-        std::string line(double x0, double y0, double x1, double y1, const char *colour, const char *more = "")
+        SvgStyle styleOf(const SvgSeries &series, std::size_t index)
         {
-            return "<path d=\"M" + px(x0) + ' ' + px(y0) + 'L' + px(x1) + ' ' + px(y1) + "\" stroke=\"" + colour +
-                   "\" fill=\"none\"" + more + "/>\n";
+            SvgStyle style;
+            style.stroke = series.colour.empty() ? PALETTE[index % PALETTE.size()] : series.colour;
+            style.strokeWidth = 1.8;
+            style.dash = series.dashed ? "6 4" : "";
+            return style;
+        }
+
+        SvgStyle styleOf(const SvgBand &band)
+        {
+            SvgStyle style;
+            style.fill = band.colour;
+            style.fillOpacity = 0.09;
+            return style;
+        }
+
+        SvgStyle styleOfLimits()
+        {
+            SvgStyle style;
+            style.stroke = FAINT;
+            style.dash = "2 4";
+            return style;
+        }
+
+        /** What is drawn and has a label, each label once. */
+        std::vector<SvgLegendEntry> legendOf(const SvgPlot &plot, const Range &upwards)
+        {
+            std::vector<SvgLegendEntry> entries;
+            for (std::size_t i = 0; i < plot.series.size(); ++i)
+                addToLegend(entries, {plot.series[i].label, styleOf(plot.series[i], i), SvgSample::Line});
+            for (const SvgBand &band : plot.bands)
+                addToLegend(entries, {band.label, styleOf(band), SvgSample::Box});
+            if (std::any_of(plot.limits.begin(), plot.limits.end(),
+                            [&upwards](double limit) { return isWithin(upwards, limit); }))
+                addToLegend(entries, {plot.limitsLabel, styleOfLimits(), SvgSample::Line});
+            return entries;
+        }
+
+        std::string line(double x0, double y0, double x1, double y1, const SvgStyle &style)
+        {
+            return "<path d=\"M" + px(x0) + ' ' + px(y0) + 'L' + px(x1) + ' ' + px(y1) + '"' + attributes(style) +
+                   "/>\n";
+        }
+
+        std::string line(double x0, double y0, double x1, double y1, const char *colour)
+        {
+            SvgStyle style;
+            style.stroke = colour;
+            return line(x0, y0, x1, y1, style);
         }
 
         std::string grid(const Axis &x, const Axis &y)
@@ -143,13 +186,12 @@ namespace parking
             const double begin = std::clamp(x(band.begin), x.begin, x.end);
             const double end = std::clamp(x(band.end), x.begin, x.end);
             text += "<rect x=\"" + px(begin) + "\" y=\"" + px(y.end) + "\" width=\"" + px(std::max(0.0, end - begin)) +
-                    "\" height=\"" + px(y.begin - y.end) + "\" fill=\"" + escaped(band.colour) +
-                    "\" fill-opacity=\"0.09\"/>\n";
+                    "\" height=\"" + px(y.begin - y.end) + '"' + attributes(styleOf(band)) + "/>\n";
         }
         text += grid(x, y);
         for (const double limit : limits)
-            if (limit >= upwards.first && limit <= upwards.second)
-                text += line(x.begin, y(limit), x.end, y(limit), FAINT, " stroke-dasharray=\"2 4\"");
+            if (isWithin(upwards, limit))
+                text += line(x.begin, y(limit), x.end, y(limit), styleOfLimits());
         text += "<rect x=\"" + px(x.begin) + "\" y=\"" + px(y.end) + "\" width=\"" + px(x.end - x.begin) +
                 "\" height=\"" + px(y.begin - y.end) + "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n";
 
@@ -157,12 +199,8 @@ namespace parking
         text += "<svg x=\"0\" y=\"" + px(y.end) + "\" width=\"" + px(width) + "\" height=\"" + px(y.begin - y.end) +
                 "\" viewBox=\"0 " + px(y.end) + ' ' + px(width) + ' ' + px(y.begin - y.end) +
                 "\" overflow=\"hidden\">\n";
-        std::vector<std::string> colours;
         for (std::size_t i = 0; i < series.size(); ++i)
-        {
-            colours.push_back(series[i].colour.empty() ? PALETTE[i % PALETTE.size()] : series[i].colour);
-            text += curve(series[i], colours.back(), x, y);
-        }
+            text += curve(series[i], styleOf(series[i], i), x, y);
         text += "</svg>\n";
 
         text += textElement(x.begin, 18.0, 13.0, INK, "start", title, " font-weight=\"600\"");
@@ -170,16 +208,16 @@ namespace parking
         const double middle = 0.5 * (y.begin + y.end);
         text += textElement(14.0, middle, TEXT, FAINT, "middle", yLabel,
                             " transform=\"rotate(-90 14 " + px(middle) + ")\"");
+        const std::vector<SvgLegendEntry> entries = legendOf(*this, upwards);
         double at = x.end;
-        for (std::size_t i = series.size(); i-- > 0;)
+        for (std::size_t i = entries.size(); i-- > 0;)
         {
-            if (series[i].label.empty())
-                continue;
-            text += textElement(at, 18.0, TEXT, INK, "end", series[i].label);
-            at -= textWidth(series[i].label, TEXT) + 8.0;
-            text += line(at - 20.0, 14.0, at, 14.0, escaped(colours[i]).c_str(),
-                         series[i].dashed ? " stroke-width=\"2\" stroke-dasharray=\"6 4\"" : " stroke-width=\"2\"");
-            at -= 36.0;
+            // Widths are estimates: a label begins beside its sample, wherever it ends.
+            at -= textWidth(entries[i].label, TEXT);
+            text += textElement(at, 18.0, TEXT, INK, "start", entries[i].label);
+            at -= 6.0 + SAMPLE_WIDTH;
+            text += legendSample(entries[i], at, 6.0);
+            at -= 14.0;
         }
         return text + "</g>\n";
     }

@@ -10,7 +10,7 @@ namespace parking
     /** \brief A curve of a plot. Values that are not finite interrupt it. */
     struct SvgSeries
     {
-        std::string label;      ///< empty: not listed
+        std::string label;      ///< empty: not listed; the same label is listed once
         std::vector<double> x;  ///< in the unit of the axis
         std::vector<double> y;  ///< as many as x
         std::string colour;     ///< empty: the next one of the palette
@@ -23,6 +23,7 @@ namespace parking
         double begin{0.0};   ///< value of x
         double end{0.0};     ///< value of x, not less than begin
         std::string colour;  ///< as in SVG; drawn pale
+        std::string label;   ///< empty: not listed; the same label is listed once
     };
 
     /** \brief A line plot: a panel below the map. */
@@ -36,6 +37,7 @@ namespace parking
         std::optional<std::pair<double, double>> xRange;  ///< without it: that of the values
         std::optional<std::pair<double, double>> yRange;  ///< without it: that of the values, with some room
         std::vector<double> limits;                       ///< values of y marked by dashed lines
+        std::string limitsLabel;                          ///< empty: not listed
         double height{190.0};                             ///< pixels
 
         /** \brief The panel as a group whose upper left corner is at \e x, \e y pixels.

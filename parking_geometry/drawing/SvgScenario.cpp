@@ -49,32 +49,33 @@ namespace parking
 
         void drawOutside(SvgMap &map, const Scenario &scenario)
         {
-            const Polygon world = scenario.grid ? scenario.grid->outline() : cornersOf(scenario.bounds);
-            const bool allInside = std::all_of(
-                world.begin(), world.end(),
-                [&map](const Eigen::Vector2d &corner) {
-                    return !((corner - map.view().min).minCoeff() > 0.0 && (map.view().max - corner).minCoeff() > 0.0);
-                });
-            map.drawOutlines(SvgLayer::Ground, {cornersOf(map.view()), world}, filled(svg_colour::UNKNOWN));
-            if (!allInside)
-                map.addLegend({"outside of the map", filled(svg_colour::UNKNOWN), false});
+            Polygon world = scenario.grid ? scenario.grid->outline() : cornersOf(scenario.bounds);
+            std::reverse(world.begin(), world.end());  // it is the hole in all the rest
+            const SvgStyle style = filled(svg_colour::UNKNOWN);
+            if (map.drawOutlines(SvgLayer::Ground, {cornersOf(map.view()), world}, style))
+                map.addLegend({"outside of the map", style});
         }
 
         void drawObstacles(SvgMap &map, const Scenario &scenario)
         {
             const SvgStyle style = filled(svg_colour::OBSTACLE, svg_colour::OBSTACLE_EDGE);
+            bool seen = false;
             for (const Polygon &polygon : scenario.polygons)
-                map.drawPolygon(SvgLayer::Obstacles, polygon, style);
-            map.addLegend({"obstacle", style, false});
-            if (!scenario.grid)
-                return;
-            map.drawOutlines(SvgLayer::Obstacles, outlineCells(*scenario.grid, Cell::Occupied, map.view()), style);
-            const std::vector<Polygon> unknown = outlineCells(*scenario.grid, Cell::Unknown, map.view());
-            if (unknown.empty())
-                return;
-            map.drawOutlines(SvgLayer::Ground, unknown, filled(svg_colour::UNKNOWN));
-            map.addLegend({scenario.unknownIsOccupied ? "unknown (not to be entered)" : "unknown (taken as free)",
-                           filled(svg_colour::UNKNOWN), false});
+                seen |= map.drawPolygon(SvgLayer::Obstacles, polygon, style);
+            if (scenario.grid)
+                seen |= map.drawOutlines(SvgLayer::Obstacles, outlineCells(*scenario.grid, Cell::Occupied, map.view()),
+                                         style);
+            if (seen)
+                map.addLegend({"obstacle", style});
+        }
+
+        void drawUnknown(SvgMap &map, const Scenario &scenario)
+        {
+            const SvgStyle style = filled(svg_colour::UNKNOWN);
+            if (scenario.grid &&
+                map.drawOutlines(SvgLayer::Ground, outlineCells(*scenario.grid, Cell::Unknown, map.view()), style))
+                map.addLegend(
+                    {scenario.unknownIsOccupied ? "unknown (not to be entered)" : "unknown (taken as free)", style});
         }
 
         /** Pieces of one direction, which their last state tells; each begins with the last state of the one before. */
@@ -90,13 +91,20 @@ namespace parking
             return stretches;
         }
 
-        /** The car along one stretch, \e spacing metres apart and at the stretch's end. */
-        void drawSweep(SvgMap &map, const SampledPath &stretch, const Vehicle &vehicle, double spacing)
+        SvgStyle sweepStyle(int direction)
         {
-            SvgStyle style = filled(colourOf(stretch.back().direction), colourOf(stretch.back().direction));
+            SvgStyle style = filled(colourOf(direction), colourOf(direction));
             style.fillOpacity = 0.035;
             style.strokeOpacity = 0.4;
             style.strokeWidth = 0.8;
+            return style;
+        }
+
+        /** The car along one stretch, \e spacing metres apart and at the stretch's end. \return can any be seen? */
+        bool drawSweep(SvgMap &map, const SampledPath &stretch, const Vehicle &vehicle, double spacing)
+        {
+            const SvgStyle style = sweepStyle(stretch.back().direction);
+            bool seen = false;
             double next = stretch.front().arcLength + spacing;
             for (const PathState &state : stretch)
             {
@@ -106,9 +114,10 @@ namespace parking
                 // Not two cars within half a spacing: they would look like one with a fat line.
                 if (!last && stretch.back().arcLength - state.arcLength < 0.5 * spacing)
                     continue;
-                map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
+                seen |= map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
                 next = state.arcLength + spacing;
             }
+            return seen;
         }
 
         /** Points of the car's own frame, placed at \e pose. */
@@ -140,60 +149,69 @@ namespace parking
 
     void drawScenario(SvgMap &map, const Scenario &scenario)
     {
+        map.setWorldOffset(scenario.worldOffset);
         drawOutside(map, scenario);
-        drawCar(map, scenario.start, scenario.vehicle, svg_colour::START, "start");
+        bool seen = drawCar(map, scenario.start, scenario.vehicle, svg_colour::START, "start");
         for (std::size_t i = 0; i < scenario.goals.size(); ++i)
         {
             // Other goals are the same place the other way round: a second car on top would make both illegible.
+            const SvgStyle other = filled("#ffffff", svg_colour::GOAL);
             if (i == 0)
-                drawCar(map, scenario.goals[i], scenario.vehicle, svg_colour::GOAL, "goal");
-            else
-                map.drawDot(SvgLayer::Cars, positionOf(scenario.goals[i]), 3.0, filled("#ffffff", svg_colour::GOAL));
+                seen |= drawCar(map, scenario.goals[i], scenario.vehicle, svg_colour::GOAL, "goal");
+            else if (map.drawDot(SvgLayer::Cars, positionOf(scenario.goals[i]), 3.0, other))
+                map.addLegend({"other goal", other, SvgSample::Dot});
         }
+        if (seen)
+            map.addLegend({"pose (middle of the rear axle)", filled(svg_colour::START), SvgSample::Dot});
         if (scenario.slot)
         {
             SvgStyle style = filled(svg_colour::GOAL, svg_colour::GOAL);
             style.fillOpacity = 0.07;
             style.strokeWidth = 1.4;
             style.dash = "6 4";
-            map.drawPolygon(SvgLayer::Ground, scenario.slot->outline(), style);
-            map.addLegend({"slot", style, false});
+            if (map.drawPolygon(SvgLayer::Ground, scenario.slot->outline(), style))
+                map.addLegend({"slot", style});
         }
         drawObstacles(map, scenario);
+        drawUnknown(map, scenario);
     }
 
-    void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle)
+    void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle, const std::string &what)
     {
         if (path.size() < 2)
             return;
         const double spacing = std::max({0.6, 22.0 / map.scale(), pathLength(path) / 60.0});
         const std::vector<SampledPath> stretches = stretchesOf(path);
+        bool swept = false, turned = false;
+        SvgStyle dot = filled("#ffffff", "#0f172a");
+        dot.strokeWidth = 1.4;
         for (const SampledPath &stretch : stretches)
         {
             const int direction = stretch.back().direction;
-            drawSweep(map, stretch, vehicle, spacing);
+            swept |= drawSweep(map, stretch, vehicle, spacing);
             std::vector<Eigen::Vector2d> track;
             for (const PathState &state : stretch)
                 track.push_back(positionOf(state.pose));
-            map.drawLine(SvgLayer::Lines, track, stroked(colourOf(direction), 2.4));
-            map.addLegend({direction < 0 ? "reverse" : "forward", stroked(colourOf(direction), 2.4), true});
+            const SvgStyle style = stroked(colourOf(direction), 2.4);
+            if (map.drawLine(SvgLayer::Lines, track, style))
+                map.addLegend({what + (direction < 0 ? ", reverse" : ", forward"), style, SvgSample::Line});
             if (&stretch != &stretches.back())
-            {
-                SvgStyle dot = filled("#ffffff", "#0f172a");
-                dot.strokeWidth = 1.4;
-                map.drawDot(SvgLayer::Marks, track.back(), 3.4, dot);
-            }
+                turned |= map.drawDot(SvgLayer::Marks, track.back(), 3.4, dot);
         }
+        if (turned)
+            map.addLegend({"change of direction", dot, SvgSample::Dot});
+        if (swept)
+            map.addLegend({"car along the " + what, sweepStyle(stretches.front().back().direction)});
     }
 
-    void drawCar(SvgMap &map, const Pose &pose, const Vehicle &vehicle, const std::string &colour,
+    bool drawCar(SvgMap &map, const Pose &pose, const Vehicle &vehicle, const std::string &colour,
                  const std::string &label)
     {
         SvgStyle body = filled(colour, colour);
         body.fillOpacity = 0.22;
         body.strokeWidth = 1.6;
         const SvgLayer layer = SvgLayer::Cars;
-        map.drawPolygon(layer, bodyOf(vehicle, pose), body);
+        const bool seen = map.drawPolygon(layer, bodyOf(vehicle, pose), body);
 
         // Wheels and windows: they tell front from rear at a glance.
         const double half = 0.5 * vehicle.width, rear = -vehicle.rearOverhang;
@@ -227,18 +245,20 @@ namespace parking
                                       {back + 0.07 * length, -0.62 * half}}),
                         glass);
         map.drawDot(layer, positionOf(pose), 2.6, filled(colour));
-        if (!label.empty())
-            map.addLegend({label, body, false});
+        if (seen)
+            map.addLegend({label, body});
+        return seen;
     }
 
-    void drawTrack(SvgMap &map, const std::vector<Pose> &poses, const std::string &colour, const std::string &label)
+    void drawTrack(SvgMap &map, const std::vector<Pose> &poses, const std::string &colour, const std::string &label,
+                   const std::string &dash)
     {
         std::vector<Eigen::Vector2d> track;
         for (const Pose &pose : poses)
             track.push_back(positionOf(pose));
-        const SvgStyle style = stroked(colour, 1.6, "5 3");
-        map.drawLine(SvgLayer::Lines, track, style);
-        map.addLegend({label, style, true});
+        const SvgStyle style = stroked(colour, 1.6, dash);
+        if (map.drawLine(SvgLayer::Lines, track, style))
+            map.addLegend({label, style, SvgSample::Line});
     }
 
     SvgPlot curvaturePlot(const SampledPath &path, const Vehicle &vehicle)
@@ -249,12 +269,14 @@ namespace parking
         plot.yLabel = "curvature (1/m)";
         const double limit = 1.0 / vehicle.minTurningRadius();
         plot.limits = {-limit, limit};
+        plot.limitsLabel = "limit of the car";
         for (const SampledPath &stretch : stretchesOf(path))
         {
             if (stretch.back().direction < 0)
-                plot.bands.push_back({stretch.front().arcLength, stretch.back().arcLength, svg_colour::REVERSE});
+                plot.bands.push_back({stretch.front().arcLength, stretch.back().arcLength, svg_colour::REVERSE, {}});
             // A curve for each stretch: the steering may jump where the car stands.
             SvgSeries series;
+            series.label = stretch.back().direction < 0 ? "reverse" : "forward";
             series.colour = colourOf(stretch.back().direction);
             for (std::size_t i = 1; i < stretch.size(); ++i)
             {

@@ -83,6 +83,31 @@ namespace parking
                "\" text-anchor=\"" + anchor + '"' + more + '>' + escaped(text) + "</text>\n";
     }
 
+    void addToLegend(std::vector<SvgLegendEntry> &legend, const SvgLegendEntry &entry)
+    {
+        const bool listed = std::any_of(legend.begin(), legend.end(),
+                                        [&entry](const SvgLegendEntry &other) { return other.label == entry.label; });
+        if (!entry.label.empty() && !listed)
+            legend.push_back(entry);
+    }
+
+    std::string legendSample(const SvgLegendEntry &entry, double x, double y)
+    {
+        const std::string style = attributes(entry.style) + "/>\n";
+        switch (entry.sample)
+        {
+            case SvgSample::Line:
+                return "<path d=\"M" + px(x) + ' ' + px(y + 8.0) + 'h' + px(SAMPLE_WIDTH) +
+                       "\" stroke-linecap=\"round\"" + style;
+            case SvgSample::Dot:
+                return "<circle cx=\"" + px(x + 0.5 * SAMPLE_WIDTH) + "\" cy=\"" + px(y + 8.0) + "\" r=\"3.4\"" + style;
+            case SvgSample::Box:
+                break;
+        }
+        return "<rect x=\"" + px(x + 1.0) + "\" y=\"" + px(y + 2.0) + "\" width=\"" + px(SAMPLE_WIDTH - 2.0) +
+               "\" height=\"12\" rx=\"2\"" + style;
+    }
+
     double textWidth(std::string_view text, double size)
     {
         return 0.54 * size * static_cast<double>(text.size());
@@ -95,6 +120,16 @@ namespace parking
             if (factor * power <= value * (1.0 + 1e-9))
                 return factor * power;
         return power;
+    }
+
+    std::vector<double> roundTicks(double begin, double end, double step)
+    {
+        std::vector<double> ticks;
+        const double first = std::ceil(begin / step - 1e-9), most = (end - begin) / step + 1.0;
+        // Counted instead of added up, so that zero is zero, and never on and on where numbers are too large to count.
+        for (double k = 0.0; k <= most && (first + k) * step <= end + 1e-9 * (end - begin); k += 1.0)
+            ticks.push_back((first + k) * step);
+        return ticks;
     }
 
     std::string tickLabel(double value, double step)

@@ -8,7 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,11 +50,11 @@ namespace
         EXPECT_EQ(count(page, "A drive"), 2u);
         EXPECT_EQ(count(page, "in words"), 1u);
         for (const char *part : {"id=\"play\"", "type=\"range\"", "id=\"car\"", "planned, forwards", "planned, reverse",
-                                 "\"wheelbase\":2.8", "</html>"})
+                                 "\"wheelbase\":2.8", "x (m)", "</html>"})
             EXPECT_NE(page.find(part), std::string::npos) << part;
         // Every mark was replaced.
-        for (const char *mark : {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@WIDTH@", "@HEIGHT@",
-                                 "@LEGEND@", "@DRIVEN@", "@REVERSE@", "@FORWARD@"})
+        for (const char *mark : {"@TITLE@", "@SUBTITLE@", "@DATA@", "@MAP@", "@METRES@", "@VIEW@", "@LEGEND@",
+                                 "@DRIVEN@", "@REVERSE@", "@FORWARD@"})
             EXPECT_EQ(page.find(mark), std::string::npos) << mark;
         // Nothing is fetched: the only address is the name of SVG's namespace.
         EXPECT_EQ(count(page, "://"), count(page, "http://www.w3.org/2000/svg"));
@@ -68,6 +72,16 @@ namespace
         EXPECT_EQ(page.find("\"plannedV\":[]"), std::string::npos);
         expectError([&] { driveAnimation(openGround(), {}, someDrive(), "t", {}, {someDrive().front()}); },
                     {"1 points"});
+    }
+
+    TEST(DriveAnimationTest, namesWhatThePlotsShow)
+    {
+        const std::string page = driveAnimation(openGround(), somePath(), someDrive(), "t");
+        for (const char *label : {">driven<", ">in reverse (plots)<", ">limit of the car (plots)<"})
+            EXPECT_EQ(count(page, label), 1u) << label;
+        Trajectory forwards = someDrive();
+        forwards.back().v = 0.0;
+        EXPECT_EQ(count(driveAnimation(openGround(), somePath(), forwards, "t"), ">in reverse (plots)<"), 0u);
     }
 
     TEST(DriveAnimationTest, writesEveryPointShortly)
@@ -125,6 +139,97 @@ namespace
             EXPECT_NE(figure.find(part), std::string::npos) << part;
         const std::string plain = driveFigure(openGround(), somePath(), {}, "A plan").toString();
         EXPECT_EQ(plain.find("Steering angle"), std::string::npos);
+    }
+
+    /** Along y from x 0 to 10, standing first. */
+    Trajectory driveAlong(double y, double direction = 1.0)
+    {
+        Trajectory drive(2, {-1.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, 0.0});
+        for (int i = 0; i <= 50; ++i)
+            drive.push_back({0.1 * i, direction * 0.2 * i, y, 0.0, direction * 2.0, 0.0, 0.0, 0.0});
+        drive.push_back({5.1, direction * 10.0, y, 0.0, 0.0, 0.0, 0.0, 0.0});
+        return drive;
+    }
+
+    std::set<std::string> waysInLegend(const SvgMap &map)
+    {
+        std::set<std::string> labels;
+        for (const SvgLegendEntry &entry : map.legend())
+            if (entry.sample == SvgSample::Line || entry.label.find("along") != std::string::npos ||
+                entry.label == "change of direction")
+                labels.insert(entry.label);
+        return labels;
+    }
+
+    /** The y of all middles of the cars drawn along a way. */
+    std::set<double> sweptAlong(const SvgMap &map)
+    {
+        const std::string svg = map.toSvg(0.0, 0.0);
+        std::set<double> found;
+        const std::regex car("points=\"([^\"]*)\"[^>]*stroke-opacity=\"0.4\"");
+        for (std::sregex_iterator each(svg.begin(), svg.end(), car), end; each != end; ++each)
+        {
+            std::istringstream corners((*each)[1]);
+            double sum = 0.0;
+            for (std::string corner; corners >> corner;)
+                sum += std::stod(corner.substr(corner.find(',') + 1));
+            found.insert(std::round(10.0 * (map.view().max.y() - 0.25 * sum / map.scale())) / 10.0);
+        }
+        return found;
+    }
+
+    TEST(DriveFigureTest, drawsTheCarAlongWhatIsKnownBestOfItsWay)
+    {
+        using Labels = std::set<std::string>;
+        const Scenario scenario = openGround();
+        const SampledPath path = Path{{}, {{0.0, 10.0}}}.sample(0.1);
+        const Trajectory planned = driveAlong(2.0), driven = driveAlong(-12.0);
+
+        SvgMap map = driveMap(scenario, path, {}, {});
+        EXPECT_EQ(sweptAlong(map), (std::set<double>{0.0}));
+        EXPECT_EQ(waysInLegend(map), (Labels{"path, forward", "car along the path"}));
+
+        map = driveMap(scenario, path, planned, {});
+        EXPECT_EQ(sweptAlong(map), (std::set<double>{2.0}));
+        EXPECT_EQ(waysInLegend(map), (Labels{"planned path", "trajectory, forward", "car along the trajectory"}));
+
+        map = driveMap(scenario, path, planned, driven);
+        EXPECT_EQ(sweptAlong(map), (std::set<double>{-12.0}));
+        EXPECT_EQ(waysInLegend(map),
+                  (Labels{"planned path", "planned trajectory", "drive, forward", "car along the drive"}));
+        for (const double y : {0.0, 2.0, -12.0})
+            EXPECT_TRUE(map.view().contains(5.0, y));
+
+        // Standing is no direction of its own.
+        map = driveMap(scenario, {}, {}, driveAlong(0.0, -1.0));
+        EXPECT_EQ(waysInLegend(map), (Labels{"drive, reverse", "car along the drive"}));
+        Trajectory both = driveAlong(1.0);
+        for (const TrajectoryPoint &point : driveAlong(1.0, -1.0))
+            both.push_back({point.t + 10.0, point.x + 10.0, 1.0, 0.0, point.v, 0.0, 0.0, 0.0});
+        EXPECT_EQ(waysInLegend(driveMap(scenario, path, both, {})),
+                  (Labels{"planned path", "trajectory, forward", "trajectory, reverse", "change of direction",
+                          "car along the trajectory"}));
+
+        EXPECT_EQ(waysInLegend(driveMap(scenario, {}, {planned.front()}, {})), Labels());
+        EXPECT_EQ(sweptAlong(driveMap(scenario, {}, {}, {})), std::set<double>());
+    }
+
+    TEST(DriveFigureTest, plotsNameTheirCurves)
+    {
+        const auto labels = [](const SvgPlot &plot)
+        {
+            std::vector<std::string> found;
+            for (const SvgSeries &series : plot.series)
+                found.push_back(series.label);
+            return found;
+        };
+        using Labels = std::vector<std::string>;
+        const Trajectory drive = driveAlong(0.0);
+        EXPECT_EQ(labels(drivePlots(drive, Vehicle())[0]), (Labels{"driven"}));
+        EXPECT_EQ(labels(drivePlots(drive, Vehicle(), drive)[0]), (Labels{"driven", "planned"}));
+        EXPECT_EQ(labels(drivePlots({}, Vehicle(), drive)[0]), (Labels{"planned"}));
+        EXPECT_FALSE(drivePlots({}, Vehicle(), drive)[0].series[0].dashed);
+        EXPECT_EQ(drivePlots({}, Vehicle(), driveAlong(0.0, -1.0))[0].bands[0].label, "reverse");
     }
 
     TEST(DriveFigureTest, plotsWhatTheCarDid)

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 import xml.etree.ElementTree
 
@@ -165,6 +166,15 @@ class Bundled(ProgramTest):
         picture = xml.etree.ElementTree.fromstring(self.read('result.svg'))
         self.assertTrue(picture.tag.endswith('svg'))
         self.assertEqual(sorted(os.listdir(self.folder)), ['result.json', 'result.svg'])
+
+    def test_the_picture_shows_the_car_along_what_it_is_about(self):
+        for options, shown, beside in (([], 'path', []), (['--trajectory'], 'trajectory', ['planned path']),
+                                       (['--trajectory', '--track'], 'drive', ['planned path', 'planned trajectory'])):
+            self.plan(bundled('parallel'), '--svg', 'result.svg', *options)
+            legend = re.findall('>([^<>]+)</text>', self.read('result.svg'))
+            self.assertEqual([label for label in legend if label.startswith('car along')], [f'car along the {shown}'])
+            self.assertIn(f'{shown}, reverse', legend)
+            self.assertEqual([label for label in legend if label.startswith('planned ')], beside)
 
     def test_on_a_terminal_long_steps_tell_of_themselves(self):
         leader, terminal = os.openpty()

@@ -56,7 +56,7 @@ class TrackTest(ProgramTest):
     def test_picture_and_page(self):
         self.planned(bundled('perpendicular'), '--track', '--svg', self.path('a.svg'), '--html', self.path('a.html'))
         picture = self.read('a.svg')
-        for part in ('Acceleration', 'Steering angle', 'driven'):
+        for part in ('Acceleration', 'Steering angle', 'driven', 'car along the drive', 'planned path'):
             self.assertIn(part, picture)
         page = self.read('a.html')
         self.assertIn('<!DOCTYPE html>', page)

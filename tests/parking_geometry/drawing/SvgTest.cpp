@@ -166,6 +166,8 @@ TEST(SvgText, TicksAreRound)
     EXPECT_EQ(tickLabel(0.3, 0.1), "0.3");
     EXPECT_EQ(tickLabel(-0.0000001, 0.1), "0.0");
     EXPECT_EQ(tickLabel(20.0, 5.0), "20");
+    EXPECT_EQ(roundTicks(-0.6, 1.0, 0.5), (std::vector<double>{-0.5, 0.0, 0.5, 1.0}));
+    EXPECT_LT(roundTicks(1e300, 1e300, 1.0).size(), 3u);  // where adding 1 changes nothing
 }
 
 TEST(CellOutlines, CoverExactlyTheCells)
@@ -260,12 +262,12 @@ TEST(SvgFigure, DrawsAScenarioWithItsPath)
     figure.addPlot(curvaturePlot(path, scenario.vehicle));
     const std::string svg = figure.toString();
     EXPECT_TRUE(isWellFormed(svg));
-    for (const char *expected :
-         {"A &amp; B", "2 &lt; 3", "&lt;P&gt;", ">forward<", ">reverse<", ">start<", ">goal<", ">slot<", ">driven<",
-          ">obstacle<", "curvature (1/m)", svg_colour::FORWARD, svg_colour::REVERSE})
+    for (const char *expected : {"A &amp; B", "2 &lt; 3", "&lt;P&gt;", ">path, forward<", ">path, reverse<", ">start<",
+                                 ">goal<", ">slot<", ">driven<", ">obstacle<", ">car along the path<",
+                                 "curvature (1/m)", ">limit of the car<", svg_colour::FORWARD, svg_colour::REVERSE})
         EXPECT_NE(svg.find(expected), std::string::npos) << expected;
-    EXPECT_EQ(countOf(svg, "<circle"), 2u + 2u);  // two changes of direction, two rear axles
-    EXPECT_EQ(countOf(svg, ">forward<"), 1u);
+    EXPECT_EQ(countOf(svg, "<circle"), 2u + 2u + 2u);  // two changes of direction, two rear axles, and their names
+    EXPECT_EQ(countOf(svg, ">path, forward<"), 1u);
     EXPECT_LT(svg.size(), 60000u);
     // The far obstacle is left out.
     Scenario without = scenario;
@@ -372,6 +374,20 @@ TEST(SvgPlot, DrawsWhateverTheValues)
     plot.title = "speed";
     plot.series.push_back({"v", {1, 2}, {1}, "", false});
     expectError([&plot] { plot.toSvg(0, 0, 600); }, {"'speed'", "'v'", "2", "1"});
+}
+
+TEST(SvgPlot, NamesWhatIsDrawnOnce)
+{
+    SvgPlot plot;
+    plot.series = {{"a", {0, 1}, {0, 1}, "", false}, {"a", {1, 2}, {1, 0}, "", false}, {"", {0, 2}, {0, 0}, "", true}};
+    plot.bands = {{0.0, 0.5, "#123456", "reverse"}, {1.0, 1.5, "#123456", "reverse"}};
+    plot.limits = {-0.5, 0.5};
+    plot.limitsLabel = "limit";
+    const std::string svg = plot.toSvg(0, 0, 600);
+    for (const char *label : {">a<", ">reverse<", ">limit<"})
+        EXPECT_EQ(countOf(svg, label), 1u) << label;
+    plot.yRange = {-0.4, 0.4};
+    EXPECT_EQ(plot.toSvg(0, 0, 600).find(">limit<"), std::string::npos);
 }
 
 TEST(SvgPlot, AConstantRunsThroughTheMiddle)

@@ -1,0 +1,131 @@
+#include "parking_geometry/drawing/SvgScenario.h"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+using namespace parking;
+
+namespace
+{
+    using Labels = std::set<std::string>;
+
+    Labels labelsOf(const SvgMap &map)
+    {
+        Labels labels;
+        for (const SvgLegendEntry &entry : map.legend())
+            labels.insert(entry.label);
+        return labels;
+    }
+
+    Labels with(Labels labels, const std::string &another)
+    {
+        labels.insert(another);
+        return labels;
+    }
+
+    /** A goal ahead on open ground that reaches beyond the view. */
+    Scenario openGround()
+    {
+        Scenario scenario;
+        scenario.goals = {{12.0, 0.0, 0.0}};
+        scenario.bounds = {{-50, -50}, {50, 50}};
+        return scenario;
+    }
+
+    Labels legendOf(const Scenario &scenario)
+    {
+        SvgMap map(viewAround(scenario));
+        drawScenario(map, scenario);
+        return labelsOf(map);
+    }
+
+    Labels legendAlong(const Path &path)
+    {
+        const SampledPath states = path.sample(0.1);
+        SvgMap map(viewAround(openGround(), states));
+        drawPath(map, states, Vehicle(), "way");
+        return labelsOf(map);
+    }
+
+    const Labels CARS{"start", "goal", "pose (middle of the rear axle)"};
+}  // namespace
+
+TEST(SvgScenario, LegendsNameWhatIsSeenOfAScenario)
+{
+    EXPECT_EQ(legendOf(openGround()), CARS);
+
+    Scenario scenario = openGround();
+    scenario.goals.push_back({11.0, 0.0, PI});
+    EXPECT_EQ(legendOf(scenario), with(CARS, "other goal"));
+
+    scenario = openGround();
+    scenario.slot = ParkingSlot{};
+    scenario.slot->pose = scenario.goals.front();
+    EXPECT_EQ(legendOf(scenario), with(CARS, "slot"));
+
+    scenario = openGround();
+    scenario.polygons = {{{40, 40}, {41, 40}, {41, 41}}};
+    EXPECT_EQ(legendOf(scenario), CARS);
+    // A wall past the corner of the view; only the box round it reaches into the view.
+    scenario.polygons = {{{-10, 40}, {50, -20}, {50, -19}, {-9, 40}}};
+    EXPECT_EQ(legendOf(scenario), CARS);
+    scenario.polygons.push_back({{5, 3}, {6, 3}, {6, 4}});
+    EXPECT_EQ(legendOf(scenario), with(CARS, "obstacle"));
+
+    // The world ends within the view on one side only.
+    scenario = openGround();
+    scenario.bounds.min.y() = -2.0;
+    EXPECT_EQ(legendOf(scenario), with(CARS, "outside of the map"));
+}
+
+TEST(SvgScenario, LegendsNameWhatIsSeenOfAMap)
+{
+    Scenario scenario = openGround();
+    scenario.grid = OccupancyGrid(200, 200, 0.5, {-50.0, -50.0, 0.0}, Cell::Free);
+    EXPECT_EQ(legendOf(scenario), CARS);
+    scenario.grid->set(0, 0, Cell::Occupied);
+    scenario.grid->set(1, 0, Cell::Unknown);
+    EXPECT_EQ(legendOf(scenario), CARS);
+    scenario.grid->set(105, 107, Cell::Occupied);
+    EXPECT_EQ(legendOf(scenario), with(CARS, "obstacle"));
+    scenario.grid->set(110, 107, Cell::Unknown);
+    EXPECT_EQ(legendOf(scenario), with(with(CARS, "obstacle"), "unknown (not to be entered)"));
+    scenario.unknownIsOccupied = false;
+    EXPECT_EQ(legendOf(scenario), with(with(CARS, "obstacle"), "unknown (taken as free)"));
+    // A map that lies askew and ends within the view.
+    scenario.grid = OccupancyGrid(200, 200, 0.5, {10.0, -60.0, 0.2}, Cell::Free);
+    EXPECT_EQ(legendOf(scenario), with(CARS, "outside of the map"));
+}
+
+TEST(SvgScenario, LegendsNameWhatIsSeenOfAPath)
+{
+    const Path forward{{}, {{0.0, 10.0}}}, reverse{{}, {{0.0, -10.0}}}, both{{}, {{0.0, 5.0}, {0.1, -5.0}}};
+    EXPECT_EQ(legendAlong(forward), (Labels{"way, forward", "car along the way"}));
+    EXPECT_EQ(legendAlong(reverse), (Labels{"way, reverse", "car along the way"}));
+    EXPECT_EQ(legendAlong(both), (Labels{"way, forward", "way, reverse", "change of direction", "car along the way"}));
+}
+
+TEST(SvgScenario, LegendsLeaveOutWhatIsOutsideOfTheView)
+{
+    SvgMap map({{100, 100}, {110, 110}});
+    drawScenario(map, openGround());
+    drawPath(map, Path{{}, {{0.0, 5.0}, {0.1, -5.0}}}.sample(0.1), Vehicle());
+    drawTrack(map, {{0, 0, 0}, {5, 0, 0}}, svg_colour::PLANNED, "track");
+    EXPECT_FALSE(drawCar(map, {}, Vehicle(), svg_colour::START, "car"));
+    EXPECT_EQ(labelsOf(map), (Labels{"outside of the map"}));
+}
+
+TEST(SvgScenario, TicksAreThoseOfTheScenariosWorld)
+{
+    Scenario scenario = openGround();
+    scenario.worldOffset = {4508927500.0, -5511483900.0};
+    SvgMap map(viewAround(scenario));
+    drawScenario(map, scenario);
+    const std::string svg = map.toSvg(0, 0);
+    EXPECT_NE(svg.find(">x - 4508927000 (m)<"), std::string::npos);
+    EXPECT_NE(svg.find(">y + 5511484000 (m)<"), std::string::npos);
+    EXPECT_NE(svg.find(">500<"), std::string::npos);
+    EXPECT_NE(svg.find(">100<"), std::string::npos);
+}
