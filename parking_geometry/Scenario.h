@@ -35,6 +35,7 @@ namespace parking
         bool unknownIsOccupied{true};           ///< how unknown cells of the grid count
         Box bounds;                             ///< local; for a grid world the box round the map
         Eigen::Vector2d worldOffset{0.0, 0.0};  ///< metres; where the local origin lies in the coordinates of the file
+        std::vector<std::string> files;         ///< all that it was read from: itself, its map and image, its car
 
         /** \brief Expresses a local pose in the coordinates of the file. */
         Pose toWorld(const Pose &local) const

@@ -223,6 +223,14 @@ namespace parking
                 spec.settings.emplace_back(parameter, value);
         }
 
+        /** What a comparison reads once for each experiment and again for the pictures cannot come through a pipe. */
+        void refusePipe(const std::string &file)
+        {
+            std::error_code ignored;
+            if (fs::is_fifo(file, ignored) || fs::is_socket(file, ignored))
+                throw Error(file + ": is a pipe; a comparison reads it more than once, so that it must be a file");
+        }
+
         /** Maps and vehicles are YAML files too: a scenario is one that has a start. */
         bool isScenario(const fs::path &file)
         {
@@ -311,6 +319,7 @@ namespace parking
         }
         else if (key == "vehicle")
         {
+            refusePipe(value);
             if (!value.empty())
                 readVehicle(value);  // so that one that is not known is found here, where its line is
             options.vehicle = value;
@@ -363,7 +372,10 @@ namespace parking
                     files.push_back(each);
             }
         else
+        {
+            refusePipe(path.string());
             return {path.string()};
+        }
         if (files.empty())
             throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, .csv or .mat files)");
         std::sort(files.begin(), files.end(), naturallyBefore);

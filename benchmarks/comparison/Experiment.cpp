@@ -235,7 +235,8 @@ namespace parking
                 for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
                     name = wanted + "_" + std::to_string(number);
                 names.push_back(name);
-                variants.push_back({name, file, options, {i}, digestOf(read(options))});
+                const Scenario scenario = read(options);
+                variants.push_back({name, file, options, {i}, digestOf(scenario), scenario.files});
             }
             experiments.insert(experiments.end(), variants.begin(), variants.end());
         }

@@ -17,6 +17,7 @@ namespace parking
         ProblemOptions options;             ///< what is changed of the scenario, and how it is put
         std::vector<std::size_t> planners;  ///< indices into BenchmarkConfig::planners
         std::string digest;                 ///< of everything that the scenario's files say
+        std::vector<std::string> files;     ///< all that the scenario is read from
 
         /** \brief Reads the scenario, with what the options change of it. Throws parking::Error naming the file. */
         Scenario scenario() const;

@@ -36,7 +36,7 @@ namespace parking
         bool hasContent(const std::string &file)
         {
             std::error_code ignored;
-            return fs::exists(file, ignored) && fs::file_size(file, ignored) > 0;
+            return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
         }
 
         bool hasLine(const std::string &file)

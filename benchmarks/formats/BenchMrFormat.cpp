@@ -10,7 +10,6 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/io/ScenarioReader.h"
-#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
 
@@ -185,12 +184,12 @@ namespace parking
             return Pose{x, y, data.number()};
         }
 
-        Scenario read(const std::string &file, const FormatOptions &options)
+        Scenario parse(const std::string &file, const std::string &text, const FormatOptions &options)
         {
-            const std::string text = readFile(file, LARGEST);
             Scenario scenario;
+            scenario.files = {file};
             scenario.name = std::filesystem::path(file).stem().string();
-            scenario.vehicle = options.vehicle.empty() ? benchMrCar() : readVehicle(options.vehicle);
+            scenario.vehicle = options.vehicle.empty() ? benchMrCar() : readVehicle(options.vehicle, &scenario.files);
             Eigen::Vector2d shift(0.0, 0.0);
             const std::string move = "transform=", path = "d=";
             for (std::size_t place = 0; place < text.size();)
@@ -278,7 +277,8 @@ namespace parking
                 ".svg",
                 "polygon scenes of Bench-MR; obstacles are convex, start and goal may be options",
                 [](std::string_view begin) { return begin.find("<svg") != std::string_view::npos; },
-                read,
+                LARGEST,
+                parse,
                 write};
     }
 }  // namespace parking

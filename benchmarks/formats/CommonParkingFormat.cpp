@@ -74,13 +74,15 @@ namespace parking
             return 0.5 * twice;
         }
 
-        Scenario read(const std::string &file, const FormatOptions &options)
+        Scenario parse(const std::string &file, const std::string &content, const FormatOptions &options)
         {
-            const MatValue data = readMat(file, "caseData");
+            const MatValue data = parseMat(file, content, "caseData");
             const MatValue &task = need(file, data, "", "task"), &obstacle = need(file, data, "", "obstacle");
             Scenario scenario;
+            scenario.files = {file};
             scenario.name = std::filesystem::path(file).stem().string();
-            scenario.vehicle = options.vehicle.empty() ? commonParkingCar() : readVehicle(options.vehicle);
+            scenario.vehicle =
+                options.vehicle.empty() ? commonParkingCar() : readVehicle(options.vehicle, &scenario.files);
             const auto of = [&](const char *name)
             {
                 return number(file, task, ".task", name);
@@ -163,7 +165,8 @@ namespace parking
                 ".mat",
                 "cases of CommonParking, MATLAB 5; the car steers up to 0.7 rad",
                 [](std::string_view begin) { return begin.substr(0, 7) == "MATLAB "; },
-                read,
+                MAT_FILE_LIMIT,
+                parse,
                 write};
     }
 }  // namespace parking

@@ -82,6 +82,11 @@ namespace parking
         return nullptr;
     }
 
+    MatValue readMat(const std::string &file, const std::string &variable)
+    {
+        return parseMat(file, readFile(file, MAT_FILE_LIMIT), variable);
+    }
+
 #ifdef PARKING_HAVE_MATIO
     namespace
     {

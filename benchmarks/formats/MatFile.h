@@ -52,11 +52,18 @@ namespace parking
     /** \brief Can this build read and write such files? It takes libmatio, which writes them, and its zlib. */
     bool hasMatFiles();
 
+    /** \brief Most bytes of a MATLAB file that are read, and of what is compressed in it: a world of a million corners
+        takes less. */
+    constexpr std::size_t MAT_FILE_LIMIT = std::size_t(64) << 20;
+
     /** \brief A variable of a MATLAB 5 file (what MATLAB's `save` has written since version 5, but for `-v7.3`).
 
         Throws parking::Error with one line for a file that is damaged (at which byte), of another version, or has no
         such variable. */
     MatValue readMat(const std::string &file, const std::string &variable);
+
+    /** \brief readMat() of what \e file holds, which is then not read. */
+    MatValue parseMat(const std::string &file, const std::string &content, const std::string &variable);
 
     /** \brief Writes one variable as a MATLAB 5 file, whole or not at all. Throws parking::Error. */
     void writeMat(const std::string &file, const std::string &variable, const MatValue &value);

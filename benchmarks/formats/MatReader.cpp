@@ -6,7 +6,6 @@
 #include "benchmarks/formats/MatFile.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/ReadFile.h"
 
 #ifdef PARKING_HAVE_MATIO
 #include <zlib.h>
@@ -26,8 +25,6 @@ namespace parking
 #ifdef PARKING_HAVE_MATIO
     namespace
     {
-        // Of a file, and of what is compressed in it, in bytes: a world of a million corners takes less.
-        constexpr std::size_t LARGEST = std::size_t(64) << 20;
         constexpr std::size_t MOST_VALUES = 1000000;  // each takes more memory than it need take in a file
         constexpr std::size_t HEADER = 128;           // bytes
         constexpr int DEEPEST = 32;                   // values within values
@@ -214,7 +211,7 @@ namespace parking
                 state = inflate(&stream, Z_NO_FLUSH);
                 const std::size_t made = buffer.size() - stream.avail_out;
                 if (made > most - text.size())
-                    fail("more than " + std::to_string(LARGEST) + " bytes are compressed in the file");
+                    fail("more than " + std::to_string(MAT_FILE_LIMIT) + " bytes are compressed in the file");
                 text.append(buffer.data(), made);
             }
             // The end is reached only when zlib's own sum over all that was compressed is right.
@@ -368,7 +365,7 @@ namespace parking
             if ((head.flags & COMPLEX) != 0)
                 throw Error("it holds complex numbers");
             const std::size_t rows = head.size[0], columns = head.size[1];
-            if (columns != 0 && rows > LARGEST / columns)
+            if (columns != 0 && rows > MAT_FILE_LIMIT / columns)
                 throw Error("it holds a matrix that is too large");
             const std::size_t count = rows * columns;
             if (head.classOf() == STRUCT)
@@ -438,7 +435,7 @@ namespace parking
         {
             MatValue value;
             bool found = false;
-            std::size_t left = LARGEST;
+            std::size_t left = MAT_FILE_LIMIT;
             while (file.size() > 0)  // to the end, though it may have been found: the file must be whole
             {
                 const Element element = file.element();
@@ -462,9 +459,8 @@ namespace parking
         }
     }  // namespace
 
-    MatValue readMat(const std::string &file, const std::string &variable)
+    MatValue parseMat(const std::string &file, const std::string &content, const std::string &variable)
     {
-        const std::string content = readFile(file, LARGEST);
         // The text is for people. The version is two bytes at 124, in the order of bytes that is said at 126.
         const std::string version = content.size() < HEADER ? std::string() : content.substr(124, 2);
         const bool five = version == std::string("\0\1", 2) || version == std::string("\1\0", 2);
@@ -486,7 +482,7 @@ namespace parking
         }
     }
 #else
-    MatValue readMat(const std::string &file, const std::string & /*variable*/)
+    MatValue parseMat(const std::string &file, const std::string & /*content*/, const std::string & /*variable*/)
     {
         throw Error(file + ": this build has no MATLAB files; build it with libmatio-dev");
     }

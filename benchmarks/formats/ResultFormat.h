@@ -27,11 +27,14 @@ namespace parking
         }
     };
 
-    /** \brief Reads a result. Throws parking::Error with one line for what is no result, or has no path. */
-    StoredResult readResult(const std::string &file);
+    /** \brief The result that a file holds whose \e content is in memory.
 
-    /** \brief Does the file begin like JSON? */
-    bool looksLikeResult(const std::string &file);
+        Throws parking::Error with one line naming the file and the field: for what is no result or has no path, for
+        values of another type or out of range, and for a path or trajectory that jumps. */
+    StoredResult parseResult(const std::string &file, const std::string &content);
+
+    /** \brief Does what a file holds begin like JSON? */
+    bool looksLikeResult(const std::string &content);
 
     /** \brief A kind of file in which results are handed in. A format is one source file, and a line in
         resultFormats(). */

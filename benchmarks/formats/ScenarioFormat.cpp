@@ -3,12 +3,12 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/ObstacleSet.h"
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace parking
 {
@@ -37,17 +37,15 @@ namespace parking
         throw Error(unknownName("format", std::string(name), names));
     }
 
-    const ScenarioFormat &formatOf(const std::string &file)
+    Scenario ScenarioFormat::read(const std::string &file, const FormatOptions &options) const
     {
-        std::array<char, BEGIN> buffer{};
-        std::error_code failed;
-        std::ifstream stream(file, std::ios::binary);
-        if (std::filesystem::is_directory(file, failed) || !stream)
-            return scenarioFormats().back();  // whose reader says what is wrong
-        stream.read(buffer.data(), BEGIN);
-        const std::string_view begin(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+        return parse(file, readFile(file, largest), options);
+    }
+
+    const ScenarioFormat &formatOf(std::string_view content)
+    {
         for (const ScenarioFormat &format : scenarioFormats())
-            if (format.recognizes(begin))
+            if (format.recognizes(content.substr(0, BEGIN)))
                 return format;
         return scenarioFormats().back();
     }
@@ -67,7 +65,18 @@ namespace parking
 
     Scenario readAnyScenario(const std::string &file, const FormatOptions &options)
     {
-        return formatOf(file).read(file, options);
+        std::size_t largest = 0;
+        for (const ScenarioFormat &format : scenarioFormats())
+            largest = std::max(largest, format.largest);
+        return parseAnyScenario(file, readFile(file, largest), options);
+    }
+
+    Scenario parseAnyScenario(const std::string &file, const std::string &content, const FormatOptions &options)
+    {
+        const ScenarioFormat &format = formatOf(content);
+        if (content.size() > format.largest)
+            throw Error(file + ": is larger than the " + std::to_string(format.largest >> 20) + " MiB that are read");
+        return format.parse(file, content, options);
     }
 
     Scenario withOptions(Scenario scenario, const std::string &file, const FormatOptions &options)

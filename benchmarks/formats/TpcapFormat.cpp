@@ -10,6 +10,8 @@ namespace parking
 {
     namespace
     {
+        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes
+
         bool recognizes(std::string_view begin)
         {
             double ignored = 0.0;
@@ -17,9 +19,9 @@ namespace parking
             return parseNumber(trimmed(text.substr(0, text.find_first_of(",\n"))), ignored);
         }
 
-        Scenario read(const std::string &file, const FormatOptions &options)
+        Scenario parse(const std::string &file, const std::string &content, const FormatOptions &options)
         {
-            return withOptions(readTpcapCase(file, {options.vehicle}), file, options);
+            return withOptions(parseScenario(file, content, {options.vehicle}), file, options);
         }
 
         void write(const Scenario &scenario, const std::string &file)
@@ -48,7 +50,8 @@ namespace parking
 
     ScenarioFormat tpcapFormat()
     {
-        return {"tpcap",    ".csv", "cases of TPCAP; the car is not in them: TPCAP's, unless --vehicle says otherwise",
-                recognizes, read,   write};
+        return {"tpcap",    ".csv",  "cases of TPCAP; the car is not in them: TPCAP's, unless --vehicle says otherwise",
+                recognizes, LARGEST, parse,
+                write};
     }
 }  // namespace parking

@@ -16,9 +16,11 @@ namespace parking
             return "[" + formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw) + "]";
         }
 
-        Scenario read(const std::string &file, const FormatOptions &options)
+        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes
+
+        Scenario parse(const std::string &file, const std::string &content, const FormatOptions &options)
         {
-            return withOptions(readScenario(file, {options.vehicle}), file, options);
+            return withOptions(parseScenario(file, content, {options.vehicle}), file, options);
         }
 
         void write(const Scenario &scenario, const std::string &file)
@@ -59,7 +61,8 @@ namespace parking
                 ".yaml",
                 "scenarios of this project, maps and voxels as they name them",
                 [](std::string_view) { return true; },
-                read,
+                LARGEST,
+                parse,
                 write};
     }
 }  // namespace parking

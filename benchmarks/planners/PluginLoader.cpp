@@ -68,6 +68,8 @@ namespace parking
             const std::filesystem::path file = std::filesystem::absolute(name, ignored);
             if (!std::filesystem::exists(file, ignored))
                 throw Error("plug-in " + name + ": there is no such file");
+            if (!std::filesystem::is_regular_file(file, ignored))
+                throw Error("plug-in " + name + ": is no file; name the library");
             boost::system::error_code error;
             boost::dll::shared_library library;
             // All at once: what the library lacks shall be known now, and not in the middle of a run.

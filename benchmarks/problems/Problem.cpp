@@ -24,6 +24,7 @@
 #include <chrono>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace ob = ompl::base;
 
@@ -154,6 +155,29 @@ namespace parking
         return settings_.circleRadius > 0.0 ? settings_.circleRadius : 0.5 * scenario_.vehicle.width;
     }
 
+    /** What is wrong with a pose, as the end of a sentence; nothing when it is free. */
+    std::string Problem::troubleAt(const Pose &pose) const
+    {
+        ob::ScopedState<> state(si_);
+        setPose(state.get(), pose);
+        if (si_->isValid(state.get()))
+            return "";
+        const Pose local = obstacles_->toLocal(pose);
+        std::vector<Eigen::Vector2d> outline;
+        if (settings_.footprint == FootprintKind::Rectangle)
+            for (const Eigen::Vector2d &corner : scenario_.vehicle.footprint(local))
+                outline.push_back(corner);
+        else
+            for (const double side : {-circleRadius(), circleRadius()})
+                outline.emplace_back(local.x + side, local.y + side);
+        const Box &world = obstacles_->bounds();
+        for (const Eigen::Vector2d &point : outline)
+            if ((point.array() < world.min.array()).any() || (point.array() > world.max.array()).any())
+                return std::string("is outside of the ") + (scenario_.grid ? "map" : "world") +
+                       ", in whole or in part,";
+        return si_->satisfiesBounds(state.get()) ? "is in collision" : "is outside of the volume that is planned in";
+    }
+
     std::string Problem::whyUnsolvable() const
     {
         const std::string shape = settings_.footprint == FootprintKind::Rectangle ? "the car" : "the circle";
@@ -162,17 +186,18 @@ namespace parking
             const Pose pose = scenario_.toWorld(local);
             return formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw);
         };
-        ob::ScopedState<> state(si_);
-        setPose(state.get(), scenario_.start);
-        if (!si_->isValid(state.get()))
-            return shape + " is in collision, or outside, at the start " + place(scenario_.start);
-        const bool free = std::any_of(scenario_.goals.begin(), scenario_.goals.end(),
-                                      [&](const Pose &goal)
-                                      {
-                                          setPose(state.get(), goal);
-                                          return si_->isValid(state.get());
-                                      });
-        return free ? "" : shape + " is in collision, or outside, at the goal " + place(scenario_.goals.front());
+        if (const std::string trouble = troubleAt(scenario_.start); !trouble.empty())
+            return shape + " " + trouble + " at the start " + place(scenario_.start);
+        std::string first;
+        for (const Pose &goal : scenario_.goals)
+        {
+            const std::string trouble = troubleAt(goal);
+            if (trouble.empty())
+                return "";
+            if (first.empty())
+                first = shape + " " + trouble + " at the goal " + place(goal);
+        }
+        return first + (scenario_.goals.size() > 1 ? ", and no other goal is free" : "");
     }
 
     PreparedPlanner Problem::prepare(const PlannerEntry &entry, const PlannerSettings &settings) const

@@ -125,8 +125,8 @@ namespace parking
             return loadingTime_;
         }
 
-        /** \brief Why there can be no exact solution: a start or goal in collision or outside; empty when both are free
-            (of the goals: at least one). */
+        /** \brief Why there can be no exact solution: a start or goal in collision or outside, and where it is; empty
+            when both are free (of the goals: at least one). */
         std::string whyUnsolvable() const;
 
         /** \brief A new instance of a planner with a problem definition and a goal of its own.
@@ -146,6 +146,8 @@ namespace parking
         void resetCounts() const;
 
     private:
+        std::string troubleAt(const Pose &pose) const;
+
         Scenario scenario_;
         ProblemSettings settings_;
         std::shared_ptr<const ObstacleSet> obstacles_;

@@ -6,6 +6,7 @@
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
 #include "benchmarks/summary/Summary.h"
+#include "benchmarks/system/CommandLine.h"
 #include "benchmarks/system/LongStep.h"
 #include "benchmarks/system/Machine.h"
 #include "benchmarks/system/Progress.h"
@@ -111,6 +112,49 @@ namespace parking
         if (!options_.quiet)
             step.emplace("reading the scenarios");
         experiments_ = planExperiments(config_);
+        protectInputs();
+    }
+
+    void Comparison::protectInputs() const
+    {
+        const fs::path folder(folder_);
+        std::vector<std::string> outputs{runsFile()}, inputs{config_.file};
+        for (const char *name : {"benchmark.db", "summary.md", "summary.csv", "report.html", "statistics.json",
+                                 "standings.csv", "pairs.csv"})
+            outputs.push_back((folder / name).string());
+        for (const Experiment &experiment : experiments_)
+        {
+            outputs.push_back((folder / (experiment.name + ".log")).string());
+            outputs.push_back((folder / "pictures" / (experiment.name + ".svg")).string());
+            inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
+        }
+        requireNoInput(outputs, inputs);
+        // There are too many paths, for each run one, to look at them one by one.
+        std::error_code ignored;
+        for (const std::string &input : inputs)
+            if (config_.savePaths != SavePaths::None &&
+                fs::equivalent(fs::absolute(input).parent_path(), folder / "paths", ignored))
+                throw Error(inQuotes(input) + " is an input where the paths are to be written; name another --output");
+    }
+
+    void Comparison::tellUnsolvable(UnitRunner &runner) const
+    {
+        for (std::size_t i = 0; i < experiments_.size(); ++i)
+        {
+            const Experiment &experiment = experiments_[i];
+            const std::string why = runner.problem(i).whyUnsolvable();
+            if (why.empty())
+                continue;
+            const auto line = config_.scenarioLines.find(experiment.scenarioFile);
+            const ProblemOptions &options = experiment.options;
+            std::string given = options.start && options.goal ? "start and goal are"
+                                : options.start               ? "the start is"
+                                                              : "the goal is";
+            given = options.start || options.goal ? " (" + given + " given in " + config_.file + ")" : "";
+            std::cerr << "parking_benchmark: " << (line == config_.scenarioLines.end() ? "" : line->second)
+                      << experiment.scenarioFile << ": " << why << given << "; no run of " << experiment.name
+                      << " can solve it" << std::endl;
+        }
     }
 
     std::string Comparison::runsFile() const
@@ -177,6 +221,7 @@ namespace parking
     {
         UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
+        tellUnsolvable(runner);
         makeFolder(folder_);
         std::vector<std::string> setups;
         for (std::size_t i = 0; i < experiments_.size(); ++i)
@@ -223,7 +268,7 @@ namespace parking
             for (const auto &entry : fs::directory_iterator(folder))
             {
                 const std::string name = entry.path().filename().string();
-                if (name.compare(0, 4, "runs") == 0 && entry.path().extension() == ".jsonl")
+                if (name.compare(0, 4, "runs") == 0 && entry.path().extension() == ".jsonl" && entry.is_regular_file())
                     files.push_back(entry.path().string());
             }
         };

@@ -3,6 +3,7 @@
 #include "benchmarks/comparison/Experiment.h"
 #include "benchmarks/comparison/ResultStore.h"
 #include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/comparison/UnitRunner.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/programs/BenchmarkOptions.h"
 
@@ -76,6 +77,10 @@ namespace parking
         /** By experiment and planner: of everything that its runs depend on, the program included. */
         nlohmann::json fingerprints() const;
         void openStore(const std::vector<std::string> &setups);
+        /** Throws when something that is read would be written over. */
+        void protectInputs() const;
+        /** Says which experiments nobody can solve, and why. */
+        void tellUnsolvable(UnitRunner &runner) const;
         /** Is it one of this comparison's, whatever program did it? */
         bool isWanted(const RunRecord &record) const;
         void gather();

@@ -8,6 +8,7 @@
 #include "benchmarks/system/Counted.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/referee/FreeSpace.h"
+#include "parking_geometry/text/ReadFile.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
@@ -24,6 +25,7 @@ namespace
     using namespace parking;
 
     constexpr int DONE = 0, FAULTY = 1;
+    constexpr std::size_t LARGEST = std::size_t(256) << 20;  // bytes of a file
     constexpr double SAME = 1e-6;  // metres and radians between what was read and what was written
 
     po::options_description describe()
@@ -172,11 +174,14 @@ namespace
         return faults;
     }
 
-    int convertScenario(const std::string &input, const std::optional<std::string> &output, const CommandLine &line)
+    int convertScenario(const std::string &input, const std::string &content, const std::optional<std::string> &output,
+                        const CommandLine &line)
     {
         const FormatOptions options{line.name("vehicle").value_or(""), poseOption(line, "start"),
                                     poseOption(line, "goal")};
-        const Scenario scenario = readAnyScenario(input, options);
+        const Scenario scenario = parseAnyScenario(input, content, options);
+        if (output)
+            requireNoInput({*output}, scenario.files);
         const bool check = line.given("check");
         int status = DONE;
         if (check)
@@ -196,10 +201,11 @@ namespace
         return std::max(status, written);
     }
 
-    int convertResult(const std::string &input, const std::optional<std::string> &output, const CommandLine &line)
+    int convertResult(const std::string &input, const std::string &content, const std::optional<std::string> &output,
+                      const CommandLine &line)
     {
         requireNone(line, {"start", "goal", "vehicle"}, "changes a problem, and " + inQuotes(input) + " is a result");
-        const StoredResult result = readResult(input);
+        const StoredResult result = parseResult(input, content);
         if (line.given("check"))
             std::cout << input << ": " << result.planner << ", " << result.status << ", path of "
                       << formatNumber(std::round(1e3 * result.path.length()) / 1e3) << " m in "
@@ -278,8 +284,10 @@ namespace
             requireNone(line, {"to"}, "is the format of OUTPUT, and there is none");
         if (output)
             requireOutputs({*output}, {files.front(), line.name("vehicle").value_or(files.front())});
-        return looksLikeResult(files.front()) ? convertResult(files.front(), output, line)
-                                              : convertScenario(files.front(), output, line);
+        // Once: a pipe cannot be read again.
+        const std::string content = readFile(files.front(), LARGEST);
+        return looksLikeResult(content) ? convertResult(files.front(), content, output, line)
+                                        : convertScenario(files.front(), content, output, line);
     }
 }  // namespace
 

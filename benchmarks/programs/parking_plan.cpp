@@ -15,6 +15,7 @@
 
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -45,7 +46,9 @@ namespace
         const Problem problem = [&]
         {
             const LongStep step("reading " + options.scenario);
-            return Problem(readAnyScenario(options.scenario, {options.vehicle, {}, {}}), settings);
+            Scenario scenario = readAnyScenario(options.scenario, {options.vehicle, {}, {}});
+            requireNoInput(options.outputFiles(), scenario.files);
+            return Problem(std::move(scenario), settings);
         }();
         PlanResult result;
         result.planner = entry.name;

@@ -110,7 +110,9 @@ namespace parking
             }
         }
         else
-            (fs::exists(folderOrFile, ignored) && isMap(folderOrFile) ? maps : scenarios).push_back(folderOrFile);
+            // A pipe, which could not be read again, is a scenario.
+            (fs::is_regular_file(folderOrFile, ignored) && isMap(folderOrFile) ? maps : scenarios)
+                .push_back(folderOrFile);
         std::vector<QueryWorld> worlds;
         for (const std::string &file : maps)
             worlds.push_back(mapWorld(file, vehicle));

@@ -7,6 +7,7 @@ from charts import px, shown, text
 
 FAINT_RUNS = 30  # paths of other runs drawn behind the best one
 CLOTHOID_STEP = 0.2  # metres of the arcs that a clothoid is drawn with
+MOST_ARCS = 10000    # that a piece is drawn with, however long somebody's planner made it
 
 _MAP = re.compile(r'<svg x="[^"]*" y="[^"]*" width="([\d.]+)" height="([\d.]+)"[^>]* data-left="([^"]+)" '
                   r'data-top="([^"]+)" data-scale="([^"]+)">\n(.*?)</svg>', re.DOTALL)
@@ -46,8 +47,8 @@ def _pieces(path):
             continue
         curvature, length, sharpness = (*piece, 0.0)[:3]
         steepest = max(abs(curvature), abs(curvature + sharpness * abs(length)))
-        count = max(1, math.ceil(abs(length) / CLOTHOID_STEP) if sharpness else 1,
-                    math.ceil(steepest * abs(length) / (0.5 * math.pi)))
+        arcs = max(abs(length) / CLOTHOID_STEP if sharpness else 0.0, steepest * abs(length) / (0.5 * math.pi))
+        count = max(1, math.ceil(min(arcs, MOST_ARCS)))
         step = length / count
         for k in range(count):
             bend = curvature + sharpness * abs(step) * (k + 0.5)

@@ -5,8 +5,12 @@ import glob
 import json
 import math
 import os
+import pathlib
 import re
 import sqlite3
+import stat
+
+from checks import BadValue, check_header, check_run, is_time
 
 FORMAT = 2  # of the lines in runs.jsonl
 
@@ -134,6 +138,7 @@ def _plain(name):
 def _take_header(results, file, record, fingerprints):
     if record['parking_benchmark'] != FORMAT:
         raise ReportError(f'{file}: was written by another version of parking_benchmark')
+    check_header(record)
     started = float(record.get('started', 0.0))
     fingerprints[file] = str(record.get('fingerprint', ''))
     if results.started is None or started < results.started:
@@ -149,8 +154,19 @@ def _take_header(results, file, record, fingerprints):
     results.setups.update(record.get('setups', {}))
 
 
+def require_file(file):
+    """Raises ReportError for a device: some never end. What is not there says so when it is opened, and a pipe does end."""
+    try:
+        mode = os.stat(file).st_mode
+    except OSError:
+        return
+    if stat.S_ISDIR(mode) or not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode)):
+        raise ReportError(f'{file}: is a {"folder" if stat.S_ISDIR(mode) else "device"}; a file is needed')
+
+
 def _run_of(record):
     figures = {name: number(value) for name, value in {**record['reported'], **record['figures']}.items()}
+    check_run(record)
     run = Run(str(record['experiment']), str(record['planner']), int(figures['run']), int(figures['seed']), figures,
               [(float(time), float(cost)) for time, cost in record['progress']], record.get('path'))
     judge(run)
@@ -158,6 +174,7 @@ def _run_of(record):
 
 
 def _read_runs_file(results, file, known, fingerprints):
+    require_file(file)
     try:
         with open(file, encoding='utf-8', errors='replace', newline='\n') as stream:
             lines = stream.read().split('\n')
@@ -173,7 +190,9 @@ def _read_runs_file(results, file, known, fingerprints):
                 header = record
             else:
                 runs.append((*_run_of(record), str(record.get('fingerprint', ''))))
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        except BadValue as error:
+            raise ReportError(f'{file}:{count}: {error}') from error
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as error:
             damage.append(f'{file}:{count}: is not a line of benchmark results ({_one_line(error)})')
     if not header and not runs:
         raise ReportError(damage[0] if damage else f'{file}: is not a file of benchmark results')
@@ -201,9 +220,19 @@ def _one_line(error):
     return ' '.join(text.split())
 
 
+def _check_times(file, properties):
+    """Of a row of runs, whoever wrote it."""
+    for name, value in properties.items():
+        if is_time(name) and not value >= 0.0:
+            raise ReportError(f'{file}: run {properties.get("id", 0.0):.0f}: {name} is {value:g}; it must be a number of '
+                              'seconds, 0 or more')
+
+
 def _read_database(results, file):
+    if os.path.exists(file) and not os.path.isfile(file):
+        raise ReportError(f'{file}: is no file; a database is needed')
     try:
-        connection = sqlite3.connect(f'file:{os.path.abspath(file)}?mode=ro', uri=True)
+        connection = sqlite3.connect(pathlib.Path(file).absolute().as_uri() + '?mode=ro', uri=True)
         try:
             connection.row_factory = sqlite3.Row
             experiments = {row['id']: row for row in connection.execute('SELECT * FROM experiments')}
@@ -221,6 +250,7 @@ def _read_database(results, file):
                 problem = str(experiments[row['experimentid']]['name'])
                 planner = re.sub(r'^(geometric|control)_', '', str(planners[row['plannerid']]['name']))
                 properties = {_plain(name): number(row[name]) for name in row.keys() if row[name] is not None}
+                _check_times(file, properties)
                 cell = counts.setdefault((problem, planner), [0])
                 index = int(properties.get('run', cell[0]))
                 cell[0] += 1
@@ -241,7 +271,7 @@ def _read_database(results, file):
                 results.machine = found.group(0) if found else str(row['version'] or '')
         finally:
             connection.close()
-    except (sqlite3.Error, KeyError, IndexError) as error:
+    except (sqlite3.Error, KeyError, IndexError, ValueError, TypeError, OverflowError) as error:
         raise ReportError(f'{file}: is not a benchmark database of OMPL ({_one_line(error)})') from error
     results.sources.append(file)
 

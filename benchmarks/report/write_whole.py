@@ -5,8 +5,19 @@ import tempfile
 from results import ReportError
 
 
+def require_no_input(outputs, inputs):
+    """Raises ReportError when one of the outputs is one of the inputs, which would be lost."""
+    for output in outputs:
+        for file in inputs:
+            if os.path.exists(output) and os.path.exists(file) and os.path.samefile(output, file):
+                raise ReportError(f'{output}: is the input {file}, which would be lost; name another file to write')
+
+
 def write_whole(file, content):
     """Raises ReportError when the file cannot be written; what was there before then stays."""
+    if os.path.exists(file) and not os.path.isfile(file):
+        kind = 'a folder' if os.path.isdir(file) else 'a pipe or a device, which a file would take the place of'
+        raise ReportError(f'{file}: cannot be written: is {kind}')
     temporary = None
     try:
         with tempfile.NamedTemporaryFile('w', encoding='utf-8', dir=os.path.dirname(os.path.abspath(file)),

@@ -134,11 +134,13 @@ namespace
         const std::size_t seeds = line->whole("seeds", 1, 100000).value_or(20);
         const std::size_t first = line->whole("first-seed", 0, 1000000000).value_or(1);
         const ParkingParameters parameters = DriveStudy::parameters(*line);
-        const std::string output = line->text("output").value_or("");
+        const std::string output = line->outputFile("output").value_or("");
+        const std::vector<Scenario> scenarios = DriveStudy::scenarios(*line);
         if (!output.empty())
-            requireWritable(output);
+            for (const Scenario &scenario : scenarios)
+                requireOutputs({output}, scenario.files);
         std::vector<Row> rows;
-        for (const Scenario &scenario : DriveStudy::scenarios(*line))
+        for (const Scenario &scenario : scenarios)
         {
             rows.push_back(evaluate(scenario, parameters, seeds, first));
             std::cerr << scenario.name << (rows.back().good() ? "" : ": figures missed, or no path") << std::endl;

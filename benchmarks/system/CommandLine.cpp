@@ -10,11 +10,13 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <system_error>
 
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/parsers.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace po = boost::program_options;
@@ -170,6 +172,8 @@ namespace parking
             throw Error("the name of an output file is empty");
         if (fs::is_directory(file, ignored))
             throw Error(oneLine(file) + ": is a folder, not a file that could be written");
+        if (fs::is_block_file(file, ignored))
+            throw Error(oneLine(file) + ": is a disk, whose content would be lost; name a file");
         if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
             return;  // a pipe or a device: it will say itself
         fs::path folder = fs::path(file).parent_path();
@@ -189,12 +193,30 @@ namespace parking
             if (file == "-")
                 throw Error("'-' is not standard output here; if a file of that name is meant, name it './-'");
             requireWritable(file);
-            for (const std::string &input : inputs)
-                if (std::error_code ignored; std::filesystem::exists(input, ignored) && areSameFile(file, input))
-                    throw Error(inQuotes(file) + " is the input");
+            requireNoInput({file}, inputs);
             for (std::size_t k = 0; k < i; ++k)
                 if (areSameFile(file, outputs[k]))
                     throw Error(inQuotes(file) + " is to be written twice: name two files");
+        }
+    }
+
+    void requireNoInput(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs)
+    {
+        // By what the system calls them, whatever their names: a comparison may have thousands of both.
+        std::map<std::pair<dev_t, ino_t>, std::string> known;
+        struct stat status = {};
+        for (const std::string &input : inputs)
+            if (stat(input.c_str(), &status) == 0 && S_ISREG(status.st_mode))
+                known.emplace(std::make_pair(status.st_dev, status.st_ino), input);
+        for (const std::string &output : outputs)
+        {
+            if (stat(output.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
+                continue;
+            const auto found = known.find({status.st_dev, status.st_ino});
+            if (found != known.end())
+                throw Error(inQuotes(output) + " is the input" +
+                            (output == found->second ? "" : " " + inQuotes(found->second)) +
+                            ", which would be lost; name another file to write");
         }
     }
 

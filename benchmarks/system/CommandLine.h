@@ -16,7 +16,7 @@
 namespace parking
 {
     /** \brief Seconds: the longest that a run may be given. OMPL computes the end of a run in nanoseconds since 1970,
-       which overflow when it lies more than two hundred years ahead. */
+        which overflow when it lies more than two hundred years ahead. */
     constexpr double LONGEST_RUN = 1e6;
 
     /** \brief The value of an option, a text; \e name stands for it in the help. */
@@ -86,6 +86,10 @@ namespace parking
         which would be lost, when two are the same file, of which one would be, or when one is called -, which is no
         file to most people. */
     void requireOutputs(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
+
+    /** \brief Throws parking::Error when one of \e outputs is one of \e inputs, which would be lost: for inputs that
+        are known only once others have been read, as the map of a scenario is. */
+    void requireNoInput(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
 
     /** \brief Runs a program on its arguments and returns its status. What it throws becomes one line on standard
         error that begins with \e name, and status 2: bad input or usage. */

@@ -50,6 +50,11 @@ namespace parking
 
     LockedFile::LockedFile(std::string file) : file_(std::move(file))
     {
+        // Opening a pipe waits until somebody reads it, and a device keeps nothing.
+        if (std::error_code ignored; std::filesystem::exists(file_, ignored) &&
+                                     !std::filesystem::is_regular_file(file_, ignored) &&
+                                     !std::filesystem::is_directory(file_, ignored))
+            throw Error(file_ + ": is a pipe or a device; it must be a file, which can be gone on with");
         for (int attempt = 0; attempt < MOST_ATTEMPTS; ++attempt)
         {
             descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);

@@ -93,7 +93,7 @@ namespace parking
             throw Error(file + ": is neither a PGM (P2, P5) nor a PNG image");
     }
 
-    OccupancyGrid readRosMap(const std::string &yamlFile)
+    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files)
     {
         const YamlMap map(yamlFile, readFile(yamlFile, TEXT_FILE_LIMIT));
         map.refuseMisspelt({"image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"});
@@ -106,6 +106,8 @@ namespace parking
         const MapRules rules = readRules(map);
 
         const std::string file = (std::filesystem::path(yamlFile).parent_path() / name).string();
+        if (files != nullptr)
+            files->insert(files->end(), {yamlFile, file});
         constexpr std::size_t IMAGE_LIMIT = (std::size_t(2) << 31) + (std::size_t(1) << 20);
         const std::string bytes = readFile(file, IMAGE_LIMIT);
         OccupancyGrid grid;

@@ -6,20 +6,25 @@
 #include "parking_geometry/text/Text.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace parking
 {
     namespace
     {
-        /** The file's text without the mark that some Windows programs put in front of UTF-8. */
-        std::string readText(const std::string &file)
+        /** \e text without the mark that some Windows programs put in front of UTF-8. */
+        std::string withoutMark(const std::string &file, std::string text)
         {
-            std::string text = readFile(file, TEXT_FILE_LIMIT);
             if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
                 text.erase(0, 3);
             if (trimmed(text).empty())
                 throw Error(file + ": holds nothing but blanks");
             return text;
+        }
+
+        std::string readText(const std::string &file)
+        {
+            return withoutMark(file, readFile(file, TEXT_FILE_LIMIT));
         }
 
         /** A case begins with a number and a comma; YAML cannot, for its top is a mapping. A file that begins with
@@ -36,7 +41,12 @@ namespace parking
 
     Scenario readScenario(const std::string &file, const ReaderOptions &options)
     {
-        const std::string text = readText(file);
+        return parseScenario(file, readFile(file, TEXT_FILE_LIMIT), options);
+    }
+
+    Scenario parseScenario(const std::string &file, std::string text, const ReaderOptions &options)
+    {
+        text = withoutMark(file, std::move(text));
         return looksLikeTpcap(file, text) ? parseTpcapCase(file, text, options.vehicle)
                                           : parseYamlScenario(file, text, options.vehicle);
     }

@@ -5,6 +5,7 @@
 #include "parking_geometry/Vehicle.h"
 
 #include <string>
+#include <vector>
 
 namespace parking
 {
@@ -22,6 +23,11 @@ namespace parking
         also for missing, empty, truncated and absurdly large files. */
     Scenario readScenario(const std::string &file, const ReaderOptions &options = {});
 
+    /** \brief readScenario() of what \e file holds, which is then not read: for a pipe, which can be read once only.
+
+        \param file named in errors, and where files that the text names are looked for */
+    Scenario parseScenario(const std::string &file, std::string text, const ReaderOptions &options = {});
+
     /** \brief Reads a TPCAP case: one line of comma-separated numbers: start x, y, yaw, goal x, y, yaw, the number of
         obstacles, the vertex count of each, then all vertices. The local frame has its origin at the start. */
     Scenario readTpcapCase(const std::string &file, const ReaderOptions &options = {});
@@ -34,8 +40,10 @@ namespace parking
         Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown; `negate`,
         `mode` and an origin with yaw are honoured. One thing differs from map_server: a pixel that is not opaque is
         unknown in every mode. map_server's trinary mode averages alpha with the colours instead, which turns the usual
-        grey for unknown (205) into free in every image that has an alpha channel. */
-    OccupancyGrid readRosMap(const std::string &yamlFile);
+        grey for unknown (205) into free in every image that has an alpha channel.
+
+        \param files the names of both files are added to it, unless it is null */
+    OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files = nullptr);
 
     /** \brief Reads SurroundOcc occupancy voxels (.npy, int64 (n, 4) = ix, iy, iz, label) as a 200x200 grid of 0.5 m
         cells in the lidar frame.
@@ -48,6 +56,8 @@ namespace parking
     /** \brief A car by its name, or read from a YAML file with the fields of Vehicle in snake case.
 
         Without a field for it, a limit of speed, acceleration or steering rate is TPCAP's; the sizes and the steering
-        angle must be given. */
-    Vehicle readVehicle(const std::string &nameOrFile);
+        angle must be given.
+
+        \param files the name of the file, if one is read, is added to it, unless it is null */
+    Vehicle readVehicle(const std::string &nameOrFile, std::vector<std::string> *files = nullptr);
 }  // namespace parking

@@ -108,8 +108,9 @@ namespace parking
         Numbers numbers(file, text);
         Scenario scenario;
         scenario.name = scenarioName(file);
+        scenario.files = {file};
         if (!vehicle.empty())
-            scenario.vehicle = readVehicle(vehicle);
+            scenario.vehicle = readVehicle(vehicle, &scenario.files);
         const Pose start = takePose(numbers, "the start's");
         const Pose goal = takePose(numbers, "the goal's");
 

@@ -44,13 +44,15 @@ namespace parking
         return vehicle;
     }
 
-    Vehicle readVehicle(const std::string &nameOrFile)
+    Vehicle readVehicle(const std::string &nameOrFile, std::vector<std::string> *files)
     {
         const std::vector<std::string> names = vehicleNames();
         if (std::find(names.begin(), names.end(), nameOrFile) != names.end())
             return vehicleByName(nameOrFile);
         if (!isFileName(nameOrFile))
             throw Error(unknownName("vehicle", nameOrFile, names) + " (or the path of a .yaml file)");
+        if (files != nullptr)
+            files->push_back(nameOrFile);
         return vehicleFromYaml(YamlMap(nameOrFile, readFile(nameOrFile, TEXT_FILE_LIMIT)));
     }
 }  // namespace parking

@@ -40,6 +40,11 @@ namespace parking
                 return inQuotes(node.Scalar());
             return node.IsMap() ? "a mapping" : node.IsSequence() ? "a list" : "nothing";
         }
+
+        std::string noMapping(const std::string &what, const YAML::Node &node)
+        {
+            return what + " holds " + kindOf(node) + "; it must be a mapping with lines such as 'key: value'";
+        }
     }  // namespace
 
     YamlMap::YamlMap(const std::string &file, const std::string &text) : file_(file), node_(parse(file, text))
@@ -58,8 +63,7 @@ namespace parking
     void YamlMap::check() const
     {
         if (!node_.IsMap())
-            fail(node_, (what_.empty() ? "the file" : what_) + " holds " + kindOf(node_) +
-                            "; it must be a mapping with lines such as 'key: value'");
+            fail(node_, noMapping(what_.empty() ? "the file" : what_, node_));
         std::set<std::string> seen;
         for (const auto &entry : node_)
         {
@@ -142,7 +146,10 @@ namespace parking
 
     YamlMap YamlMap::map(const std::string &key) const
     {
-        return YamlMap(file_, node(key), key);
+        const YAML::Node value = node(key);
+        if (!value.IsMap())
+            failAt(key, noMapping(key, value));
+        return YamlMap(file_, value, key);
     }
 
     std::size_t YamlMap::choice(const std::string &key, const std::vector<std::string> &names) const
@@ -185,7 +192,12 @@ namespace parking
     {
         if (!at.IsDefined())
             return file_;
-        const YAML::Mark mark = at.Mark();
+        YAML::Mark mark = at.Mark();
+        // yaml-cpp takes a blank value to be where the next thing stands.
+        if (at.IsNull() && node_.IsMap())
+            for (const auto &entry : node_)
+                if (entry.second.is(at))
+                    mark = entry.first.Mark();
         return mark.is_null() ? file_ : file_ + ':' + std::to_string(mark.line + 1);
     }
 }  // namespace parking

@@ -52,10 +52,11 @@ namespace parking
         /** \brief The numbers of a sequence of exactly \e count. \param what how messages call it */
         std::vector<double> numbers(const YAML::Node &sequence, std::size_t count, const std::string &what) const;
 
-        /** \brief Throws parking::Error with the file, the line of \e at and \e message. */
+        /** \brief Throws parking::Error with the file, the line of \e at and \e message. A value that was left blank
+            has no line; its key's is named. */
         [[noreturn]] void fail(const YAML::Node &at, const std::string &message) const;
 
-        /** \brief The same for the line on which the value of \e key stands. */
+        /** \brief The same for the line on which the value of \e key stands, or the key when it has none. */
         [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
 
         /** \brief The file that messages name. */

@@ -52,7 +52,7 @@ namespace parking
         }
 
         /** A map_server map or a SurroundOcc file: told apart by their first bytes, as extensions are free. */
-        OccupancyGrid readGrid(const YamlMap &map)
+        OccupancyGrid readGrid(const YamlMap &map, std::vector<std::string> &files)
         {
             const std::string name = map.text("map");
             const std::string file = besides(map.file(), name);
@@ -60,7 +60,10 @@ namespace parking
             if (extension == ".pgm" || extension == ".png")
                 map.failAt("map", "map is the image " + inQuotes(name) +
                                       "; name the map's YAML file, which holds its resolution and origin");
-            return extension == ".npy" ? readSurroundOcc(file) : readRosMap(file);
+            if (extension != ".npy")
+                return readRosMap(file, &files);
+            files.push_back(file);
+            return readSurroundOcc(file);
         }
 
         void readWorld(Scenario &scenario, const YamlMap &map)
@@ -81,7 +84,7 @@ namespace parking
                 scenario.polygons = readPolygons(inner, scenario.worldOffset);
                 return;
             }
-            scenario.grid = readGrid(map);
+            scenario.grid = readGrid(map, scenario.files);
             Pose origin = scenario.grid->origin();
             origin.x -= scenario.worldOffset.x();
             origin.y -= scenario.worldOffset.y();
@@ -134,10 +137,10 @@ namespace parking
             }
         }
 
-        Vehicle readVehicleOf(const YamlMap &map, const std::string &instead)
+        Vehicle readVehicleOf(const YamlMap &map, const std::string &instead, std::vector<std::string> &files)
         {
             if (!instead.empty())
-                return readVehicle(instead);
+                return readVehicle(instead, &files);
             if (!map.has("vehicle"))
                 return Vehicle();
             if (map.node("vehicle").IsMap())
@@ -145,7 +148,7 @@ namespace parking
             const std::string name = map.text("vehicle");
             const std::string extension = std::filesystem::path(name).extension().string();
             if (extension == ".yaml" || extension == ".yml")
-                return readVehicle(std::filesystem::absolute(besides(map.file(), name)).string());
+                return readVehicle(std::filesystem::absolute(besides(map.file(), name)).string(), &files);
             try
             {
                 return vehicleByName(name);
@@ -163,7 +166,8 @@ namespace parking
         map.allowOnly({"name", "map", "polygons", "vehicle", "start", "goal", "slot", "unknown_is_occupied"});
         Scenario scenario;
         scenario.name = map.has("name") ? map.text("name") : scenarioName(file);
-        scenario.vehicle = readVehicleOf(map, vehicle);
+        scenario.files = {file};
+        scenario.vehicle = readVehicleOf(map, vehicle, scenario.files);
         const Pose start = map.pose("start");
         scenario.worldOffset = {start.x, start.y};
         scenario.start = {0.0, 0.0, start.yaw};

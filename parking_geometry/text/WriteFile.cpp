@@ -84,6 +84,8 @@ namespace parking
         const fs::file_status status = fs::status(file, ignored);
         if (fs::is_directory(status))
             throw Error(file + ": is a folder; the name of a file is needed");
+        if (fs::is_block_file(status))
+            throw Error(file + ": is a disk, whose content would be lost; the name of a file is needed");
         if (fs::exists(status) && !fs::is_regular_file(status))
             return writeDirectly(file, content);
 

@@ -150,6 +150,24 @@ class ScriptsTest(unittest.TestCase):
                 self.assertEqual(len(done.stderr.splitlines()), 1)
                 self.assertEqual(self.called('cmake'), [])
 
+    def test_what_the_comparison_ends_with_is_handed_on(self):
+        self.replace('cmake', 'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; fi')
+        program = os.path.join(self.project, 'build', 'release', 'benchmarks', 'parking_benchmark')
+        os.makedirs(os.path.dirname(program))
+        self.write(program, '#!/usr/bin/env bash\necho "$@"\nexit "$STATUS"\n')
+        os.chmod(program, 0o755)
+        for status, handed_on, said in (('0', 0, 'Compared in'), ('1', 1, 'FAILED: parking_benchmark ended with status 1'),
+                                        ('2', 2, ''), ('130', 130, ''), ('134', 1, 'FAILED')):
+            with self.subTest(status):
+                done = self.run_script('compare', '--', '--time', 'nan', STATUS=status)
+                self.assertEqual((done.returncode, done.stderr), (handed_on, ''))
+                self.assertIn('bundled.cfg --output ' + os.path.join(self.project, 'results') + ' --time nan\n', done.stdout)
+                self.assertIn(said, done.stdout)
+                self.assertEqual('FAILED' in done.stdout, handed_on == 1)
+        done = self.run_script('compare', '--', '--help', STATUS='0')
+        self.assertEqual(done.returncode, 0)
+        self.assertNotIn('Compared', done.stdout)
+
     def test_wrong_number_of_jobs_is_named(self):
         self.replace('cmake', 'if [[ $1 == --version ]]; then echo "cmake version 3.25.1"; fi')
         done = self.run_script('test', PARKING_JOBS='none')

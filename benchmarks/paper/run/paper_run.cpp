@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace po = boost::program_options;
@@ -142,7 +143,10 @@ namespace
         nlohmann::json runs = nlohmann::json::array();
         for (const std::string &file : options.scenarios)
         {
-            const PaperTask task(readScenario(file), options.variant);
+            Scenario scenario = readScenario(file);
+            if (options.json != "-")
+                requireNoInput({options.json}, scenario.files);
+            const PaperTask task(std::move(scenario), options.variant);
             for (const std::string &algorithm : options.algorithms)
                 runs.push_back(paperRunJson(file.substr(file.find_last_of('/') + 1), algorithm, task,
                                             runOf(task, parametersOf(algorithm, options), options), options.lines));

@@ -3,7 +3,7 @@ import csv
 import os
 import re
 
-from results import ReportError
+from results import ReportError, require_file
 
 FILE = 'classes.csv'  # in the folder of the results
 KINDS = ('parallel', 'perpendicular', 'angled')
@@ -19,6 +19,7 @@ def class_by_name(problem):
 
 def read_classes(file):
     """problem -> class, from a CSV file with the columns problem and class. Raises ReportError."""
+    require_file(file)
     try:
         with open(file, encoding='utf-8', newline='') as stream:
             rows = list(csv.DictReader(stream))

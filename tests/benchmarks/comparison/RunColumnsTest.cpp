@@ -159,7 +159,7 @@ namespace
         BenchmarkConfig config;
         config.planners = {{"rrt", "RRT", {}, {}, {}}};
         config.runCount = 2;
-        const Experiment experiment{"garage", "garage.yaml", {}, {0}, "x"};
+        const Experiment experiment{"garage", "garage.yaml", {}, {0}, "x", {}};
         const nlohmann::json header{{"setups", nlohmann::json::object()}, {"parameters", nlohmann::json::object()}};
         const RunRecord records[]{fullRecord(0), fullRecord(1)};
         const std::string log = experimentLog(config, experiment, header, {&records[0], &records[1]});

@@ -41,7 +41,7 @@ namespace
         {
             config_.planners = {
                 {"good", "RRT", {}, {}, {}}, {"poor", "RRT", {}, {}, {}}, {"absent", "RRT", {}, {}, {}}};
-            experiments_ = {{"garage", "garage.yaml", {}, {0, 1, 2}, "x"}};
+            experiments_ = {{"garage", "garage.yaml", {}, {0, 1, 2}, "x", {}}};
             for (std::size_t run = 0; run < 3; ++run)
                 records_.push_back(runOf("good", run, true, true, 0.1 * (run + 1.0), 10.0 + run));
             records_.push_back(runOf("poor", 0, true, true, 1.5, 20.0));

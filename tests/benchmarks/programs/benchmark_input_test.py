@@ -85,6 +85,70 @@ class Configuration(InputTest):
                 self.assertFalse(os.path.exists(self.path('out')))
 
 
+    def test_pipes_and_devices(self):
+        os.mkfifo(self.path('pipe'))
+        os.mkfifo(self.path('car.yaml'))
+        self.write('set.cfg', CONFIG % ('', '', ''))
+        for arguments in (['--scenarios', 'pipe'], ['--scenarios', '/dev/zero'], ['--plugin', 'pipe']):
+            self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=[arguments[1]])
+        self.write('piped.cfg', CONFIG % ('scenario = pipe', '', ''))
+        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'pipe: is a pipe', 'more than once'])
+        self.write('piped.cfg', CONFIG % ('vehicle = car.yaml', '', ''))
+        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'car.yaml: is a pipe'])
+        self.refused_benchmark('/dev/zero', parts=['/dev/zero', 'device'])
+        self.assertFalse(os.path.exists(self.path('out')))
+        os.mkdir(self.path('out'))
+        os.rename(self.path('pipe'), self.path('out/runs.jsonl'))
+        for arguments in ([], ['--merge']):
+            self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=['out'])
+        # A configuration is read once.
+        self.benchmark('/dev/stdin', '--runs', 1, '--output', 'piped', input=CONFIG % ('', '', ''))
+
+
+class Unsolvable(InputTest):
+    """Nothing that is refused, but said before the runs: which scenario, which pose, and what is wrong with it."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        rows = (b'\xfe' * 60 + b'\0' * 5 + b'\xfe' * 35) * 100  # a wall 6 m from the left
+        self.write('map.pgm', b'P5\n100 100\n255\n' + rows)
+        self.write('on_map.yaml', 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [2, 7, 0]\nvehicle: tpcap\n')
+
+    def told(self, problem, *arguments):
+        self.write('set.cfg', '[problem]\nscenario = on_map.yaml\n%s\n[benchmark]\ntime_limit = 0.1\nrun_count = 1\n[planner]\n'
+                   'improved_astar=\n' % problem)
+        return self.benchmark('set.cfg', '--output', 'out', '--quiet', *arguments).stderr
+
+    @staticmethod
+    def pose(which, x, y):
+        return f'{which}.x = {x}\n{which}.y = {y}\n{which}.theta = 0'
+
+    def test_the_reason_is_said_before_the_runs(self):
+        where = 'parking_benchmark: set.cfg:2: on_map.yaml: '
+        for problem, said in (
+                (self.pose('start', 6, 2), 'the car is in collision at the start 6, 2, 0 (the start is given in set.cfg)'),
+                (self.pose('start', 0.5, 2), 'the car is outside of the map, in whole or in part, at the start 0.5, 2, 0'),
+                (self.pose('goal', 5, 3), 'the car is in collision at the goal 5, 3, 0 (the goal is given in set.cfg)'),
+                (self.pose('goal', 60, 2), 'the car is outside of the map, in whole or in part, at the goal 60, 2, 0'),
+                ('volume.min.x = 2.5', 'the car is outside of the volume that is planned in at the start 2, 2, 0'),
+                ('space = se2\nfootprint = circle\n' + self.pose('start', 6.2, 2), 'the circle is in collision at the start')):
+            with self.subTest(problem):
+                told = self.told(problem)
+                self.assertEqual(told.count('\n'), 1, told)
+                self.assertTrue(told.startswith(where + said), told)
+                self.assertTrue(told.endswith('; no run of on_map can solve it\n'), told)
+        self.assertEqual(self.told(''), '')
+        # Where nothing at all of the map is left it is no scenario.
+        self.write('off.cfg', '[problem]\nscenario = on_map.yaml\n%s\n[planner]\nimproved_astar=\n' % self.pose('start', 60, 2))
+        self.refused_benchmark('off.cfg', parts=['off.cfg:2: on_map.yaml: start outside the map', '60, 2 m'])
+
+    def test_goals_of_a_slot(self):
+        self.write('on_map.yaml', 'map: map.yaml\nstart: [2, 2, 0]\nvehicle: tpcap\n'
+                   'slot: {kind: perpendicular, pose: [5, 5, 0], length: 5, width: 2.5, entry: either}\n')
+        self.assertIn('and no other goal is free; no run', self.told(''))
+
+
 class Options(InputTest):
     def test_options(self):
         self.write('set.cfg', CONFIG % ('', '', ''))
@@ -102,6 +166,17 @@ class Options(InputTest):
 
 
 class Output(InputTest):
+    def test_inputs_are_not_written_over(self):
+        case = '0,0,0,5,5,0,1,4,2,2,3,2,3,3,2,3\n'
+        for name in ('summary.csv', 'pairs.csv', 'paths/case.csv', 'pictures/drawn.svg'):
+            with self.subTest(name):
+                self.write('out/' + name, case)
+                self.write('own.cfg', '[problem]\nscenario = out/%s\nname = drawn\n[benchmark]\nrun_count = 1\nsave_paths = all\n'
+                           '[planner]\nimproved_astar=\n' % name)
+                self.refused_benchmark('own.cfg', '--output', 'out', parts=['out/' + name, 'input'])
+                self.assertEqual(self.read('out/' + name), case)
+        self.assertFalse(os.path.exists(self.path('out/runs.jsonl')))
+
     def setUp(self):
         super().setUp()
         self.write('set.cfg', CONFIG % ('', '', ''))

@@ -236,6 +236,29 @@ class ScenariosTest(ConvertTest):
             self.assert_refused(self.run_program(os.environ['PARKING_QUERIES'], '--output', 'q', '--from', name), *parts)
         self.assertEqual(sorted(os.listdir(self.folder)), ['case.csv', 'knot.csv', 'knot.yaml', 'ok.yaml'])
 
+    def test_pipes_and_devices(self):
+        self.write('case.csv', CASE)
+        for command in ('cat case.csv | %s /dev/stdin a.yaml --check', '%s <(cat case.csv) b.yaml --check'):
+            done = self.run_program('bash', '-c', command % CONVERT)
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(self.text('a.yaml'), self.text('b.yaml'))
+        result = json.dumps(self.planned('case.csv', '--trajectory'))
+        done = self.run_program(CONVERT, '/dev/stdin', 'out.csv', '--check', input=result)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        for name in ('/dev/zero', '/'):
+            self.assertIn(name + ': is a', self.refused(name, 'c.yaml'))
+        self.write('long.csv', CASE + ' ' * (17 << 20))
+        self.assertIn('16 MiB', self.refused('long.csv', 'c.yaml'))
+        self.assertFalse(os.path.exists(self.path('c.yaml')))
+
+    def test_the_map_of_a_scenario_is_not_written_over(self):
+        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('map.pgm', b'P5\n100 100\n255\n' + b'\xfe' * 10000)
+        self.write('on_map.yaml', 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [5, 2, 0]\n')
+        for name in ('on_map.yaml', 'map.yaml', 'map.pgm'):
+            self.assertIn(name + "' is the input", self.refused('on_map.yaml', name, '--to', 'yaml'))
+        self.convert('on_map.yaml', 'other.yaml', '--check')
+
     def test_one_is_one(self):
         self.write('case.csv', '0,0,0,9,0,0,1,3,20,20,22,20,22,22\n')
         self.assertRegex(self.convert('case.csv', '--check').stdout, ', 1 obstacle$')
@@ -368,9 +391,62 @@ class ResultsTest(ConvertTest):
         self.write('plain.json', json.dumps(result))
         self.assertIn('no path', self.refused('plain.json', 'out.mat'))
         self.write('plain.json', '{"planner": 3}')
+        self.assertIn('format is missing', self.refused('plain.json', 'out.mat'))
         self.assertIn('no result', self.refused('plain.json', 'out.mat'))
         self.write('plain.json', '{')
         self.assertIn('no result', self.refused('plain.json', 'out.mat'))
+
+    def test_fields_that_are_wrong_are_named(self):
+        result = self.result()
+        gone = object()
+
+        def refused(place, value, *parts):
+            """Of the result with one value changed or gone, the message has all of these parts in it."""
+            changed = json.loads(json.dumps(result))
+            *folders, last = place
+            at = changed
+            for each in folders:
+                at = at[each]
+            if value is gone:
+                del at[last]
+            else:
+                at[last] = value
+            with self.subTest(place=place, value=value):
+                self.write('wrong.json', json.dumps(changed))
+                message = self.refused('wrong.json', 'out.csv')
+                for part in ('wrong.json: ', *parts):
+                    self.assertIn(part, message)
+                self.assertFalse(os.path.exists(self.path('out.csv')))
+
+        for name in ('planner', 'status', 'planning_time_ms', 'vehicle', 'path'):
+            refused([name], gone, f': {name} is missing')
+        for place, name in ((['vehicle', 'wheelbase'], 'vehicle.wheelbase'), (['path', 7, 'x'], 'path[7].x'),
+                            (['path', 7, 'curvature'], 'path[7].curvature'), (['path', 7, 'direction'], 'path[7].direction'),
+                            (['planned_trajectory', 9, 'v'], 'planned_trajectory[9].v')):
+            refused(place, gone, f'{name} is missing')
+            refused(place, None, f'{name} is null; it must be a finite number')
+            refused(place, 'wide', f"{name} is 'wide'; it must be a finite number")
+            refused(place, [1], f'{name} is a list; it must be a finite number')
+        for place, value, *parts in (
+                (['format'], 2, 'format is 2; it must be 1'), (['format'], '1', "format is '1'"),
+                (['planner'], 3, 'planner is 3', 'word'),
+                (['status'], 'solved', "status is 'solved'", 'exact'), (['status'], 'timeout', "'timeout'", 'exact'),
+                (['scenario'], 7, 'scenario is 7'), (['planning_time_ms'], 3.0, 'planning_time_ms is 3.0', 'a list'),
+                (['planning_time_ms'], [], 'planning_time_ms is an empty list'),
+                (['planning_time_ms'], [-1], 'planning_time_ms[0] is -1'),
+                (['vehicle'], 'golf', "vehicle is 'golf'", 'object'), (['vehicle', 'width'], 0, 'width is 0'),
+                (['vehicle', 'max_steering_angle'], 2, 'max_steering_angle is 2'),
+                (['path'], {'x': 1}, 'path is an object', 'a list'),
+                (['path', 3], 5, 'path[3] is 5'), (['path', 3, 'direction'], 0, 'path[3].direction is 0', '1 or -1'),
+                (['path', 3, 'x'], float('nan'), 'no result', 'line 1, ', '"x": N'),
+                (['path', 3, 'y'], 1e300, 'path[3] does not follow'),
+                (['path', 3, 'y'], result['path'][3]['y'] + 0.1, 'path[3] does not follow', 'm and'),
+                (['path', 3, 'yaw'], result['path'][3]['yaw'] + 0.1, 'path[3] does not follow'),
+                (['path', 3, 'direction'], -result['path'][3]['direction'], 'path[3] does not follow'),
+                (['planned_trajectory', 8, 't'], 0.0, 'planned_trajectory[8].t is 0.0', 'more than'),
+                (['planned_trajectory', 8, 'x'], 1e4, 'planned_trajectory[8] lies', 'in 0.0'),
+                (['planned_trajectory'], 'none', "planned_trajectory is 'none'")):
+            refused(place, value, *parts)
 
 
 if __name__ == '__main__':

@@ -42,6 +42,13 @@ class PaperRunTest(ProgramTest):
         self.assertEqual(len(run['curve'][0]), 2)
         self.assertGreater(drive['mean_abs_acceleration'], 0.0)
 
+    def test_the_map_is_not_written_over(self):
+        self.write('map.yaml', 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n')
+        self.write('map.pgm', b'P5\n100 100\n255\n' + b'\xfe' * 10000)
+        self.write('task.yaml', 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [5, 2, 0]\n')
+        for name in ('task.yaml', 'map.yaml', 'map.pgm'):
+            self.assert_refused(self.run_program(PAPER_RUN, 'task.yaml', '--json', name), name, 'is the input')
+
     def test_voxels_become_a_map(self):
         done = subprocess.run([sys.executable, '-B', os.path.join(PAPER, 'make_random_maps'), '--voxels', '--count', '1',
                                '--output', self.path('maps')], capture_output=True, text=True, check=False)

@@ -1,5 +1,6 @@
 """parking_plan given what it cannot use: one line on standard error, exit status 2, and no file half written."""
 
+import json
 import os
 import subprocess
 
@@ -64,6 +65,27 @@ class Files(ProgramTest):
                 else:
                     self.write('map.pgm', image)
                 self.refused_plan('on_map.yaml', parts=[part])
+
+    def test_pipes_and_devices(self):
+        with open(bundled('parallel'), encoding='utf-8') as stream:
+            text = stream.read()
+        want = self.planned(bundled('parallel'))['path']
+        for content in (text, text + '#' * 200000 + '\n'):  # more than a pipe holds at once
+            done = self.plan('/dev/stdin', '--json', '-', input=content)
+            self.assertEqual(json.loads(done.stdout)['path'], want)
+        self.plan('/dev/stdin', input=CASE)
+        self.refused_plan('/dev/stdin', input='', parts=['/dev/stdin: is empty'])
+        self.refused_plan('/dev/stdin', input='x' * (17 << 20), parts=['/dev/stdin: is larger than the 16 MiB'])
+        done = self.run_program('bash', '-c', f'yes | {PLAN} /dev/stdin')  # which ends when nobody reads any more
+        self.assert_refused(done, '/dev/stdin', 'MiB')
+        done = self.run_program('bash', '-c', f'{PLAN} <(cat {bundled("parallel")}) --svg >(cat >out.svg; touch written)')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        for name in ('/dev/zero', '/dev/null', '/'):
+            for arguments in ([name], [bundled('parallel'), '--vehicle', name]):
+                self.refused_plan(*arguments, parts=[name, 'a file is needed'])
+            self.refused_plan(bundled('parallel'), '--plugin', name, parts=[name, 'is no file'])
+        os.mkfifo(self.path('pipe'))
+        self.refused_plan(bundled('parallel'), '--plugin', 'pipe', parts=['pipe', 'is no file'])  # without waiting
 
     def test_start_outside_the_map(self):
         self.write('map.yaml', MAP)
@@ -168,6 +190,29 @@ class Output(ProgramTest):
         self.plan('case.csv', '--json', '/dev/null', '--svg', '/dev/null')
         self.plan('case.csv', '--svg', './-')
         self.assertIn('<svg', self.read('-'))
+
+    def test_what_a_scenario_names_is_an_input_too(self):
+        self.write('maps/map.yaml', MAP)
+        self.write('maps/map.pgm', pgm(100, 100))
+        self.write('maps/car.yaml', 'wheelbase: 2.4\nfront_overhang: 0.8\nrear_overhang: 0.7\nwidth: 1.7\n'
+                   'max_steering_angle: 0.6\n')
+        self.write('on_map.yaml', ON_MAP.replace('map.yaml', 'maps/map.yaml').replace('[8,', '[5,') + 'vehicle: maps/car.yaml\n')
+        os.symlink('maps/map.pgm', self.path('link'))
+        before = self.contents()
+        for option in ('--json', '--svg', '--csv', '--html'):
+            for name in ('maps/map.yaml', './maps/map.pgm', 'link', 'maps/car.yaml', self.path('maps/map.pgm')):
+                with self.subTest(option=option, name=name):
+                    self.refused_plan('on_map.yaml', '--trajectory', '--track', option, name, parts=[name[:60], 'is the input'])
+        self.assertEqual(self.contents(), before)
+        self.plan('on_map.yaml', '--json', 'maps/map.json')
+
+    def contents(self):
+        found = {}
+        for folder, _, names in os.walk(self.folder):
+            for name in names:
+                with open(os.path.join(folder, name), 'rb') as stream:
+                    found[os.path.join(folder, name)] = stream.read()
+        return found
 
     def test_standard_output_that_is_full(self):
         with open('/dev/full', 'w') as full:

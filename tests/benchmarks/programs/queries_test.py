@@ -97,6 +97,12 @@ class QueriesTest(ProgramTest):
         self.assert_refused(done, 'maps/a.pgm', 'there already')
         self.assertEqual((self.read('q/maps/a.yaml'), os.listdir(self.path('q'))), (before, ['maps']))
 
+    def test_a_world_may_come_through_a_pipe(self):
+        os.mkfifo(self.path('w.yaml'))
+        done = self.run_program('bash', '-c', 'echo 0,0,0,5,5,0,1,3,2,2,3,2,3,3 >w.yaml & '
+                                f'{QUERIES} --output q --queries 1 --from w.yaml')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+
     def test_bad_input_is_one_line(self):
         self.write('old/index.json', '{}')
         for arguments, parts in ((('--seed', 1), ('--output',)),

@@ -18,7 +18,8 @@ from made_results import MAKE_REPORT, REPORT, record
 
 sys.path.insert(0, REPORT)
 from charts import Axis, cost_at, shown, shown_time, success_curves, tick_time  # noqa: E402
-from results import read_results  # noqa: E402
+from gallery import Picture, path_lines  # noqa: E402
+from results import ReportError, read_results  # noqa: E402
 
 
 def make_report(*arguments):
@@ -330,6 +331,105 @@ class BadInputTest(Folder):
             self.assertIn('runs.jsonl:3: is not a line of benchmark results (', results.damage[0])
         done = make_report(self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, f'make_report: {results.damage[0]}\n'))
+
+    def named(self, line, field, *content):
+        made_results.write(self.folder, *content)
+        with self.assertRaises(ReportError) as raised:
+            read_results(self.folder)
+        self.assertIn(f'runs.jsonl:{line}: ', str(raised.exception))
+        self.assertIn(field, str(raised.exception))
+
+    def test_values_that_mean_nothing_are_named_with_file_line_and_field(self):
+        nan, solved = float('nan'), record('a', 'p', 1, 'solved', 0.1, 8.0)
+        cases = [({'figures': {**solved['figures'], name: value}}, name) for name, value in (
+            ('time', -1.0), ('time', nan), ('time', 'fast'), ('time', None), ('planning time', 'nan'),
+            ('first solution time', -0.1), ('first solution time', math.inf), ('trajectory duration', -2), ('path length', -8.0),
+            ('path length', 'inf'), ('success', 2), ('success', 'yes'), ('densely valid', 1), ('outcome', 11),
+            ('outcome', 'solved'), ('outcome', -1), ('run', 1.5), ('run', -3), ('run', True), ('seed', '7'), ('status', 'exact'), ('cusps', -1),
+            ('least clearance', nan), ('least clearance', 'wide'), ('nodes expanded', []))]
+        cases += [({'figures': {name: value for name, value in solved['figures'].items() if name != gone}}, gone)
+                  for gone in ('first solution time', 'path length')]
+        cases += [({'experiment': 1}, 'experiment'), ({'planner': ''}, 'planner'), ({'reported': {'cost': nan}}, 'cost'),
+                  ({'progress': [[0.1, 9.0], [-0.1, 8.0]]}, 'progress[1]'), ({'progress': [[0.1]]}, 'progress[0]'),
+                  ({'progress': [[0.1, nan]]}, 'progress[0]'), ({'path': 3}, 'path is 3'), ({'path': {}}, 'path: exact'),
+                  ({'path': {'exact': True, 'start': [0, 0], 'pieces': []}}, 'path: start'),
+                  ({'path': {'exact': True, 'start': [0, 0, 0], 'pieces': [[0.0, nan]]}}, 'path: pieces[0]')]
+        for change, field in cases:
+            with self.subTest(f'{field}: {change}'):
+                self.named(3, field, [record('a', 'p', 0, 'none'), {**solved, **change}])
+        self.assertIn(f'runs.jsonl:3: {field}', self.refused(self.folder))
+        for change, field in (({'time_limit': -2.0}, 'time_limit'), ({'time_limit': nan}, 'time_limit'),
+                              ({'time_limit': 'long'}, 'time_limit'), ({'started': nan}, 'started'), ({'setups': 3}, 'setups'),
+                              ({'fingerprints': 3}, 'fingerprints'), ({'fingerprints': {'a': 3}}, 'fingerprints: "a"')):
+            with self.subTest(change):
+                self.named(1, field, [solved], {**made_results.HEADER, **change})
+
+    def test_values_that_parking_benchmark_writes_are_taken(self):
+        made_results.write(self.folder, [record('a', 'p', 0, 'solved', 0.0, 8.0, **{'distance to goal': 'inf', 'memory': -0.5}),
+                                         dict(record('a', 'p', 1, 'none'), reported={'best cost': 'inf', 'off': 'nan'})])
+        self.page()
+
+    def test_paths_as_long_as_a_bad_planner_likes_are_drawn(self):
+        for piece in ([1.0, 1e15], [0.0, 1e15, 1e-3]):
+            lines, _ = path_lines({'start': [0, 0, 0], 'pieces': [piece]}, Picture(100.0, 100.0, 0.0, 0.0, 1.0, ''))
+            self.assertEqual([direction for direction, _ in lines], [1])
+
+    def test_what_is_no_file(self):
+        made_results.write(self.folder, [record('a', 'p', 0, 'none')])
+        for arguments in (['--runs', '/dev/zero'], ['--runs', self.folder], ['--classes', '/dev/zero']):
+            self.assertIn(arguments[1], self.refused(self.folder, *arguments))
+        os.mkfifo(self.path('pipe'))
+        os.mkfifo(self.path('pipe.db'))
+        self.assertIn('is a pipe', self.refused(self.folder, '--output', self.path('pipe')))
+        self.assertIn('is no file', self.refused(self.folder, '--runs', self.path('pipe.db')))
+        # What somebody writes into a pipe is read.
+        with open(self.path('runs.jsonl'), 'rb') as stream:
+            done = subprocess.run(['bash', '-c', f'cat | {sys.executable} -B {MAKE_REPORT} {self.folder} --runs /dev/stdin'],
+                                  stdin=stream, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+
+    def contents(self):
+        found = {}
+        for name in sorted(os.listdir(self.folder)):
+            with open(self.path(name), 'rb') as stream:
+                found[name] = stream.read()
+        return found
+
+    def test_inputs_are_not_written_over(self):
+        made_results.write(self.folder, [record('a', 'p', 0, 'none')], name='pairs.csv')
+        made_results.write(self.folder, [record('a', 'p', 0, 'none')])
+        with open(self.path('classes'), 'w', encoding='utf-8') as stream:
+            stream.write('problem,class\na,b\n')
+        os.link(self.path('runs.jsonl'), self.path('link'))
+        before = self.contents()
+        for arguments in (['--output', self.path('runs.jsonl')], ['--output', self.path('link')],
+                          ['--classes', self.path('classes'), '--output', self.path('classes')],
+                          ['--runs', self.path('pairs.csv')]):
+            self.assertIn('is the input', self.refused(self.folder, *arguments))
+        done = subprocess.run([sys.executable, '-B', os.path.join(REPORT, 'results_page'), self.folder, '--svg',
+                               self.path('link')], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr.count('\n')), (2, 1), done.stderr)
+        self.assertEqual(before, self.contents())
+
+    def test_times_of_a_database(self):
+        with sqlite3.connect(self.path('benchmark.db')) as connection:
+            connection.executescript('''
+                CREATE TABLE experiments (id INTEGER, name TEXT, setup TEXT, hostname TEXT, cpuinfo TEXT, seed INTEGER,
+                                          timelimit REAL, version TEXT);
+                CREATE TABLE plannerConfigs (id INTEGER, name TEXT, settings TEXT);
+                CREATE TABLE runs (id INTEGER, experimentid INTEGER, plannerid INTEGER, time REAL, solved INTEGER);
+                INSERT INTO experiments VALUES (1, 'a', '', '', '', 1, 2.0, '');
+                INSERT INTO plannerConfigs VALUES (1, 'p', '');
+                INSERT INTO runs VALUES (7, 1, 1, -0.5, 1);''')
+        connection.close()
+        message = self.refused(self.folder)
+        for part in ('benchmark.db: run 7: ', 'time is -0.5'):
+            self.assertIn(part, message)
+        # In a folder whose name would mean something else in an address.
+        folder = self.path('run#1?50%41')
+        os.mkdir(folder)
+        os.rename(self.path('benchmark.db'), os.path.join(folder, 'benchmark.db'))
+        self.assertIn('run 7: ', self.refused(folder))
 
     def test_runs_that_the_last_start_did_not_want_are_left_out(self):
         def marked(planner, run, fingerprint):

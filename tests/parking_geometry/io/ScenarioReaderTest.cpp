@@ -4,6 +4,7 @@
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -308,6 +309,62 @@ TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
     expectYamlError("&a [*a]\n", {"example.yaml"});
     expectYamlError("# only: a comment\n", {"example.yaml", "must be a mapping"});
     expectYamlError("a: " + std::string(100000, '['), {"example.yaml"});
+}
+
+TEST_F(YamlReader, NamesTheLineOfAKeyThatWasLeftBlank)
+{
+    const std::string rest = "\n\n# nothing\n\ngoal: [15.5, 20, -0.25]\npolygons: []\n";
+    for (const std::string blank : {"start:", "start: ", "start: # later", "start: ~", "start: null"})
+        expectYamlError("name: a\n" + blank + rest, {"example.yaml:2: start is nothing"});
+    expectYamlError(with(SCENARIO, "goal: [15.5, 20, -0.25]", "goal:"), {"example.yaml:5: goal is nothing"});
+    expectYamlError("polygons: []\nstart: [1, 2, 3]\ngoal:\n\n", {"example.yaml:3: goal is nothing"});
+    expectYamlError(with(SCENARIO, "name: example", "name:"), {"example.yaml:2: name is nothing"});
+    expectYamlError(with(SCENARIO, "vehicle: vw_golf8", "vehicle:"), {"example.yaml:3: vehicle is nothing"});
+    expectYamlError(SCENARIO + "unknown_is_occupied:\n\n", {"example.yaml:11: unknown_is_occupied is nothing"});
+    expectYamlError("start: [1, 1, 0]\nmap:\ngoal: [2, 1, 0]\n", {"example.yaml:2: map is nothing"});
+    const std::string slot = with(SCENARIO, "goal: [15.5, 20, -0.25]\n", "slot:\n");
+    expectYamlError(slot, {"example.yaml:5: slot holds nothing", "must be a mapping"});
+    for (const std::string key : {"pose", "kind", "length"})
+    {
+        std::string fields = "slot:\n  kind: parallel\n  length: 6\n  pose: [1, 2, 3]\n  width: 2\n";
+        const std::size_t at = fields.find(key + ":") + key.size() + 1;
+        fields.erase(at, fields.find('\n', at) - at);
+        const auto line = std::to_string(5 + std::count(fields.begin(), fields.begin() + std::ptrdiff_t(at), '\n'));
+        expectYamlError(with(slot, "slot:\n", fields), {"example.yaml:" + line + ": " + key + " is nothing"});
+    }
+}
+
+TEST_F(YamlReader, SaysWhichFilesAScenarioWasReadFrom)
+{
+    const auto names = [this](const Scenario &scenario)
+    {
+        std::string text;
+        for (const std::string &file : scenario.files)
+            text += std::filesystem::relative(file, folder_.path("")).string() + " ";
+        return text;
+    };
+    const std::string fields =
+        "wheelbase: 2.4\nfront_overhang: 0.8\nrear_overhang: 0.7\nwidth: 1.7\nmax_steering_angle: 0.6\n";
+    folder_.write("cars/mine.yaml", fields);
+    const std::string other = folder_.write("other.yaml", fields);
+    folder_.write("maps/lot.yaml", "image: ../images/lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+    folder_.write("images/lot.pgm", "P2 2 2 1 1 1 1 1");
+    EXPECT_EQ(names(read(SCENARIO)), "example.yaml ");
+    const std::string text = "start: [0.5, 0.5, 0]\ngoal: [0.6, 0.5, 0]\nmap: maps/lot.yaml\nvehicle: cars/mine.yaml\n";
+    EXPECT_EQ(names(read(text)), "example.yaml cars/mine.yaml maps/lot.yaml images/lot.pgm ");
+    EXPECT_EQ(names(readScenario(folder_.path("example.yaml"), {other})),
+              "example.yaml other.yaml maps/lot.yaml images/lot.pgm ");
+    EXPECT_EQ(names(readScenario(folder_.write("case.csv", CASE), {other})), "case.csv other.yaml ");
+    EXPECT_EQ(names(readScenario(folder_.path("case.csv"), {"vw_golf8"})), "case.csv ");
+}
+
+TEST_F(YamlReader, ParsesWhatWasReadAlready)
+{
+    const std::string file = folder_.path("none.yaml");
+    EXPECT_EQ(parseScenario(file, "\xEF\xBB\xBF" + SCENARIO).polygons.size(), 2u);
+    EXPECT_EQ(parseScenario(file, CASE, {"vw_golf8"}).vehicle.name, "vw_golf8");
+    expectError([&] { parseScenario(file, " \n"); }, {"none.yaml", "blanks"});
+    expectError([&] { parseScenario(file, "goal: [1, 2, 3]"); }, {"none.yaml:1: key 'start' is missing"});
 }
 
 TEST_F(YamlReader, AliasesDoNotMultiplyCornersWithoutBound)

@@ -6,9 +6,12 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -103,6 +106,17 @@ TEST(WriteFile, WritesToWhatIsNoOrdinaryFile)
         expectError([] { writeFileAtomically("/dev/full", "x"); }, {"/dev/full", "No space left"});
 }
 
+TEST(WriteFile, DisksAreNotWrittenOver)
+{
+    const TemporaryFolder folder;
+    // Of a driver that does not exist: to open it is an error anyway.
+    if (::mknod(folder.path("disk").c_str(), S_IFBLK | 0600, makedev(4095, 255)) != 0)
+        GTEST_SKIP() << "only root may make a device";
+    expectError([&] { writeFileAtomically(folder.path("disk"), "x"); },
+                {"disk", "is a disk, whose content would be lost"});
+    EXPECT_TRUE(fs::is_block_file(folder.path("disk")));
+}
+
 TEST(WriteFile, NamesTheCause)
 {
     const TemporaryFolder folder;
@@ -148,4 +162,27 @@ TEST(ReadFile, ReadsUpToItsLimit)
     const std::string file = folder.write("big", text);
     EXPECT_EQ(readFile(file, text.size()), text);
     expectError([&] { readFile(file, text.size() - 1); }, {"big", "larger"});
+}
+
+TEST(ReadFile, ReadsAPipeToItsEnd)
+{
+    const TemporaryFolder folder;
+    const std::string pipe = folder.path("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const std::string text(1 << 20, 'z');  // more than a pipe holds
+    const auto before = std::signal(SIGPIPE, SIG_IGN);
+    for (const std::size_t limit : {text.size(), text.size() - 1})
+    {
+        std::thread writer(
+            [&]
+            {
+                std::ofstream(pipe) << text;  // without those that are not read
+            });
+        if (limit == text.size())
+            EXPECT_EQ(readFile(pipe, limit), text);
+        else
+            expectError([&] { readFile(pipe, limit); }, {"pipe", "larger"});
+        writer.join();
+    }
+    std::signal(SIGPIPE, before);
 }
