@@ -143,6 +143,12 @@ foreach(program IN ITEMS parking_plan parking_benchmark)
 endforeach()
 # What scripts/package builds: no micro-benchmarks.
 add_custom_target(packaged DEPENDS ${parking_man_pages} ${parking_all_libraries})
+# These are installed, too, and have no manual page that would have them built.
+foreach(program IN ITEMS parking_queries parking_convert)
+  if(TARGET ${program})
+    add_dependencies(packaged ${program})
+  endif()
+endforeach()
 if(TARGET improved_astar_python)
   add_dependencies(packaged improved_astar_python)
 endif()
