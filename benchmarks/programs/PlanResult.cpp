@@ -25,6 +25,13 @@ namespace parking
         constexpr double TRAJECTORY_STEP = 0.05;  // seconds between samples
         constexpr double DEGREES = 180.0 / PI;    // in a radian
 
+        /** Are the wheels ever turned? */
+        bool steers(const TimedMotion &motion)
+        {
+            return std::any_of(motion.knots.begin(), motion.knots.end(),
+                               [](const MotionKnot &knot) { return knot.steering != 0.0; });
+        }
+
         json vehicleJson(const Vehicle &vehicle)
         {
             return {{"name", vehicle.name},
@@ -298,7 +305,7 @@ namespace parking
         if (result.trajectory)
             text += "  trajectory: " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) +
                     " s, found in " + formatNumber(MS * result.trajectoryTime, 1) + " ms" +
-                    (result.trajectory->trajectory.fallback && !result.trajectory->trajectory.reason.empty()
+                    (result.trajectory->trajectory.fallback && steers(result.trajectory->trajectory.motion)
                          ? " (stops to steer: " + result.trajectory->trajectory.reason + ")"
                          : "") +
                     "\n";

@@ -61,6 +61,7 @@ namespace
         // The goal that is farther is behind a long wall: the way round it is asked for again by the bound.
         Site site = openSite(400.0);
         site.obstacles.push_back(box(-1.0, -400.0, 1.0, 390.0));
+        site.obstacles.push_back(box(-20.0, -298.98, -19.0, -298.0));
         for (unsigned int questions = 1; questions < 400; questions += 9)
         {
             PlanningProblem problem(Space::ReedsShepp, site);
