@@ -49,6 +49,13 @@ namespace ompl::geometric
             return region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
         }
 
+        /** May goals that are sampled elsewhere, meanwhile, still come? */
+        bool isSampling(const ob::Goal &goal)
+        {
+            const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(&goal);
+            return lazy != nullptr && lazy->isSampling();
+        }
+
         std::optional<Pose> anyGoal(const ob::Goal &goal, const ob::SpaceInformationPtr &si)
         {
             if (goal.hasType(ob::GOAL_STATE))
@@ -251,18 +258,16 @@ namespace ompl::geometric
 
     bool ImprovedAStar::mayHaveOtherGoals() const
     {
-        const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(pdef_->getGoal().get());
-        return pis_.haveMoreGoalStates() || (lazy != nullptr && lazy->isSampling());
+        return pis_.haveMoreGoalStates() || isSampling(*pdef_->getGoal());
     }
 
     bool ImprovedAStar::readAnotherGoal(const ob::PlannerTerminationCondition &ptc)
     {
         // Those that are on their way are worth waiting for. A region always has others: so many must do.
-        const bool isLazy = dynamic_cast<const ob::GoalLazySamples *>(pdef_->getGoal().get()) != nullptr;
-        const bool finite = isFinite(*pdef_->getGoal()->as<ob::GoalSampleableRegion>());
-        while (!ptc && mayHaveOtherGoals() && (finite || isLazy || query_->otherGoals++ < GOAL_ATTEMPTS))
+        const auto &goal = *pdef_->getGoal()->as<ob::GoalSampleableRegion>();
+        while (!ptc && mayHaveOtherGoals() && (isFinite(goal) || query_->otherGoals++ < GOAL_ATTEMPTS))
         {
-            const ob::State *state = isLazy ? pis_.nextGoal(ptc) : pis_.nextGoal();
+            const ob::State *state = isSampling(goal) ? pis_.nextGoal(ptc) : pis_.nextGoal();
             if (state != nullptr && addGoal(parking::poseOf(state)))
                 return true;
         }
@@ -287,8 +292,7 @@ namespace ompl::geometric
         // Lazily sampled goals may be on their way. A list of goals that are all taken grows no longer: OMPL would wait
         // for it until the time is up. So would it for a region whose samples are all invalid: after so many attempts
         // the time is better spent on coming near to it.
-        const auto *lazy = dynamic_cast<const ob::GoalLazySamples *>(&region);
-        const bool mayHaveMore = lazy != nullptr ? lazy->isSampling() : !finite && !region.canSample();
+        const bool mayHaveMore = isSampling(region) || (!finite && !region.canSample());
         if (query_->goals.empty() && region.couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
                 addGoal(parking::poseOf(state));

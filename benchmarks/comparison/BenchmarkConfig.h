@@ -64,6 +64,13 @@ namespace parking
         bool track{false};                  ///< drive each path with the controller
         bool trajectory{false};             ///< optimise each path in time
         std::vector<PlannerSpec> planners;  ///< in the order of the file
+
+        /** \brief "FILE:LINE: " where a scenario is named, with which messages about it begin; empty when it is not. */
+        std::string lineOf(const std::string &scenario) const
+        {
+            const auto line = scenarioLines.find(scenario);
+            return line == scenarioLines.end() ? "" : line->second;
+        }
     };
 
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].

@@ -207,8 +207,7 @@ namespace parking
                 }
                 catch (const Error &error)
                 {
-                    const auto line = config.scenarioLines.find(file);
-                    throw Error((line == config.scenarioLines.end() ? "" : line->second) + error.what());
+                    throw Error(config.lineOf(file) + error.what());
                 }
             };
             const ProblemOptions &common = config.planners.front().problem;

@@ -2,6 +2,7 @@
 
 #include "benchmarks/formats/ScenarioFormat.h"
 
+#include "parking_geometry/io/ScenarioParts.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
@@ -10,8 +11,6 @@ namespace parking
 {
     namespace
     {
-        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes
-
         bool recognizes(std::string_view begin)
         {
             double ignored = 0.0;
@@ -50,8 +49,12 @@ namespace parking
 
     ScenarioFormat tpcapFormat()
     {
-        return {"tpcap",    ".csv",  "cases of TPCAP; the car is not in them: TPCAP's, unless --vehicle says otherwise",
-                recognizes, LARGEST, parse,
+        return {"tpcap",
+                ".csv",
+                "cases of TPCAP; the car is not in them: TPCAP's, unless --vehicle says otherwise",
+                recognizes,
+                TEXT_FILE_LIMIT,
+                parse,
                 write};
     }
 }  // namespace parking

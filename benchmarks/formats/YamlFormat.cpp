@@ -3,6 +3,7 @@
 #include "benchmarks/formats/YamlFormat.h"
 
 #include "benchmarks/formats/ScenarioFormat.h"
+#include "parking_geometry/io/ScenarioParts.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
@@ -15,8 +16,6 @@ namespace parking
         {
             return "[" + formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw) + "]";
         }
-
-        constexpr std::size_t LARGEST = std::size_t(16) << 20;  // bytes
 
         Scenario parse(const std::string &file, const std::string &content, const FormatOptions &options)
         {
@@ -61,7 +60,7 @@ namespace parking
                 ".yaml",
                 "scenarios of this project, maps and voxels as they name them",
                 [](std::string_view) { return true; },
-                LARGEST,
+                TEXT_FILE_LIMIT,
                 parse,
                 write};
     }

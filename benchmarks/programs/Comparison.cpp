@@ -145,15 +145,16 @@ namespace parking
             const std::string why = runner.problem(i).whyUnsolvable();
             if (why.empty())
                 continue;
-            const auto line = config_.scenarioLines.find(experiment.scenarioFile);
             const ProblemOptions &options = experiment.options;
-            std::string given = options.start && options.goal ? "start and goal are"
-                                : options.start               ? "the start is"
-                                                              : "the goal is";
-            given = options.start || options.goal ? " (" + given + " given in " + config_.file + ")" : "";
-            std::cerr << "parking_benchmark: " << (line == config_.scenarioLines.end() ? "" : line->second)
-                      << experiment.scenarioFile << ": " << why << given << "; no run of " << experiment.name
-                      << " can solve it" << std::endl;
+            std::string given;
+            if (options.start || options.goal)
+                given = std::string(" (") +
+                        (options.start && options.goal ? "start and goal are"
+                         : options.start               ? "the start is"
+                                                       : "the goal is") +
+                        " given in " + config_.file + ")";
+            std::cerr << "parking_benchmark: " << config_.lineOf(experiment.scenarioFile) << experiment.scenarioFile
+                      << ": " << why << given << "; no run of " << experiment.name << " can solve it" << std::endl;
         }
     }
 

@@ -136,9 +136,11 @@ namespace
         const ParkingParameters parameters = DriveStudy::parameters(*line);
         const std::string output = line->outputFile("output").value_or("");
         const std::vector<Scenario> scenarios = DriveStudy::scenarios(*line);
+        std::vector<std::string> inputs;
+        for (const Scenario &scenario : scenarios)
+            inputs.insert(inputs.end(), scenario.files.begin(), scenario.files.end());
         if (!output.empty())
-            for (const Scenario &scenario : scenarios)
-                requireOutputs({output}, scenario.files);
+            requireOutputs({output}, inputs);
         std::vector<Row> rows;
         for (const Scenario &scenario : scenarios)
         {

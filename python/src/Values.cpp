@@ -67,6 +67,7 @@ namespace parking::python
                     return std::nullopt;
             }
         }
+
         /** A drive from row to row of a path. */
         class RowsDriver
         {

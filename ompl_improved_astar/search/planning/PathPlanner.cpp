@@ -323,7 +323,7 @@ namespace parking::search
         // than one that may come nearer.
         SearchParameters parameters = parameters_.search;
         parameters.eagerObstacles = false;
-        parameters.maxMemory -= std::min(parameters.maxMemory, search_.memory());
+        parameters.maxMemory = memoryLeft();
         roomy_.emplace(*environment_, search_.cost().preferredClearance);
         if (!roomySearch_)
             roomySearch_ = std::make_unique<Search>();
@@ -395,7 +395,7 @@ namespace parking::search
         // From now on there are two searches that take memory.
         const std::size_t memory = parameters_.search.maxMemory;
         const auto share = static_cast<std::size_t>(tuning.memoryOfRestarts * static_cast<double>(memory));
-        restarts_.setMaxMemory(std::min(share, memory - std::min(memory, search_.memory())));
+        restarts_.setMaxMemory(std::min(share, memoryLeft()));
         search_.setMaxMemory(memory - share);
         for (;; ++round_)
         {
@@ -454,7 +454,7 @@ namespace parking::search
             if (std::exchange(hasApproach_, true))
                 approaches_ += approach_->statistics();
             SearchParameters parameters = parameters_.search;
-            parameters.maxMemory -= std::min(parameters.maxMemory, search_.memory());
+            parameters.maxMemory = memoryLeft();
             search->begin(*environment_, parameters);
             for (const Pose &start : starts_)
                 search->addStart(start);

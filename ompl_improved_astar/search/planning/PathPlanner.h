@@ -5,6 +5,8 @@
 #include "ompl_improved_astar/search/planning/Restarts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -125,6 +127,13 @@ namespace parking::search
         bool isTimeUp() const
         {
             return stop_ && stop_();
+        }
+
+        /** Bytes of what all may take that the search leaves to others. */
+        std::size_t memoryLeft() const
+        {
+            const std::size_t most = parameters_.search.maxMemory;
+            return most - std::min(most, search_.memory());
         }
 
         bool take(const Path &path, double cost);
