@@ -162,7 +162,7 @@ namespace ompl::geometric
                                      const parking::search::StopFunction &stop);
         parking::Path smoothed(const parking::Path &path, const base::PlannerTerminationCondition &ptc) const;
         std::shared_ptr<PathGeometric> geometricPath(const std::vector<parking::Pose> &poses) const;
-        base::Cost costOf(const parking::Path &path, const PathGeometric &geometric, const parking::Path &found) const;
+        base::Cost costOf(const parking::Path &path, const PathGeometric &geometric, double closeness) const;
         void priceAnew();
         double differenceFromGoal(const base::State *state) const;
         bool takeImprovement(const parking::Path &path, double plannedCost,

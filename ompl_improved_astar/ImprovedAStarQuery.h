@@ -56,6 +56,7 @@ namespace ompl::geometric
         bool hasSolution{false};                                       ///< there is an exact one: path
         parking::Path path;                                            ///< the best one by the problem's objective
         double plannedCost{std::numeric_limits<double>::infinity()};   ///< of path, by the planner's own model
+        double closeness{0.0};                                         ///< of that, for being near to obstacles
         std::vector<parking::Pose> states;                             ///< of it, for OMPL
         base::Cost bestCost{std::numeric_limits<double>::infinity()};  ///< of path
         base::OptimizationObjectivePtr objective;  ///< that bestCost is of; none: length and closeness, in metres

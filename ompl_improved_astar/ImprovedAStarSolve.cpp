@@ -51,7 +51,7 @@ namespace ompl::geometric
         return path;
     }
 
-    ob::Cost ImprovedAStar::costOf(const Path &path, const PathGeometric &geometric, const Path &found) const
+    ob::Cost ImprovedAStar::costOf(const Path &path, const PathGeometric &geometric, double closeness) const
     {
         if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
             return geometric.cost(objective);
@@ -59,7 +59,7 @@ namespace ompl::geometric
         // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
         // would look for each piece's shortest curve to find out what is known here.
         const double length = query_->isPlain() ? geometric.length() : path.length();
-        return ob::Cost(length + query_->planner.closeness(found));
+        return ob::Cost(length + closeness);
     }
 
     void ImprovedAStar::priceAnew()
@@ -67,7 +67,7 @@ namespace ompl::geometric
         if (!query_->hasSolution || query_->objective == pdef_->getOptimizationObjective())
             return;
         query_->objective = pdef_->getOptimizationObjective();
-        query_->bestCost = costOf(query_->path, *geometricPath(query_->states), query_->path);
+        query_->bestCost = costOf(query_->path, *geometricPath(query_->states), query_->closeness);
         bestCost_.store(query_->bestCost.value(), std::memory_order_relaxed);
     }
 
@@ -78,13 +78,15 @@ namespace ompl::geometric
         const Path path = smoothed(found, ptc);
         const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
         const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
-        const ob::Cost cost = costOf(path, *geometric, found);
+        const double closeness = query_->planner.closenessOfBest();
+        const ob::Cost cost = costOf(path, *geometric, closeness);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
                                                : cost.value() < query_->bestCost.value()))
             return false;
         query_->hasSolution = true;
         query_->path = path;
         query_->plannedCost = plannedCost;
+        query_->closeness = closeness;
         query_->states = states;
         query_->bestCost = cost;
         query_->objective = objective;

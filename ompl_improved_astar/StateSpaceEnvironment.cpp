@@ -122,7 +122,8 @@ namespace parking
 
     double StateSpaceEnvironment::clearance(const Pose &pose)
     {
-        if (!clearanceKnown_)
+        // Once the time is up nobody is asked any more, and nothing is known.
+        if (!clearanceKnown_ || interrupted_ || (++clearances_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()))
             return 0.0;
         setPose(state_.get(), pose);
         return std::max(0.0, si_->getStateValidityChecker()->clearance(state_.get()));

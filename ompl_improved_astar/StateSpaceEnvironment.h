@@ -48,7 +48,8 @@ namespace parking
         StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, const StateSpacing &stateSpacing,
                               bool headingMatters);
 
-        /** \brief While \e stop says true every motion is cut short, so that a slow checker does not delay the end. */
+        /** \brief While \e stop says true every motion is cut short, and no clearance known, so that a slow checker
+            does not delay the end. */
         void setStop(const search::StopFunction &stop)
         {
             stop_ = stop;
@@ -96,6 +97,7 @@ namespace parking
         search::StopFunction stop_;
         bool interrupted_{false};
         std::uint64_t checkedStates_{0};
+        std::uint64_t clearances_{0};  // asked for
         ompl::base::ScopedState<> state_, other_;
     };
 

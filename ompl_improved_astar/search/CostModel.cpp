@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/CostModel.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -8,15 +9,33 @@ namespace parking::search
 {
     namespace
     {
-        std::vector<double> closenessOfPieces(const CostModel &model, const Path &path, MotionEnvironment &environment)
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+        std::vector<double> closenessOfPieces(const CostModel &model, const Path &path, MotionEnvironment &environment,
+                                              Patience *patience)
         {
             std::vector<double> closeness(path.pieces.size(), 0.0);
             Pose pose = path.start;
-            for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness(); ++i)
+            const auto isOver = [patience]
             {
-                closeness[i] = model.closeness(pose, path.pieces[i], environment);
+                return patience != nullptr && patience->wasOver();
+            };
+            for (std::size_t i = 0; i < path.pieces.size() && model.pricesCloseness() && !isOver(); ++i)
+            {
+                closeness[i] = model.closeness(pose, path.pieces[i], environment, -1.0, INFINITE, patience);
                 pose = advance(pose, path.pieces[i].curvature, path.pieces[i].length);
             }
+            return closeness;
+        }
+
+        /** The same; none for want of time. */
+        std::optional<std::vector<double>> closenessOfPieces(const CostModel &model, const Path &path,
+                                                             MotionEnvironment &environment, const StopFunction &stop)
+        {
+            Patience patience(stop, LOOKS_BETWEEN_STOPS);
+            std::vector<double> closeness = closenessOfPieces(model, path, environment, &patience);
+            if (patience.wasOver() || (model.pricesCloseness() && environment.wasInterrupted()))
+                return std::nullopt;
             return closeness;
         }
 
@@ -27,7 +46,7 @@ namespace parking::search
     }  // namespace
 
     double CostModel::closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
-                                double clear, double most) const
+                                double clear, double most, Patience *patience) const
     {
         const double length = std::abs(segment.length);
         double cost = 0.0;
@@ -36,6 +55,8 @@ namespace parking::search
             const double samples = std::max(1.0, std::ceil(length / clearanceRange));
             for (double i = 0.5; i < samples; i += 1.0)
             {
+                if (patience != nullptr && patience->isOver())
+                    return cost;
                 const Pose pose = advance(from, segment.curvature, segment.length * i / samples);
                 const double nearness = 1.0 - environment.clearance(pose) / clearanceRange;
                 cost += clearanceWeight * std::max(0.0, nearness) * length / samples;
@@ -53,9 +74,17 @@ namespace parking::search
         const double rest = length - clear, samples = std::ceil(rest / samplesApart);
         const double apart = rest / samples, perSample = clearanceCost * apart;
         const double affordable = std::clamp((most - cost) / perSample, 0.0, samples);
-        const std::size_t nearer = environment.countNearer(
-            from, {segment.curvature, segment.length}, clear + 0.5 * apart, apart, static_cast<std::size_t>(samples),
-            preferredClearance, static_cast<std::size_t>(affordable));
+        const auto count = static_cast<std::size_t>(samples), enough = static_cast<std::size_t>(affordable);
+        const std::size_t atOnce = patience != nullptr ? std::min(count, LOOKS_BETWEEN_STOPS) : count;
+        std::size_t nearer = 0;
+        for (std::size_t done = 0; done < count && nearer <= enough; done += atOnce)
+        {
+            if (patience != nullptr && patience->isOver(atOnce))
+                break;
+            nearer += environment.countNearer(from, {segment.curvature, segment.length},
+                                              clear + apart * (0.5 + static_cast<double>(done)), apart,
+                                              std::min(atOnce, count - done), preferredClearance, enough - nearer);
+        }
         // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
         return cost + perSample * std::max(clear > 0.0 ? 1.0 : 0.0, static_cast<double>(nearer));
     }
@@ -96,7 +125,14 @@ namespace parking::search
 
     double pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment)
     {
-        return sumOf(closenessOfPieces(model, path, environment));
+        return sumOf(closenessOfPieces(model, path, environment, nullptr));
+    }
+
+    std::optional<double> pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment,
+                                        const StopFunction &stop)
+    {
+        const std::optional<std::vector<double>> closeness = closenessOfPieces(model, path, environment, stop);
+        return closeness ? std::optional(sumOf(*closeness)) : std::nullopt;
     }
 
     double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment)
@@ -104,10 +140,13 @@ namespace parking::search
         return pathCloseness(model, path, environment) + costWithoutCloseness(model, path);
     }
 
-    PricedPath pricePath(const CostModel &model, Path path, MotionEnvironment &environment)
+    std::optional<PricedPath> pricePath(const CostModel &model, Path path, MotionEnvironment &environment,
+                                        const StopFunction &stop)
     {
-        std::vector<double> closeness = closenessOfPieces(model, path, environment);
-        const double cost = sumOf(closeness) + costWithoutCloseness(model, path);
-        return {std::move(path), std::move(closeness), cost};
+        std::optional<std::vector<double>> closeness = closenessOfPieces(model, path, environment, stop);
+        if (!closeness)
+            return std::nullopt;
+        const double cost = sumOf(*closeness) + costWithoutCloseness(model, path);
+        return PricedPath{std::move(path), std::move(*closeness), cost};
     }
 }  // namespace parking::search

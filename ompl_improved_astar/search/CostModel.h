@@ -1,12 +1,15 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace parking::search
@@ -53,9 +56,11 @@ namespace parking::search
             clear of obstacles by as much: a motion that does not cost anything keeps it everywhere.
 
             \param clear metres at the beginning that are known to keep preferredClearance; negative: ask for them
-            \param most what comes out above this may be too little: whoever asks has no use for it */
+            \param most what comes out above this may be too little: whoever asks has no use for it
+            \param patience of those who price what may be long; once it is over, what comes out is too little */
         double closeness(const Pose &from, const PathPiece &segment, MotionEnvironment &environment,
-                         double clear = -1.0, double most = std::numeric_limits<double>::infinity()) const;
+                         double clear = -1.0, double most = std::numeric_limits<double>::infinity(),
+                         Patience *patience = nullptr) const;
 
         /** \brief Cost of what happens at standstill or in passing between two segments. */
         double join(const PathPiece &before, const PathPiece &after) const
@@ -90,6 +95,15 @@ namespace parking::search
     /** \brief Cost of a whole path, closeness included. */
     double pathCost(const CostModel &model, const Path &path, MotionEnvironment &environment);
 
+    /** \brief How many looks at the clearance there are between two questions whether to stop: some checkers take a
+        tenth of a millisecond for one. */
+    constexpr std::size_t LOOKS_BETWEEN_STOPS = 64;
+
+    /** \brief The same as without \e stop. None when that says that it is time to stop, or when the environment was
+        interrupted: what a path costs is then not known. */
+    std::optional<double> pathCloseness(const CostModel &model, const Path &path, MotionEnvironment &environment,
+                                        const StopFunction &stop);
+
     /** \brief A path and what it costs. */
     struct PricedPath
     {
@@ -98,6 +112,8 @@ namespace parking::search
         double cost{0.0};               ///< of the whole, closeness included
     };
 
-    /** \brief What a path costs, piece by piece. */
-    PricedPath pricePath(const CostModel &model, Path path, MotionEnvironment &environment);
+    /** \brief What a path costs, piece by piece; none when it is time to stop before that is known, or when the
+        environment was interrupted. */
+    std::optional<PricedPath> pricePath(const CostModel &model, Path path, MotionEnvironment &environment,
+                                        const StopFunction &stop);
 }  // namespace parking::search

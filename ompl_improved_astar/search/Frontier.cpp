@@ -1,6 +1,7 @@
 #include "ompl_improved_astar/search/Frontier.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace parking::search
 {
@@ -176,11 +177,17 @@ namespace parking::search
         NodeIndex best = NO_NODE;
         double nearest = std::numeric_limits<double>::infinity();
         for (NodeIndex i = 0; i < nodes_.size(); ++i)
-            if (const double distance = positionDistance(nodes_[i].pose, target); distance < nearest)
+        {
+            // There may be millions of them when the time is up: most are told apart by one coordinate.
+            const Pose &pose = nodes_[i].pose;
+            if (!(std::abs(pose.x - target.x) < nearest && std::abs(pose.y - target.y) < nearest))
+                continue;
+            if (const double distance = positionDistance(pose, target); distance < nearest)
             {
                 nearest = distance;
                 best = i;
             }
+        }
         return best;
     }
 }  // namespace parking::search

@@ -148,8 +148,8 @@ namespace parking::search
             return isFree(pose);
         }
 
-        /** \brief Did freeLength(), isPassable() or acceptPath() say less than they would have, because the time was
-            up? The search then comes back to what it was at. */
+        /** \brief Did freeLength(), isPassable(), acceptPath() or what is asked about clearances say less than they
+            would have, because the time was up? The search then comes back to what it was at. */
         virtual bool wasInterrupted() const
         {
             return false;

@@ -47,11 +47,12 @@ namespace parking::search
             each.begin(parameters.openList, traits_.levels, tuning.turnsRatio);
             each.crowds.begin(tuning.crowdedPlace * parameters.turningRadius, tuning.crowdSectors);
         }
+        listsInOrder_ = {traits_.levels, traits_.levels};
         boundIsKept_ = parameters.weights.far <= 1.0 && parameters.weights.near <= 1.0;
         leastDropped_ = {INFINITE, INFINITE};
         hasLateRoots_ = joinsAgain_ = false;
         confined_ = Side::Goal;
-        prepared_ = false;
+        preparation_ = Preparation::Guides;
         loaded_ = false;
         proof_ = Exhaustion::None;
         exhaustion_ = Exhaustion::None;
@@ -78,7 +79,7 @@ namespace parking::search
         const NodeIndex index = frontier(side).addRoot(pose);
         model_->addRoot(side, pose);
         // The other side's estimates now have one more target; what had been computed no longer holds.
-        prepared_ = false;
+        preparation_ = Preparation::Guides;
         ahead_.node = NO_NODE;
         hasLateRoots_ = joinsAgain_ = statistics_.expanded > 0;
         if (!traits_.joinsAfar)
@@ -93,7 +94,7 @@ namespace parking::search
             forgetNearest();
         hasTarget_ = true;
         target_ = target;
-        prepared_ = false;
+        preparation_ = Preparation::Guides;
     }
 
     void Search::forgetNearest()
@@ -185,11 +186,12 @@ namespace parking::search
             }
             if (parameters_.eagerObstacles && !loaded_ && !load())
                 return SearchOutcome::Stopped;
-            if (!finishExpansion() || !finishLookahead() || expanded() >= mostExpansions || (stop_ && stop_()))
+            if (!sortLists(stop_) || !finishExpansion() || !finishLookahead() || expanded() >= mostExpansions ||
+                (stop_ && stop_()))
                 return SearchOutcome::Stopped;
             endTurn();
-            if (!prepared_)
-                prepare();
+            if (!prepare() || !fillDetour())
+                return SearchOutcome::Stopped;
             Side side = confined_;
             if (isHopeless() || !chooseSide(side))
             {
@@ -206,7 +208,7 @@ namespace parking::search
     void Search::endTurn()
     {
         queueInTurn_ = 0;
-        if (!std::exchange(turnEnds_, false) || !prepared_)
+        if (!std::exchange(turnEnds_, false) || preparation_ != Preparation::Done)
             return;
         if (needsDetour())
             takeDetour();
@@ -285,7 +287,7 @@ namespace parking::search
         model_->expand(own.side(), index, own.node(index), level, first, expansion_);
         if (first)
             own.node(index).mobility = static_cast<float>(expansion_.mobility);
-        underWay_ = {own.side(), index, level, first, 0};
+        underWay_ = {own.side(), index, level, first, 0, environment_->wasInterrupted()};
         if (first)
             beginLookahead(own, index, queueInTurn_);
         if (finishExpansion())
@@ -301,12 +303,14 @@ namespace parking::search
         {
             if (underWay_.next > 0 && traits_.asksMotionByMotion && stop_ && stop_())
                 return false;
-            addSuccessor(own, underWay_.node, expansion_.successors[underWay_.next]);
+            if (!addSuccessor(own, underWay_.node, expansion_.successors[underWay_.next]))
+                return false;
+            ++statistics_.generated;
         }
         const NodeIndex index = std::exchange(underWay_.node, NO_NODE);
         if (underWay_.first && traits_.joinsAfar)
             joinAround(own, index);
-        if (underWay_.first && environment_->wasInterrupted())
+        if (underWay_.first && (underWay_.isCutShort || environment_->wasInterrupted()))
         {
             // Its motions hang on it already.
             own.node(index).fixed = true;
@@ -342,13 +346,12 @@ namespace parking::search
         return parameters_.cost.closeness(parent.pose, successor.motion.drive(), *environment_, successor.clear);
     }
 
-    void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
+    bool Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
     {
-        ++statistics_.generated;
         Node node;
         node.cusps = cuspsThrough(own.node(parentIndex), successor.motion);
         if (node.cusps > parameters_.mostCusps)
-            return;
+            return true;
         node.pose = successor.pose;
         node.motion = successor.motion;
         node.parent = parentIndex;
@@ -357,17 +360,19 @@ namespace parking::search
         // Once a cost is known about half of what is generated is of no use: what takes least time is asked first.
         const bool isBounded = costBound_ < INFINITE, isEstimated = isBounded && parameters_.cost.pricesCloseness();
         if (isBounded && !mayImproveAtBest(own.side(), node))
-            return;
+            return true;
         if (isEstimated)
         {
             node.h = estimateOf(own.side(), node.pose);
             if (!mayImprove(own.side(), node))
-                return;
+                return true;
         }
         node.g += closeness(own.node(parentIndex), successor);
+        if (parameters_.cost.pricesCloseness() && environment_->wasInterrupted())
+            return false;
         const double g = node.g;
         if (g >= costBound_)
-            return;
+            return true;
 
         for (std::size_t level = 0; level < traits_.levels; ++level)
         {
@@ -384,15 +389,15 @@ namespace parking::search
                     if (parameters_.adaptiveResolution && level + 1 < traits_.levels)
                         continue;
                     drop(own.side(), g, node.pose, other);
-                    return;
+                    return true;
                 }
             }
             if (!model_->isFree(own.side(), own.node(parentIndex), successor))
-                return;
+                return true;
             if (!isEstimated)
                 node.h = estimateOf(own.side(), node.pose);
             if (!mayImprove(own.side(), node))
-                return;
+                return true;
             node.level = node.next = static_cast<std::uint8_t>(level);
             if (hasTarget_ && node.h < nearest_ - parameters_.tuning.leastProgress)
             {
@@ -402,8 +407,9 @@ namespace parking::search
             if (replaced != NO_NODE)
                 drop(own.side(), own.node(replaced).g, own.node(replaced).pose, node);
             push(own, level, own.place(node, replaced, cell));
-            return;
+            return true;
         }
+        return true;
     }
 
     std::size_t Search::memory() const

@@ -159,8 +159,9 @@ namespace parking::search
             costBound_ = std::min(costBound_, cost);
         }
 
-        /** \brief Changes the weights and sorts the open nodes anew. */
-        void setWeights(const HeuristicWeights &weights);
+        /** \brief Changes the weights and sorts the open nodes anew; what \e stop leaves of that is done by the next
+            run(). */
+        void setWeights(const HeuristicWeights &weights, const StopFunction &stop = {});
 
         /** \brief A cost that no solution of the discretised problem stays below.
 
@@ -178,7 +179,7 @@ namespace parking::search
         /** \brief Has the start's side been searched to its end? */
         bool hasSeenAllFromStart() const
         {
-            return prepared_ && frontier(Side::Start).isExhausted();
+            return preparation_ == Preparation::Done && frontier(Side::Start).isExhausted();
         }
 
         /** \brief What has grown from that end. */
@@ -203,6 +204,10 @@ namespace parking::search
         }
 
     private:
+        // So seldom that asking costs nothing, and so often that, with some hundred goals to be estimated to, it is
+        // well within a millisecond.
+        static constexpr NodeIndex NODES_BETWEEN_STOPS = 32;
+
         /** The heuristics of one side. */
         struct Guides
         {
@@ -220,6 +225,7 @@ namespace parking::search
             std::size_t level{0};
             bool first{true};
             std::size_t next{0};
+            bool isCutShort{false};  // the time was up before it was known how far all motions are free
         };
 
         /** Looking ahead, which goes on from this node by the guide of this queue; none without a node. */
@@ -227,6 +233,24 @@ namespace parking::search
         {
             NodeIndex node{NO_NODE};
             std::size_t queue{0};
+        };
+
+        /** What is done with nodes and roots before they are searched from, one after the other. A large search takes
+            long to do it, and may be stopped in the middle. */
+        enum class Preparation : std::uint8_t
+        {
+            Guides,     ///< begun anew, for all roots
+            Estimates,  ///< of the nodes there are, by these guides
+            Lists,      ///< sorted by them
+            Queues,     ///< of nodes to be joined with new roots, and of these
+            Done
+        };
+
+        /** How far something has been done with all nodes, those of the starts first. */
+        struct Visited
+        {
+            std::size_t sides{0};
+            NodeIndex nodes{0};
         };
 
         /** The way of another disc than the inscribed one, and what has come farthest by it. */
@@ -272,7 +296,9 @@ namespace parking::search
         double costWithoutCloseness(const Frontier &own, const Node &parent, const Successor &successor) const;
         /** What these add to it. */
         double closeness(const Node &parent, const Successor &successor) const;
-        void addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
+        /** Keeps a successor, if it is of use. Says no, and does nothing, if the time is up before it is known what it
+            costs. */
+        bool addSuccessor(Frontier &own, NodeIndex parent, const Successor &successor);
         void close(Frontier &own, NodeIndex index);
 
         // SearchJoins.cpp: joining the frontiers
@@ -283,15 +309,31 @@ namespace parking::search
 
         bool outgrowsMemory();
 
+        /** Calls visit(frontier, index) for all nodes that have not been visited yet, and asks after every few whether
+            to stop. Says whether none is left. */
+        template <class Visit>
+        bool visitNodes(Visited &visited, const Visit &visit)
+        {
+            for (; visited.sides < frontiers_.size(); ++visited.sides, visited.nodes = 0)
+                for (Frontier &own = frontiers_[visited.sides]; visited.nodes < own.nodes().size();)
+                {
+                    visit(own, visited.nodes);
+                    if (++visited.nodes % NODES_BETWEEN_STOPS == 0 && stop_ && stop_())
+                        return false;
+                }
+            return true;
+        }
+
         // SearchEstimates.cpp: what nodes are worth
-        void prepare();
+        bool prepare();
         /** Metres that its most confined root can move; of many roots no more are looked at once it is \e enough. */
         double mobility(Frontier &own, double enough);
         void beginGuides(Side side);
         void guideRoundObstacles();
         void aimAtTarget();
         bool isProvenUnreachable();
-        void queueRoots(Frontier &own);
+        void queueAgain(Frontier &own, NodeIndex index);
+        bool queueRoots(Frontier &own);
         double estimate(Side side, const Pose &pose);
         double admissible(Side side, const Pose &pose);
         bool mayImprove(Side side, const Node &node);
@@ -305,7 +347,8 @@ namespace parking::search
         bool hasToGoOnWaiting(const Frontier &own, const Node &node) const;
         void pushToFirst(Frontier &own, std::size_t level, NodeIndex index);
         void push(Frontier &own, std::size_t level, NodeIndex index);
-        void rekey(Frontier &own);
+        void unsort(Frontier &own);
+        bool sortLists(const StopFunction &stop);
         float estimateOf(Side side, const Pose &pose);
         float rounded(double estimate) const;
         void drop(Side side, double g, const Pose &pose, const Node &keeper);
@@ -337,9 +380,9 @@ namespace parking::search
         bool needsDetour() const;
         bool mayExplore() const;
         void takeDetour();
+        bool fillDetour();
         void endDetours();
         void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index);
-        void beginExploration();
         bool explore();
         void beginEnclosures();
         double wayAhead(Side side, double x, double y);
@@ -354,9 +397,11 @@ namespace parking::search
         std::array<Frontier, 2> frontiers_;
         std::array<Guides, 2> guides_;
         Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
-        bool prepared_{false};
-        bool hasLateRoots_{false};  // that were added after some expansions
-        bool joinsAgain_{false};    // nodes are yet to be joined with such roots
+        Preparation preparation_{Preparation::Guides};
+        Visited prepared_;                               // by the stage of the preparation under way
+        std::array<std::size_t, 2> listsInOrder_{0, 0};  // of the first queue of each side, the coarsest first
+        bool hasLateRoots_{false};                       // that were added after some expansions
+        bool joinsAgain_{false};                         // nodes are yet to be joined with such roots
         bool loaded_{false};
         Exhaustion proof_{Exhaustion::None};  // that no way exists
         Exhaustion exhaustion_{Exhaustion::None};
@@ -384,6 +429,8 @@ namespace parking::search
         std::size_t queueInTurn_{0};                    // 0 also for what is done in no queue's turn
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was taken
+        bool fillsDetour_{false};                       // what is open is yet to be put into the last one's queue
+        Visited filled_;                                // by that
         Side explored_{Side::Goal};                     // the frontier that was explored last
         std::vector<Successor> motions_;                // towards a pose, one after the other
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed

@@ -92,11 +92,30 @@ namespace parking::search
         detour.root = stuck.node(nearest).pose;
         detour.fromRoot = detour.way.distance(detour.root.x, detour.root.y);
         stuck.setQueues(stuck.queues() + 1);
-        for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
-            if (isOpen(stuck.node(i)))
-                pushToDetour(number, stuck.node(i).next, i);
-        if (number == 0)
-            beginExploration();
+        for (std::size_t i = 0; i < frontiers_.size() && number == 0; ++i)
+            frontiers_[i].exploration.begin(tuning.exploredPlace * parameters_.turningRadius, tuning.exploredSectors);
+        fillsDetour_ = true;
+        filled_ = {};
+    }
+
+    bool Search::fillDetour()
+    {
+        if (!fillsDetour_)
+            return true;
+        const std::size_t last = detoursTaken() - 1;
+        const auto fill = [this, last](Frontier &own, NodeIndex index)
+        {
+            const Node &node = own.node(index);
+            if (isOpen(node) && own.side() == confined_)
+                pushToDetour(last, node.next, index);
+            // The first begins the exploration of both sides.
+            if (last == 0 && node.isExpanded())
+                own.exploration.noteExpansion(node.pose, index);
+            if (last == 0 && isOpen(node))
+                own.exploration.push(node.pose, node.next, index);
+        };
+        fillsDetour_ = !visitNodes(filled_, fill);
+        return !fillsDetour_;
     }
 
     bool Search::isOpen(const Node &node) const
@@ -111,6 +130,7 @@ namespace parking::search
             each.setQueues(1);
             each.exploration.clear();
         }
+        fillsDetour_ = false;
         explored_ = Side::Goal;
         enclosureLevel_ = 0;
         enclosures_.clear();
@@ -197,23 +217,6 @@ namespace parking::search
         const double ahead = detours_[detour]->estimate(node, parameters_.tuning.noWay, queueInTurn_ == detour + 1);
         const double f = parameters_.tuning.greedyDetours ? ahead : node.g + weightAt(own, node) * ahead;
         own.push(1 + detour, level, f, ahead, index);
-    }
-
-    void Search::beginExploration()
-    {
-        const SearchTuning &tuning = parameters_.tuning;
-        for (Frontier &each : frontiers_)
-        {
-            each.exploration.begin(tuning.exploredPlace * parameters_.turningRadius, tuning.exploredSectors);
-            for (NodeIndex i = 0; i < each.nodes().size(); ++i)
-            {
-                const Node &node = each.node(i);
-                if (node.isExpanded())
-                    each.exploration.noteExpansion(node.pose, i);
-                if (isOpen(node))
-                    each.exploration.push(node.pose, node.next, i);
-            }
-        }
     }
 
     bool Search::mayExplore() const

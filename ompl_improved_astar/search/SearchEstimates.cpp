@@ -13,27 +13,67 @@ namespace parking::search
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
     }  // namespace
 
-    void Search::prepare()
+    bool Search::prepare()
     {
-        // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
-        const double startMobility = mobility(frontier(Side::Start), 0.0),
-                     confinedGoal = startMobility + 0.5 * traits_.reach;
-        const bool isGoalConfined = mobility(frontier(Side::Goal), confinedGoal) <= confinedGoal;
-        confined_ = traits_.joinsAfar && isGoalConfined ? Side::Goal : Side::Start;
-        if (!parameters_.bidirectional)
-            confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;
-        for (const Side side : {Side::Start, Side::Goal})
-            beginGuides(side);
-        endDetours();
-        if (hasTarget_)
-            aimAtTarget();
-        else
-            guideRoundObstacles();
-        prepared_ = true;
-        proof_ = isProvenUnreachable() ? Exhaustion::WalledIn : Exhaustion::None;
-        for (Frontier &each : frontiers_)
-            queueRoots(each);
-        joinsAgain_ = false;
+        if (preparation_ == Preparation::Guides)
+        {
+            // The more confined side is the harder one to get away from. When there is little in it that is the goal's.
+            const double startMobility = mobility(frontier(Side::Start), 0.0),
+                         confinedGoal = startMobility + 0.5 * traits_.reach;
+            const bool isGoalConfined = mobility(frontier(Side::Goal), confinedGoal) <= confinedGoal;
+            confined_ = traits_.joinsAfar && isGoalConfined ? Side::Goal : Side::Start;
+            if (!parameters_.bidirectional)
+                confined_ = parameters_.searchFromGoal && hasGoal() ? Side::Goal : Side::Start;
+            for (const Side side : {Side::Start, Side::Goal})
+                beginGuides(side);
+            endDetours();
+            if (hasTarget_)
+                aimAtTarget();
+            else
+                guideRoundObstacles();
+            proof_ = isProvenUnreachable() ? Exhaustion::WalledIn : Exhaustion::None;
+            preparation_ = Preparation::Estimates;
+            prepared_ = {};
+        }
+        if (preparation_ == Preparation::Estimates)
+        {
+            // Roots added later change what the nodes of the other side are worth.
+            const auto hasNodes = [](const Frontier &own)
+            {
+                return own.nodes().size() > own.roots().size();
+            };
+            const auto estimateAnew = [&](Frontier &own, NodeIndex index)
+            {
+                if (hasNodes(own))
+                    own.node(index).h = estimateOf(own.side(), own.node(index).pose);
+            };
+            if (!visitNodes(prepared_, estimateAnew))
+                return false;
+            for (Frontier &each : frontiers_)
+                if (hasNodes(each))
+                    unsort(each);
+            preparation_ = Preparation::Lists;
+        }
+        if (preparation_ == Preparation::Lists)
+        {
+            if (!sortLists(stop_))
+                return false;
+            preparation_ = Preparation::Queues;
+            prepared_ = {};
+        }
+        if (preparation_ == Preparation::Queues)
+        {
+            // Nodes are joined when they are expanded: those that are so far have never met the new ones.
+            if (joinsAgain_ &&
+                !visitNodes(prepared_, [this](Frontier &own, NodeIndex index) { queueAgain(own, index); }))
+                return false;
+            for (Frontier &each : frontiers_)
+                if (!queueRoots(each))
+                    return false;
+            joinsAgain_ = false;
+            preparation_ = Preparation::Done;
+        }
+        return true;
     }
 
     double Search::mobility(Frontier &own, double enough)
@@ -99,35 +139,33 @@ namespace parking::search
         return true;
     }
 
-    void Search::queueRoots(Frontier &own)
+    void Search::queueAgain(Frontier &own, NodeIndex index)
     {
-        // Roots added later change what the nodes of the other side are worth.
-        if (own.nodes().size() > own.roots().size())
-        {
-            for (NodeIndex i = 0; i < own.nodes().size(); ++i)
-                own.node(i).h = estimateOf(own.side(), own.node(i).pose);
-            rekey(own);
-        }
-        // Nodes are joined when they are expanded: those that are so far have never met the new ones.
-        const std::size_t met = joinsAgain_ ? own.nodes().size() : 0;
-        for (NodeIndex i = 0; i < met; ++i)
-            if (Node &node = own.node(i); node.isExpanded())
-            {
-                node.fixed = true;  // its motions hang on it already
-                node.next = node.level;
-                push(own, node.level, i);
-                own.expansionsWhenExhausted = 0;
-            }
+        Node &node = own.node(index);
+        if (!node.isExpanded())
+            return;
+        node.fixed = true;  // its motions hang on it already
+        node.next = node.level;
+        push(own, node.level, index);
+        own.expansionsWhenExhausted = 0;
+    }
+
+    bool Search::queueRoots(Frontier &own)
+    {
+        NodeIndex queued = 0;
         for (const NodeIndex root : own.roots())
         {
             Node &node = own.node(root);
             if (node.queued)
                 continue;
+            if (++queued % NODES_BETWEEN_STOPS == 0 && stop_ && stop_())
+                return false;
             node.queued = true;
             node.h = estimateOf(own.side(), node.pose);
             own.place(node, root, model_->cell(node.pose, 0));
             push(own, 0, root);
         }
+        return true;
     }
 
     double Search::estimate() const
@@ -250,23 +288,39 @@ namespace parking::search
             own.exploration.push(own.node(index).pose, level, index);
     }
 
-    void Search::rekey(Frontier &own)
+    void Search::unsort(Frontier &own)
     {
         for (const std::unique_ptr<OpenList> &list : own.openLists())
-            list->rekey(
-                [this, &own](OpenList::Entry &entry)
+            list->beginRekeying();
+        listsInOrder_[static_cast<std::size_t>(own.side())] = 0;
+    }
+
+    bool Search::sortLists(const StopFunction &stop)
+    {
+        constexpr std::size_t ENTRIES_BETWEEN_STOPS = 512;
+        for (Frontier &own : frontiers_)
+            for (std::size_t &level = listsInOrder_[static_cast<std::size_t>(own.side())]; level < traits_.levels;
+                 ++level)
+            {
+                const auto key = [this, &own](OpenList::Entry &entry)
                 {
                     const Node &node = own.node(entry.node);
                     entry.f = priority(own, node);
                     return mayImprove(own.side(), node);
-                });
+                };
+                while (!own.openLists()[level]->rekey(key, ENTRIES_BETWEEN_STOPS))
+                    if (stop && stop())
+                        return false;
+            }
+        return true;
     }
 
-    void Search::setWeights(const HeuristicWeights &weights)
+    void Search::setWeights(const HeuristicWeights &weights, const StopFunction &stop)
     {
         parameters_.weights = weights;
         for (Frontier &each : frontiers_)
-            rekey(each);
+            unsort(each);
+        sortLists(stop);
     }
 
     void Search::drop(Side side, double g, const Pose &pose, const Node &keeper)
@@ -286,7 +340,7 @@ namespace parking::search
     {
         if (hasTarget_ || !hasGoal() || frontier(Side::Start).roots().empty())
             return 0.0;
-        if (!prepared_)
+        if (preparation_ != Preparation::Done)
             return std::min(shortestMotion(), costBound_);
         double ofRoots = shortestMotion();
         for (const Side side : {Side::Start, Side::Goal})

@@ -68,6 +68,8 @@ namespace parking::search
             Node node;
             node.pose = successor.pose;
             node.g = costWithoutCloseness(own, own.node(index), successor) + closeness(own.node(index), successor);
+            if (parameters_.cost.pricesCloseness() && environment_->wasInterrupted())
+                break;
             node.motion = successor.motion;
             node.parent = index;
             node.farthest = node.fixed = true;

@@ -3,12 +3,12 @@
 #include "ompl_improved_astar/search/CostModel.h"
 #include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/SearchTuning.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/Box.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 
 namespace parking::search
@@ -37,9 +37,6 @@ namespace parking::search
             return {lower(far), lower(near), nearDistance, tieBreak};
         }
     };
-
-    /** \brief Asked now and then whether to stop; true stops the search. */
-    using StopFunction = std::function<bool()>;
 
     /** \brief What a search goes by. The names are those of the parts' registries. */
     struct SearchParameters

@@ -5,16 +5,63 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
+
+#include <ompl/base/StateValidityChecker.h>
 
 namespace
 {
     using namespace parking_test;
     using parking::Pose;
+
+    /** A car of three discs on a plain with posts in its way; the distances are told exactly, and counted. */
+    class AmongPosts : public ob::StateValidityChecker
+    {
+    public:
+        explicit AmongPosts(const ob::SpaceInformationPtr &si) : StateValidityChecker(si)
+        {
+            specs_.clearanceComputationType = ob::StateValidityCheckerSpecs::EXACT;
+        }
+
+        static parking::Box bounds()
+        {
+            return {{-100.0, -40.0}, {100.0, 40.0}};
+        }
+
+        bool isValid(const ob::State *state) const override
+        {
+            return gap(parking::poseOf(state)) > 0.0;
+        }
+
+        double clearance(const ob::State *state) const override
+        {
+            ++clearances;
+            return std::max(0.0, gap(parking::poseOf(state)));
+        }
+
+        mutable std::uint64_t clearances{0};
+
+    private:
+        static double gap(const Pose &pose)
+        {
+            double least = std::numeric_limits<double>::infinity();
+            for (const double ahead : {0.0, 1.3, 2.6})
+                for (int post = -4; post <= 4; ++post)
+                {
+                    const Pose middle = advance(pose, 0.0, ahead);
+                    const double y = post % 2 == 0 ? -1.2 : 1.2;
+                    least = std::min(least, std::hypot(middle.x - 20.0 * post, middle.y - y) - 2.5);
+                }
+            return least;
+        }
+    };
 
     class PlannerTermination : public Silent<testing::Test>
     {
@@ -151,6 +198,62 @@ namespace
             problem.from({-8.0, 0.0, 0.0}).to({{8.0, 0.0, 0.0}});
             expectPrompt(problem, 200, [&checked] { return checked; });
         }
+    }
+
+    // Nor may those wait that tell clearances, which long paths and curves are asked about from end to end.
+    TEST_F(PlannerTermination, WithACheckerThatTellsClearances)
+    {
+        for (const bool anytime : {false, true})
+            for (const double weight : {0.0, 1.0})
+            {
+                SCOPED_TRACE(testing::Message() << anytime << ' ' << weight);
+                PlanningProblem problem(Space::SE2, AmongPosts::bounds());
+                const auto checker = std::make_shared<AmongPosts>(problem.si);
+                problem.si->setStateValidityChecker(checker);
+                problem.si->setStateValidityCheckingResolution(0.002);
+                problem.si->setup();
+                problem.makePlanner();
+                problem.set("anytime", anytime);
+                problem.set("clearance_weight", weight);
+                problem.from({-90.0, 0.0, 0.0}).to({{90.0, 0.0, 0.0}});
+                expectPrompt(problem, 64, [&checker] { return checker->clearances; });
+            }
+    }
+
+    // A path that is found in time is returned even if there is no time any more to find out what it costs.
+    TEST_F(PlannerTermination, WhileAFirstPathIsPriced)
+    {
+        PlanningProblem problem(Space::SE2, AmongPosts::bounds());
+        const auto checker = std::make_shared<AmongPosts>(problem.si);
+        problem.si->setStateValidityChecker(checker);
+        problem.si->setup();
+        problem.makePlanner();
+        problem.from({-90.0, 0.0, 0.0}).to({{90.0, 0.0, 0.0}});
+        ASSERT_EQ(problem.solve(), ob::PlannerStatus::EXACT_SOLUTION);
+        const double length = problem.path().length();
+        std::size_t others = 0;
+        bool wasSolved = false;
+        for (unsigned int questions = 1; !problem.pdef->hasExactSolution() || others < 5;
+             questions += questions / 16 + 1)
+        {
+            SCOPED_TRACE(questions);
+            ASSERT_LT(questions, 1000000u);
+            problem.planner->clear();
+            problem.pdef->clearSolutionPaths();
+            const ob::PlannerStatus status = problem.solveForQuestions(questions);
+            EXPECT_TRUE(status == ob::PlannerStatus::EXACT_SOLUTION || !wasSolved) << "it was found sooner before";
+            wasSolved = wasSolved || status == ob::PlannerStatus::EXACT_SOLUTION;
+            if (!wasSolved)
+                continue;
+            EXPECT_TRUE(problem.path().check());
+            const double cost = std::stod(problem.planner->getPlannerProgressProperties().at("best cost REAL")());
+            EXPECT_GE(cost, problem.path().length() - 1e-3);
+            EXPECT_LT(cost, 1.5 * problem.path().length());
+            if (problem.path().length() == length)
+                break;
+            ++others;
+        }
+        EXPECT_GE(others, 1u) << "the time was never up between the first path and the last touch to it";
     }
 
     // Whatever the number of headings in a cell.

@@ -14,8 +14,9 @@ namespace parking::search
             0.01;                       // of half a cell: so near to the bounds, rounding decides what is inside
         constexpr int REFINEMENTS = 3;  // how often a cell is halved to find out whether the disc fits into it
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024;
-        constexpr std::uint64_t MANY_CELLS = 128;     // settled for one question
-        constexpr std::size_t LARGEST_POCKET = 1000;  // cells: what is larger is no pocket
+        constexpr std::size_t CELLS_LOADED_BETWEEN_STOPS = 64;  // of each up to 85 parts may be looked at
+        constexpr std::uint64_t MANY_CELLS = 128;               // settled for one question
+        constexpr std::size_t LARGEST_POCKET = 1000;            // cells: what is larger is no pocket
 
         /** The eight directions, counter-clockwise from +x: the odd ones are diagonal. */
         constexpr unsigned int DIRECTIONS = 8, ALL = 0xff;
@@ -130,15 +131,26 @@ namespace parking::search
 
     void ObstacleHeuristic::load(const Box &box)
     {
-        for (double v = std::floor((box.min.y() - origin_.y()) / resolution_);
-             v * resolution_ + origin_.y() < box.max.y() && !shouldStop(); v += 1.0)
-            for (double u = std::floor((box.min.x() - origin_.x()) / resolution_);
-                 u * resolution_ + origin_.x() < box.max.x(); u += 1.0)
-                if (TiledGrid<CellState>::contains(u, v))
-                {
-                    const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-                    isOpen(states_.at(column, row), column, row);
-                }
+        // Of what lies beyond the reach of the grid there are no cells.
+        constexpr std::int32_t REACH = TiledGrid<CellState>::REACH;
+        const auto first = [this](double least, double origin)
+        {
+            const double cell = std::floor((least - origin) / resolution_);
+            return static_cast<std::int32_t>(std::min<double>(REACH, std::max<double>(-REACH, cell)));
+        };
+        const auto isWithin = [this](std::int32_t cell, double most, double origin)
+        {
+            return cell < REACH && cell * resolution_ + origin < most;
+        };
+        std::size_t asked = 0;
+        for (std::int32_t row = first(box.min.y(), origin_.y()); isWithin(row, box.max.y(), origin_.y()); ++row)
+            for (std::int32_t column = first(box.min.x(), origin_.x()); isWithin(column, box.max.x(), origin_.x());
+                 ++column)
+            {
+                if (asked++ % CELLS_LOADED_BETWEEN_STOPS == 0 && shouldStop())
+                    return;
+                isOpen(states_.at(column, row), column, row);
+            }
     }
 
     std::uint32_t ObstacleHeuristic::estimate(std::int32_t column, std::int32_t row) const

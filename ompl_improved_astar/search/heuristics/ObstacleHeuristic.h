@@ -64,7 +64,8 @@ namespace parking::search
         void reset(MotionEnvironment &environment, double resolution, const Disc &disc, const Eigen::Vector2d &toward,
                    const StopFunction &stop);
 
-        /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. */
+        /** \brief Finds out beforehand which cells of a box are passable, instead of when the search gets there. What
+            the grid does not reach, or the stop function leaves, is left to that. */
         void load(const Box &box);
 
         /** \brief Adds a target; only before the first question. */

@@ -21,7 +21,7 @@ namespace parking::search
                 { std::iter_swap(std::max_element(entries_.begin(), entries_.end(), isAfter), entries_.end() - 1); });
         }
 
-        void arrange() override
+        void arrange(std::size_t /*place*/) override
         {
         }
     };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace parking::search
@@ -60,6 +61,7 @@ namespace parking::search
         void clear()
         {
             entries_.clear();
+            kept_ = rekeyed_ = arranged_ = 0;
             sequence_ = 0;
             work_ = {};
         }
@@ -82,8 +84,15 @@ namespace parking::search
             return best;
         }
 
-        /** \brief Gives every entry a new f: \e key changes the entry, and returns false for one to be dropped. */
-        void rekey(const std::function<bool(Entry &)> &key);
+        /** \brief Gives every entry a new f: \e key changes the entry, and returns false for one to be dropped.
+
+            \param most of a long list no more is done at a time: to so many entries something is done in each of two
+            passes. Nothing may be pushed or popped until it is done
+            \return whether it is done; else the next call goes on */
+        bool rekey(const std::function<bool(Entry &)> &key, std::size_t most = std::numeric_limits<std::size_t>::max());
+
+        /** \brief From now on rekey() begins anew, with what it has not dropped so far. */
+        void beginRekeying();
 
         /** \brief What was done since clear(). */
         const Work &work() const
@@ -128,14 +137,17 @@ namespace parking::search
         /** \brief Called before the last entry is taken. */
         virtual void moveBestToEnd() = 0;
 
-        /** \brief Called when all may have changed. */
-        virtual void arrange() = 0;
+        /** \brief Called for each entry from the last to the first when all may have changed: what comes after it is in
+            order. */
+        virtual void arrange(std::size_t place) = 0;
 
         /** \brief What waits, in the order of the implementation. */
         std::vector<Entry> entries_;
 
     private:
         std::uint32_t sequence_{0};
+        std::size_t rekeyed_{0}, kept_{0};  // that rekey() has asked about so far, and of them, at the front, kept
+        std::size_t arranged_{0};           // from the last on
         Work work_;
     };
 

@@ -1,12 +1,8 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
 #include "ompl_improved_astar/search/planning/Knots.h"
-#include "ompl_improved_astar/search/planning/PathRelaxer.h"
-#include "ompl_improved_astar/search/planning/PathTurner.h"
-#include "ompl_improved_astar/search/planning/PathWidener.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace parking::search
@@ -24,6 +20,10 @@ namespace parking::search
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
         restarts_.begin(environment, parameters_.search);
+        CostModel closer = search_.cost();
+        closer.samplesApart = parameters_.search.tuning.closerSamples;
+        prices_.begin(environment, search_.cost());
+        closerPrices_.begin(environment, closer);
         starts_.clear();
         bestPath_ = {};
         bestCost_ = INFINITE;
@@ -52,83 +52,53 @@ namespace parking::search
     bool PathPlanner::isCheaperAtACloserLook(const Path &path)
     {
         // What looks cheaper and cheaper may do so by being near to obstacles where nobody looks, between the samples.
-        CostModel model = search_.cost();
-        if (!model.prefersClearance())
+        if (!search_.cost().prefersClearance())
             return true;
-        model.samplesApart = parameters_.search.tuning.closerSamples;
-        return pathCost(model, path, *environment_) < pathCost(model, bestPath_, *environment_);
+        const std::optional<double> cost = closerPrices_.cost(path, stop_);
+        const std::optional<double> best = cost ? closerPrices_.cost(bestPath_, stop_) : std::nullopt;
+        return best && *cost < *best;
     }
 
-    bool PathPlanner::shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset,
-                              double widest, CurveChoice choice)
-    {
-        PathShortener shortener(*environment_, *search_.model().curves(), model);
-        Path shorter = path;
-        const bool isShorter = shortener.pass(shorter, spacing, offset, widest, choice, stop_);
-        shortenerConnections_ += shortener.connections();
-        if (!isShorter)
-            return false;
-        // Clearance is sampled, so that the cost of the whole is not quite the sum of its parts'.
-        const double less = pathCost(model, shorter, *environment_);
-        if (!(less < cost))
-            return false;
-        path = std::move(shorter);
-        cost = less;
-        return true;
-    }
-
-    bool PathPlanner::shortenWhole(Path &path, double &cost, double coarsest)
-    {
-        const double spacing = parameters_.search.tuning.knotSpacing * parameters_.search.turningRadius;
-        return shorten(search_.cost(), path, cost, std::max(spacing, coarsest), 0.0, INFINITE, CurveChoice::Cheapest);
-    }
-
-    bool PathPlanner::shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        const double radius = parameters_.search.turningRadius;
-        return shorten(model, path, cost, std::max(tuning.otherKnotSpacing * radius, coarsest),
-                       tuning.otherKnotOffset * radius, tuning.widestSpan * radius, CurveChoice::Cheapest);
-    }
-
-    void PathPlanner::shortenTwice(Path &path, double &cost)
-    {
-        const double coarsest = path.length() / parameters_.search.tuning.mostKnots;
-        shortenWhole(path, cost, coarsest);
-        shortenByOtherKnots(search_.cost(), path, cost, coarsest);
-    }
-
-    bool PathPlanner::shortenBest(double spacing, double offset)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        Path path = bestPath_;
-        double cost = bestCost_;
-        const double widest = tuning.widestSpan * parameters_.search.turningRadius;
-        return shorten(search_.cost(), path, cost, spacing, offset, widest, CurveChoice::All) && take(path, cost);
-    }
-
-    bool PathPlanner::isShortestPossible(const Path &path, double cost) const
+    bool PathPlanner::isShortestPossible(const Path &path, double cost)
     {
         // The bare curve is as short as any drivable path, whatever the obstacles. What it costs beyond its length may
         // be worth a longer way when it is more than a few changes of gear and steering come to.
         const double shortest = search_.shortestMotion();
         return path.length() <= shortest * (1.0 + 1e-9) && cost <= shortest + parameters_.search.turningRadius &&
-               closeness(path) <= 0.0;
+               isKnownToBeClear(path);
     }
 
-    double PathPlanner::closeness(const Path &path) const
+    bool PathPlanner::isKnownToBeClear(const Path &path)
     {
-        return pathCloseness(search_.cost(), path, *environment_);
+        const std::optional<double> closeness = prices_.closeness(path, stop_);
+        return closeness && *closeness <= 0.0;
+    }
+
+    double PathPlanner::closenessOfBest()
+    {
+        const std::optional<double> closeness = prices_.closeness(bestPath_, stop_);
+        return closeness ? *closeness : std::max(0.0, bestCost_ - costWithoutCloseness(search_.cost(), bestPath_));
     }
 
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
     {
         stop_ = stop;
         improved_ = improved;
+        const Outcome outcome = goOnSolving();
+        // Whom stop asks may be gone from now on.
+        stop_ = []
+        {
+            return true;
+        };
+        return outcome;
+    }
+
+    PathPlanner::Outcome PathPlanner::goOnSolving()
+    {
         goodEnough_ = false;
         if (!hasSolution())
         {
-            const SearchOutcome outcome = search_.run(stop);
+            const SearchOutcome outcome = search_.run(stop_);
             if (outcome != SearchOutcome::Improved)
                 return outcome == SearchOutcome::Stopped ? Outcome::Stopped : Outcome::Exhausted;
             takeFirst();
@@ -157,7 +127,7 @@ namespace parking::search
         const double shortest = search_.shortestMotion(), little = tuning.hardlyLonger * shortest;
         const bool isShort = search_.bestPath().length() < little &&
                              search_.bestCost() < little + parameters_.search.turningRadius &&
-                             closeness(search_.bestPath()) <= 0.0;
+                             isKnownToBeClear(search_.bestPath());
         const bool isShortest = search_.bestPath().length() <= shortest * (1.0 + 1e-9);
         const double expected = std::max(shortest, search_.estimate());
         // Nor with the shortest curve itself, dear as it may be, nor with what costs little more than it promised.
@@ -174,15 +144,15 @@ namespace parking::search
             const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
             const bool isShorter = shortenWhole(best, cost, coarsest);
             // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
-            if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && closeness(best) > 0.0))
-                shortenByOtherKnots(search_.cost(), best, cost, coarsest);
+            if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && !isKnownToBeClear(best)))
+                shortenByOtherKnots(prices_, best, cost, coarsest);
             // A long path of many short pieces that is far from what it looked is often held by nothing but its knots.
             const bool isLong = !isBare && best.length() > tuning.shortToShortenAgain * radius;
             for (std::uint64_t k = 0; k < tuning.mostShortenings && isLong && cost > tuning.muchDearer * expected; ++k)
             {
                 const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
-                shorten(search_.cost(), best, cost, std::max(knots.spacing, best.length() / tuning.mostKnots),
-                        knots.offset, tuning.widestSpan * radius, CurveChoice::Cheapest);
+                shorten(prices_, best, cost, std::max(knots.spacing, best.length() / tuning.mostKnots), knots.offset,
+                        tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
         }
         if (parameters_.shorten && cost > tuning.dearTurns * expected)
@@ -192,158 +162,6 @@ namespace parking::search
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
         take(best, cost);
-    }
-
-    bool PathPlanner::turnRound(Path &path, double &cost)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        // What has been tried is not tried again. A car that drives forwards only has no cusps.
-        if (!(cost < costWhenTurned_) || path.cusps() == 0 || isTimeUp())
-            return false;
-        PathTurner turner(*environment_, *search_.model().curves(), search_.cost(), tuning);
-        Path turned = path;
-        const bool isTurned = turner.pass(turned, cost, stop_);
-        if (!isTimeUp())
-            costWhenTurned_ = cost;
-        shortenerConnections_ += turner.connections();
-        if (!isTurned)
-            return false;
-        double costOfTurned = pathCost(search_.cost(), turned, *environment_);
-        if (!isTimeUp())
-            shortenTwice(turned, costOfTurned);
-        if (!(costOfTurned < cost) || turned.cusps() > mostCuspsOf(path))
-            return false;
-        path = std::move(turned);
-        cost = costOfTurned;
-        return true;
-    }
-
-    std::size_t PathPlanner::mostCuspsOf(const Path &path) const
-    {
-        return std::max<std::size_t>(path.cusps(), parameters_.search.mostCusps);
-    }
-
-    bool PathPlanner::relax(Path &path, double &cost, double step, std::size_t cusps)
-    {
-        if (isTimeUp())
-            return false;
-        PathRelaxer relaxer(*environment_, *search_.model().curves(), search_.cost(), parameters_.search.tuning);
-        const PathRelaxer::Pass pass{step * parameters_.search.turningRadius, cusps};
-        const bool isCheaper = relaxer.pass(path, pass, mostCuspsOf(path), stop_);
-        shortenerConnections_ += relaxer.connections();
-        if (isCheaper)
-            cost = pathCost(search_.cost(), path, *environment_);
-        return isCheaper;
-    }
-
-    void PathPlanner::relaxAndShorten(Path &path, double &cost)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        double step = tuning.relaxStep;
-        bool isCheaper = false;
-        for (std::size_t k = 0; k < tuning.relaxations; ++k, step *= tuning.relaxDecay)
-            isCheaper = relax(path, cost, step, std::min(k, tuning.relaxCusps)) || isCheaper;
-        if (isCheaper && !isTimeUp())
-            shortenTwice(path, cost);
-    }
-
-    void PathPlanner::relaxFirst(Path &path, double &cost, double dearness)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        if (!(path.length() < tuning.longestToRelax * parameters_.search.turningRadius))
-            return;
-        if (dearness > tuning.dearToRelax)
-            relaxAndShorten(path, cost);
-        else if (dearness > tuning.dearToRelaxOnce && relax(path, cost, tuning.onlyStep, 0) && !isTimeUp())
-            shortenTwice(path, cost);
-    }
-
-    bool PathPlanner::relaxBest()
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        if (relaxations_ == tuning.relaxationsOfBest && bestCost_ < costWhenRelaxed_)
-            relaxations_ = 0;
-        if (relaxations_ == tuning.relaxationsOfBest)
-            return false;
-        if (relaxations_ == 0)
-            costWhenRelaxed_ = bestCost_;
-        Path path = bestPath_;
-        double cost = bestCost_;
-        const double step = tuning.relaxStep * std::pow(tuning.relaxDecayOfBest, static_cast<double>(relaxations_++));
-        return relax(path, cost, step, tuning.relaxCusps) && take(path, cost);
-    }
-
-    bool PathPlanner::widen(Path &path, double &cost)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        PathWidener widener(*environment_, *search_.model().curves(), search_.cost(), tuning);
-        Path wider = path;
-        const bool isWider = widener.pass(wider, stop_);
-        shortenerConnections_ += widener.connections();
-        if (!isWider)
-            return !widener.isTooNear();
-        // Between its samples a path may be nearer than its cost tells, so that what keeps the room may look dearer.
-        const double most = cost * (parameters_.anytime ? 1.0 : tuning.dearerForRoom);
-        const auto takeIfCheap = [&](const Path &other)
-        {
-            const double costOfOther = pathCost(search_.cost(), other, *environment_);
-            if (costOfOther > most)
-                return false;
-            path = other;
-            cost = costOfOther;
-            return true;
-        };
-        if (!takeIfCheap(wider))
-            return false;
-        double strict = pathCost(widener.strictCost(), wider, *environment_);
-        if (shortenByOtherKnots(widener.strictCost(), wider, strict, wider.length() / tuning.mostKnots))
-            takeIfCheap(wider);
-        return !widener.isTooNear();
-    }
-
-    bool PathPlanner::canLeaveWithRoom(const Pose &pose)
-    {
-        const double clearance = search_.cost().preferredClearance, radius = parameters_.search.turningRadius;
-        const Arc arcs[2]{{0.0, radius}, {0.0, -radius}};
-        double clear[2]{0.0, 0.0};
-        if (environment_->keeps(pose, clearance))
-            environment_->clearLengths(pose, arcs, 2, clearance, clear);
-        return clear[0] > 0.0 || clear[1] > 0.0;
-    }
-
-    void PathPlanner::findRoom(Path &best, double &cost)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        if (isTimeUp() || widen(best, cost))
-            return;
-        if (best.length() > tuning.longestForRoom * parameters_.search.turningRadius || search_.isFull() ||
-            !canLeaveWithRoom(best.start) || !canLeaveWithRoom(best.end()) || isTimeUp())
-            return;
-        // Where both ends have room there may be a way that has it everywhere. A search for such a way finds it sooner
-        // than one that may come nearer.
-        SearchParameters parameters = parameters_.search;
-        parameters.eagerObstacles = false;
-        parameters.maxMemory = memoryLeft();
-        roomy_.emplace(*environment_, search_.cost().preferredClearance);
-        if (!roomySearch_)
-            roomySearch_ = std::make_unique<Search>();
-        roomySearch_->begin(*roomy_, parameters);
-        hasRoomySearch_ = true;
-        roomySearch_->setCostBound(cost);
-        roomySearch_->addStart(best.start);
-        roomySearch_->addGoal(best.end());
-        const std::uint64_t most = std::clamp(search_.expanded(), tuning.leastForRoom, tuning.mostForRoom);
-        if (roomySearch_->run(stop_, most) != SearchOutcome::Improved)
-            return;
-        Path other = roomySearch_->bestPath();
-        double costOfOther = pathCost(search_.cost(), other, *environment_);
-        shortenWhole(other, costOfOther, other.length() / tuning.mostKnots);
-        widen(other, costOfOther);
-        if (costOfOther < cost)
-        {
-            best = std::move(other);
-            cost = costOfOther;
-        }
     }
 
     void PathPlanner::goOn(std::uint64_t expansions)
@@ -358,7 +176,7 @@ namespace parking::search
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         weights_ = weights_.lowered(tuning.weightsOfAfterthought);
-        search_.setWeights(weights_);
+        search_.setWeights(weights_, stop_);
         const double excess = search_.bestPath().length() / expected - 1.0;
         const double more = tuning.afterthought * static_cast<double>(search_.expanded()) +
                             tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
@@ -424,7 +242,7 @@ namespace parking::search
                 if (weights_.far > 1.0 || weights_.near > 1.0)
                 {
                     weights_ = weights_.lowered(tuning.weightDecay);
-                    search_.setWeights(weights_);
+                    search_.setWeights(weights_, stop_);
                 }
                 const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
                 SearchOutcome outcome;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/planning/PathPrices.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "ompl_improved_astar/search/planning/Restarts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
@@ -89,8 +90,9 @@ namespace parking::search
             return bestCost_;
         }
 
-        /** \brief What a path costs for being near to obstacles; see CostModel. */
-        double closeness(const Path &path) const;
+        /** \brief What bestPath() costs for being near to obstacles; see CostModel. Where there is no time to look at
+            the whole of it, what those have reckoned who found its parts. */
+        double closenessOfBest();
 
         /** \brief Best cost over Search::lowerBound(), at least 1; infinite without a solution. */
         double suboptimalityBound()
@@ -136,17 +138,21 @@ namespace parking::search
             return most - std::min(most, search_.memory());
         }
 
+        Outcome goOnSolving();
         bool take(const Path &path, double cost);
-        /** Does \e path still cost less than the best one where both are looked at more closely? */
+        /** Does \e path still cost less than the best one where both are looked at more closely? Not if there is no
+            time for that. */
         bool isCheaperAtACloserLook(const Path &path);
+        /** Is it known that no obstacle nearby makes the path cost more? */
+        bool isKnownToBeClear(const Path &path);
         void takeFirst();
         /** Searches on, for so many expansions, for what is cheaper than the best path. */
         void goOn(std::uint64_t expansions);
         void thinkAgain(double expected);
-        bool shorten(const CostModel &model, Path &path, double &cost, double spacing, double offset, double widest,
+        bool shorten(PathPrices &prices, Path &path, double &cost, double spacing, double offset, double widest,
                      CurveChoice choice);
         bool shortenWhole(Path &path, double &cost, double coarsest);
-        bool shortenByOtherKnots(const CostModel &model, Path &path, double &cost, double coarsest);
+        bool shortenByOtherKnots(PathPrices &prices, Path &path, double &cost, double coarsest);
         void shortenTwice(Path &path, double &cost);
         bool shortenBest(double spacing, double offset);
         /** Drives parts of a path with cusps the other way round, if that makes it cheaper. */
@@ -165,7 +171,7 @@ namespace parking::search
         bool widen(Path &path, double &cost);
         bool canLeaveWithRoom(const Pose &pose);
         void findRoom(Path &best, double &cost);
-        bool isShortestPossible(const Path &path, double cost) const;
+        bool isShortestPossible(const Path &path, double cost);
         /** Looks for something cheaper by searches that begin anew. */
         bool searchAnew();
         Outcome improve();
@@ -181,6 +187,8 @@ namespace parking::search
         std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
         bool hasRoomySearch_{false};           // in this query
         std::vector<Pose> starts_;
+        PathPrices prices_;        // by the model of the search
+        PathPrices closerPrices_;  // by one that looks more closely
         Path bestPath_;
         double bestCost_{std::numeric_limits<double>::infinity()};
         double costWhenTurned_{std::numeric_limits<double>::infinity()};  // of the path that turnRound() tried last

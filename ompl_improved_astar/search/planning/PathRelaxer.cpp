@@ -92,11 +92,10 @@ namespace parking::search
         return spans;
     }
 
-    std::optional<Path> PathRelaxer::leadThrough(const PricedPath &path, const Span &span,
-                                                 const std::vector<Pose> &poses, std::size_t mostCusps,
-                                                 const StopFunction &stop)
+    std::optional<Path> PathRelaxer::leadThrough(const Span &span, const std::vector<Pose> &poses,
+                                                 std::size_t mostCusps, const StopFunction &stop)
     {
-        const GapBridge::Gap gap = bridge_.cutOut(path, span.begin, span.end);
+        const GapBridge::Gap gap = bridge_.cutOut(priced_, span.begin, span.end);
         double bound = gap.cost - LEAST_GAIN;
         // One look instead of one at each pose.
         if (!bridge_.canCostLess(gap, bound))
@@ -115,22 +114,24 @@ namespace parking::search
         return best;
     }
 
-    bool PathRelaxer::move(PricedPath &path, const std::vector<Pose> &poses, const std::vector<Span> &spans,
-                           std::size_t mostCusps, const StopFunction &stop)
+    bool PathRelaxer::move(const std::vector<Pose> &poses, const std::vector<Span> &spans, std::size_t mostCusps,
+                           const StopFunction &stop)
     {
         if (poses.empty())
             return false;
         for (const Span &span : spans)
         {
-            std::optional<Path> led = leadThrough(path, span, poses, mostCusps, stop);
+            std::optional<Path> led = leadThrough(span, poses, mostCusps, stop);
             if (!led)
                 continue;
             // Closeness is sampled: the cost of the whole is not quite the sum of its parts'. Without this, two paths
             // replace each other for ever.
-            PricedPath moved = pricePath(cost_, std::move(*led), environment_);
-            if (!(moved.cost < path.cost - 0.5 * LEAST_GAIN) || !environment_.acceptPath(moved.path))
+            std::optional<PricedPath> moved = pricePath(cost_, std::move(*led), environment_, stop);
+            if (!moved)
+                return false;
+            if (!(moved->cost < priced_.cost - 0.5 * LEAST_GAIN) || !environment_.acceptPath(moved->path))
                 continue;
-            path = std::move(moved);
+            priced_ = std::move(*moved);
             return true;
         }
         return false;
@@ -139,17 +140,20 @@ namespace parking::search
     bool PathRelaxer::pass(Path &path, const Pass &pass, std::size_t mostCusps, const StopFunction &stop)
     {
         bool improved = false;
-        PricedPath priced = pricePath(cost_, path, environment_);
+        std::optional<PricedPath> priced = pricePath(cost_, path, environment_, stop);
+        if (!priced)
+            return false;
+        priced_ = std::move(*priced);
         std::size_t moves = 0;
-        for (std::size_t piece = 0; piece + 1 < priced.path.pieces.size();)
+        for (std::size_t piece = 0; piece + 1 < priced_.path.pieces.size();)
         {
             if (stop && stop())
                 break;
             double driven = 0.0;
             for (std::size_t k = 0; k <= piece; ++k)
-                driven += priced.path.pieces[k].driven();
-            if (moves < MOST_MOVES && move(priced, movedPoses(priced.path.at(driven), pass.step),
-                                           spansAround(priced.path, driven, pass.cusps), mostCusps, stop))
+                driven += priced_.path.pieces[k].driven();
+            if (moves < MOST_MOVES && move(movedPoses(priced_.path.at(driven), pass.step),
+                                           spansAround(priced_.path, driven, pass.cusps), mostCusps, stop))
             {
                 // The pieces are others now, and what lies before them may gain by it.
                 improved = true;
@@ -161,7 +165,7 @@ namespace parking::search
             moves = 0;
         }
         if (improved)
-            path = std::move(priced.path);
+            path = priced_.path;
         return improved;
     }
 }  // namespace parking::search

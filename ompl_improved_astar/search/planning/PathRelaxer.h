@@ -49,8 +49,14 @@ namespace parking::search
         /** \brief One pass along the path, which must not be empty.
 
             \param mostCusps the path may have then
-            \return whether the path became cheaper */
+            \return whether the path became cheaper; not so by what there is no time to price */
         bool pass(Path &path, const Pass &pass, std::size_t mostCusps, const StopFunction &stop);
+
+        /** \brief What the last pass has made of the path, if it became cheaper, and what that costs. */
+        const PricedPath &priced() const
+        {
+            return priced_;
+        }
 
         /** \brief Pairs of poses between which curves were looked for in all passes so far. */
         std::uint64_t connections() const
@@ -70,16 +76,17 @@ namespace parking::search
             in which they are tried. */
         std::vector<Span> spansAround(const Path &path, double driven, std::size_t mostCusps) const;
         /** The cheapest path that goes through one of the poses within that part. */
-        std::optional<Path> leadThrough(const PricedPath &path, const Span &span, const std::vector<Pose> &poses,
-                                        std::size_t mostCusps, const StopFunction &stop);
+        std::optional<Path> leadThrough(const Span &span, const std::vector<Pose> &poses, std::size_t mostCusps,
+                                        const StopFunction &stop);
         /** Replaces the path by one that costs less and goes through one of the poses within one of the parts. */
-        bool move(PricedPath &path, const std::vector<Pose> &poses, const std::vector<Span> &spans,
-                  std::size_t mostCusps, const StopFunction &stop);
+        bool move(const std::vector<Pose> &poses, const std::vector<Span> &spans, std::size_t mostCusps,
+                  const StopFunction &stop);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;
         CostModel cost_;
         SearchTuning tuning_;
         GapBridge bridge_;
+        PricedPath priced_;
     };
 }  // namespace parking::search

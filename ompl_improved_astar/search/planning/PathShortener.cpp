@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace parking::search
@@ -12,9 +13,10 @@ namespace parking::search
     {
         constexpr std::size_t PARTS_OF_A_SPAN = 8;
         constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
-    }                                        // namespace
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    }  // namespace
 
-    void PathShortener::priceCloseness(const std::vector<Piece> &before)
+    bool PathShortener::priceCloseness(const std::vector<Piece> &before, const StopFunction &stop)
     {
         // Most of the path is what it was before a part of it was replaced.
         constexpr double ROUNDING = 1e-9;
@@ -36,12 +38,14 @@ namespace parking::search
                 break;
             piece.closeness = known.closeness;
         }
+        Patience patience(stop, LOOKS_BETWEEN_STOPS);
         for (Piece &piece : pieces_)
             if (piece.closeness < 0.0)
-                piece.closeness = cost_.closeness(piece.from, piece.segment, environment_);
+                piece.closeness = cost_.closeness(piece.from, piece.segment, environment_, -1.0, INFINITE, &patience);
+        return !patience.wasOver() && !environment_.wasInterrupted();
     }
 
-    void PathShortener::cut(const Path &path, double spacing, double offset)
+    bool PathShortener::cut(const Path &path, double spacing, double offset, const StopFunction &stop)
     {
         std::swap(pieces_, cutBefore_);
         pieces_.clear();
@@ -73,8 +77,8 @@ namespace parking::search
         }
         if (!cutBefore_.empty())
             cutBefore_.pop_back();  // the end of the path
-        if (cost_.pricesCloseness())
-            priceCloseness(cutBefore_);
+        if (cost_.pricesCloseness() && !priceCloseness(cutBefore_, stop))
+            return false;
         costBefore_.assign(pieces_.size() + 1, 0.0);
         closenessBefore_.assign(pieces_.size() + 1, 0.0);
         for (std::size_t k = 0; k < pieces_.size(); ++k)
@@ -85,6 +89,7 @@ namespace parking::search
                                  (k > 0 ? cost_.join(pieces_[k - 1].segment, pieces_[k].segment) : 0.0);
         }
         pieces_.push_back({{0.0, 0.0}, pose, arc, false, 0.0});
+        return true;
     }
 
     bool PathShortener::isShortest(std::size_t i, std::size_t j) const
@@ -141,7 +146,8 @@ namespace parking::search
     {
         bool improved = false;
         pieces_.clear();
-        cut(path, spacing, offset);
+        if (!cut(path, spacing, offset, stop))
+            return false;
         // Wide parts are tried at every so many knots only: there are many of them on a long path, most of them cannot
         // be replaced, and what is missed by a knot is found by a narrower part.
         const auto stride = [](std::size_t span)
@@ -163,14 +169,15 @@ namespace parking::search
                 const double before = costBefore_.back();
                 if (replace(i, i + span, choice, path))
                 {
-                    cut(path, spacing, offset);
+                    const bool isPriced = cut(path, spacing, offset, stop);
                     // Closeness is sampled, and a curve cut into pieces in other places than the part that it replaces:
                     // together they may cost more than was reckoned. Without this, two curves replace each other for
                     // ever.
-                    if (costBefore_.back() > before - 0.5 * LEAST_GAIN)
+                    if (!isPriced || costBefore_.back() > before - 0.5 * LEAST_GAIN)
                     {
                         path = std::move(replaced_);
-                        cut(path, spacing, offset);
+                        if (!isPriced || !cut(path, spacing, offset, stop))
+                            return improved;
                         continue;
                     }
                     improved = true;

@@ -41,7 +41,7 @@ namespace parking::search
             \param spacing largest distance between knots in metres; ends of pieces are knots, too
             \param offset metres to the first knot within each piece, so that passes can differ
             \param widest pairs of knots farther apart than this along the path, in metres, are left out
-            \return whether the path became cheaper */
+            \return whether the path became cheaper; not so by what there is no time to price */
         bool pass(Path &path, double spacing, double offset, double widest, CurveChoice choice,
                   const StopFunction &stop);
 
@@ -61,8 +61,8 @@ namespace parking::search
             double closeness{-1.0};  ///< what it costs; negative: not known yet
         };
 
-        void cut(const Path &path, double spacing, double offset);
-        void priceCloseness(const std::vector<Piece> &before);
+        bool cut(const Path &path, double spacing, double offset, const StopFunction &stop);
+        bool priceCloseness(const std::vector<Piece> &before, const StopFunction &stop);
         bool isShortest(std::size_t i, std::size_t j) const;
         bool replace(std::size_t i, std::size_t j, CurveChoice choice, Path &path);
 

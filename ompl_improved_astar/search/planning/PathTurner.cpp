@@ -13,8 +13,9 @@ namespace parking::search
         constexpr std::size_t KNOTS_BACK = 2;  // along the path, that turning round may take
     }                                          // namespace
 
-    void PathTurner::cut(const Path &path)
+    bool PathTurner::cut(const Path &path, const StopFunction &stop)
     {
+        Patience patience(stop, LOOKS_BETWEEN_STOPS);
         knots_.clear();
         places_.clear();
         const double whole = path.length();
@@ -37,7 +38,9 @@ namespace parking::search
         const auto drive = [&](PathPiece &rest, double length)
         {
             const PathPiece part(rest.curvature, std::copysign(length, rest.length), rest.sharpness);
-            cost += cost_.drive(part) + (cost_.pricesCloseness() ? cost_.closeness(pose, part, environment_) : 0.0);
+            cost += cost_.drive(part);
+            if (cost_.pricesCloseness())
+                cost += cost_.closeness(pose, part, environment_, -1.0, INFINITE, &patience);
             driven += length;
             pose = advance(pose, part);
             rest = {part.endCurvature(), rest.length - part.length, rest.sharpness};
@@ -60,6 +63,7 @@ namespace parking::search
             places_.push_back({environment_.turnedRound(places_[k].pose), std::nullopt, INFINITE});
         for (std::size_t k = 0; k < knots_.size(); ++k)
             places_.push_back({places_[k].pose, true, INFINITE});
+        return !patience.wasOver() && !environment_.wasInterrupted();
     }
 
     void PathTurner::link()
@@ -236,7 +240,8 @@ namespace parking::search
     bool PathTurner::pass(Path &path, double mostCost, const StopFunction &stop)
     {
         mostCost_ = mostCost;
-        cut(path);
+        if (!cut(path, stop))
+            return false;
         link();
         boundFromEnd();
         if (!findCheapest(stop))

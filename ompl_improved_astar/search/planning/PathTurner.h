@@ -115,7 +115,7 @@ namespace parking::search
             return a.least > b.least;
         }
 
-        void cut(const Path &path);
+        bool cut(const Path &path, const StopFunction &stop);
         void link();
         void boundFromEnd();
         bool isFree(Place &place);

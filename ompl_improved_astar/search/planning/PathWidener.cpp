@@ -107,21 +107,33 @@ namespace parking::search
         return result;
     }
 
-    bool PathWidener::leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
-                                const StopFunction &stop)
+    bool PathWidener::leadAside(const ClosePart &part, std::size_t mostCusps, double &reach, const StopFunction &stop)
     {
-        const std::vector<Pose> poses = posesBeside(path.at(part.nearest), stop);
+        /** The path with a part led aside, and metres along it to the pose aside. */
+        struct Lead
+        {
+            PricedPath priced;
+            double reach;
+        };
+        const std::vector<Pose> poses = posesBeside(priced_.path.at(part.nearest), stop);
         if (poses.empty())
             return false;
-        const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance), whole = path.length();
-        const PricedPath priced = pricePath(strict_, path, environment_);
-        const double mostCost = priced.cost - LEAST_GAIN;
-        std::vector<GapBridge::Bridged> leads;
+        // Of most paths no part is too near, or nothing beside it free, so that this is left until now.
+        if (priced_.closeness.empty())
+        {
+            std::optional<PricedPath> priced = pricePath(strict_, priced_.path, environment_, stop);
+            if (!priced)
+                return false;
+            priced_ = std::move(*priced);
+        }
+        const double bend = std::sqrt(curves_.turningRadius() * cost_.preferredClearance);
+        const double whole = priced_.path.length(), mostCost = priced_.cost - LEAST_GAIN;
+        std::vector<Lead> leads;
         for (const double bends : REACHES)
         {
             const double begin = std::min(part.begin, part.nearest - bends * bend);
             const double end = std::max(part.end, part.nearest + bends * bend);
-            const GapBridge::Gap gap = bridge_.cutOut(priced, std::max(0.0, begin), std::min(whole, end));
+            const GapBridge::Gap gap = bridge_.cutOut(priced_, std::max(0.0, begin), std::min(whole, end));
             for (const Pose &through : poses)
             {
                 if (stop && stop())
@@ -130,19 +142,22 @@ namespace parking::search
                 if (!led)
                     continue;
                 // Closeness is sampled: the cost of the whole is not quite the sum of its parts'.
-                led->cost = pathCost(strict_, led->path, environment_);
-                if (led->cost < mostCost)
-                    leads.push_back(std::move(*led));
+                std::optional<PricedPath> priced = pricePath(strict_, std::move(led->path), environment_, stop);
+                if (!priced)
+                    return false;
+                if (priced->cost < mostCost)
+                    leads.push_back({std::move(*priced), led->reach});
             }
         }
-        std::stable_sort(leads.begin(), leads.end(), [](const auto &a, const auto &b) { return a.cost < b.cost; });
-        for (GapBridge::Bridged &each : leads)
+        std::stable_sort(leads.begin(), leads.end(),
+                         [](const Lead &a, const Lead &b) { return a.priced.cost < b.priced.cost; });
+        for (Lead &each : leads)
         {
             if (stop && stop())
                 return false;
-            if (environment_.acceptPath(each.path))
+            if (environment_.acceptPath(each.priced.path))
             {
-                path = std::move(each.path);
+                priced_ = std::move(each.priced);
                 reach = each.reach;
                 return true;
             }
@@ -155,14 +170,15 @@ namespace parking::search
         bool improved = false;
         double done = 0.0;  // metres along the path
         const std::size_t mostCusps = path.cusps() + 1;
+        priced_ = {path, {}, 0.0};
         std::vector<ClosePart> parts = closeParts(path, 0.0, stop);
         isTooNear_ = false;
         for (std::size_t k = 0; k < parts.size() && !(stop && stop());)
         {
             const ClosePart part = parts[k++];
             double reach = 0.0;
-            const bool isAtAnEnd = part.begin <= 0.0 || part.end >= path.length();
-            if (isAtAnEnd || !leadAside(path, part, mostCusps, reach, stop))
+            const bool isAtAnEnd = part.begin <= 0.0 || part.end >= priced_.path.length();
+            if (isAtAnEnd || !leadAside(part, mostCusps, reach, stop))
             {
                 isTooNear_ = true;
                 continue;
@@ -170,12 +186,14 @@ namespace parking::search
             improved = true;
             // What comes of it may still be near to something, and is looked at from there on.
             done = std::max(done + SAME_PART, reach);
-            parts = closeParts(path, done, stop);
+            parts = closeParts(priced_.path, done, stop);
             k = 0;
         }
         // A way to a pose aside may be near to something, too.
         if (improved && !isTooNear_)
-            isTooNear_ = !closeParts(path, 0.0, stop).empty();
+            isTooNear_ = !closeParts(priced_.path, 0.0, stop).empty();
+        if (improved)
+            path = priced_.path;
         return improved;
     }
 }  // namespace parking::search

@@ -50,6 +50,13 @@ namespace parking::search
             \return whether any part of it was replaced, each by what costs less by strictCost() */
         bool pass(Path &path, const StopFunction &stop);
 
+        /** \brief What the last pass has made of the path, if it replaced a part, and what that costs by strictCost().
+         */
+        const PricedPath &priced() const
+        {
+            return priced_;
+        }
+
         /** \brief Did the last pass leave a part that is nearer to an obstacle than preferred, by more than a fiftieth?
          */
         bool isTooNear() const
@@ -80,8 +87,7 @@ namespace parking::search
 
         std::vector<ClosePart> closeParts(const Path &path, double from, const StopFunction &stop);
         std::vector<Pose> posesBeside(const Pose &pose, const StopFunction &stop);
-        bool leadAside(Path &path, const ClosePart &part, std::size_t mostCusps, double &reach,
-                       const StopFunction &stop);
+        bool leadAside(const ClosePart &part, std::size_t mostCusps, double &reach, const StopFunction &stop);
 
         MotionEnvironment &environment_;
         const ReedsShepp &curves_;
@@ -89,6 +95,7 @@ namespace parking::search
         CostModel strict_;
         SearchTuning tuning_;
         GapBridge bridge_;
+        PricedPath priced_;
         bool isTooNear_{false};
     };
 }  // namespace parking::search

@@ -96,7 +96,7 @@ namespace parking::search
             if (outcome == SearchOutcome::Improved)
             {
                 weights_ = weights_.lowered(parameters_.tuning.weightsOfAfterthought);
-                search_->setWeights(weights_);
+                search_->setWeights(weights_, stop);
                 return true;
             }
             if (outcome == SearchOutcome::Stopped && search_->expanded() < most_ && !search_->isFull())

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/RowOfCars.h"
 
 #include <gtest/gtest.h>
 
@@ -24,34 +25,6 @@ namespace
         parameters.spreadOut = false;
         parameters.tuning.explorationPeriod = std::numeric_limits<std::uint64_t>::max();
         return parameters;
-    }
-
-    /** The size of a row of parked cars between two aisles. */
-    struct Row
-    {
-        double half{40.0};  // metres: of its length, with the passage at its end
-        double depth{4.0};  // metres: from its middle to the aisle
-        double aisle{5.5};  // metres: its width
-        double lane{3.0};   // metres from the row: where the car stands in the aisle
-        double gap{2.05};   // metres between the cars
-
-        Eigen::Vector2d halfWorld() const
-        {
-            return {half, depth + aisle};
-        }
-    };
-
-    /** The gaps are wide enough for the car, the aisles too narrow to turn into one of them: the disc's way leads
-        through the gaps, the car has to go round the end of the row. It faces that end at the start, and away from it
-        at the goal. */
-    CarProblem rowOfCars(const Row &row, double startX = -10.0)
-    {
-        const Eigen::Vector2d half = row.halfWorld();
-        const double lane = row.depth + row.lane;
-        CarProblem problem{DiscCarWorld({-half, half}), {{startX, -lane, 0.0}}, {{-10.0, lane, PI}}};
-        for (double x = -half.x(); x < half.x() - 7.0; x += 1.95 + row.gap)
-            problem.world.boxes.push_back({{x, -row.depth}, {x + 1.95, row.depth}});
-        return problem;
     }
 
     constexpr double PLACES[] = {-25.0, -16.0, -10.0, -4.0, 5.0, 17.0};
@@ -225,6 +198,22 @@ TEST(SearchDetours, goOnWhereItIsDear)
         SearchParameters counting = parameters;
         counting.tuning.greedyDetours = false;
         EXPECT_FALSE(searched(rowOfCars(row, startX), true, row.halfWorld(), counting).solved);
+    }
+}
+
+// They go by what lies ahead alone, whatever that counts at the place where a node is: with weights that are lower near
+// the goal, which is beyond the gaps, all that is near the gaps would be looked at first.
+TEST(SearchDetours, areGreedyWithUnequalWeightsToo)
+{
+    SearchParameters parameters = trapParameters();
+    parameters.weights = {10.0, 1.1, 20.0, 0.0};
+    const Row row{60.0};
+    for (const double startX : PLACES)
+    {
+        SCOPED_TRACE(startX);
+        const Counts counts = searched(rowOfCars(row, startX), true, row.halfWorld(), parameters);
+        EXPECT_TRUE(counts.solved);
+        EXPECT_LT(counts.expanded, 1000u);
     }
 }
 

@@ -382,6 +382,31 @@ TEST(ObstacleHeuristic, loadedBeforehandIsTheSame)
     }
 }
 
+TEST(ObstacleHeuristic, loadsNoMoreThanItReachesAndStopsSoon)
+{
+    constexpr std::uint64_t REACHED = 4096, AT_ONCE = 64;
+    DiscCarWorld world({{-1e8, -1e8}, {1e8, 1e8}});
+    HeuristicIn heuristic(world, 1.0, {0.9}, {0.0, 0.0});
+    std::uint64_t questions = 0, most = std::numeric_limits<std::uint64_t>::max(), last = 0;
+    heuristic.stop = [&]
+    {
+        EXPECT_LE(world.roomsAsked - std::exchange(last, world.roomsAsked), AT_ONCE);
+        return ++questions > most;
+    };
+    for (const double far : {1e8, INFINITE})
+    {
+        // A column and a row of cells.
+        heuristic.load({{0.0, -far}, {1.0, far}});
+        heuristic.load({{-far, 0.0}, {far, 1.0}});
+        EXPECT_EQ(world.roomsAsked, 2 * REACHED - 1) << "the cell that is in both, and those of before, are known";
+        EXPECT_LE(questions, 4 * (REACHED / AT_ONCE + 1));
+    }
+    most = questions + 3;
+    heuristic.load({{-1e8, 1.0}, {1e8, 2.0}});
+    EXPECT_EQ(world.roomsAsked, 2 * REACHED - 1 + 3 * AT_ONCE);
+    EXPECT_EQ(questions, most + 1);
+}
+
 TEST(ObstacleHeuristic, lowerBoundIsNeverAboveTheWayOfTheDisc)
 {
     int compared = 0;

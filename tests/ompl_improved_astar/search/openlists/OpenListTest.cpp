@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
@@ -89,6 +92,94 @@ TEST_P(OpenListOrder, rekeySortsAnewAndDropsWhatItIsToldTo)
     for (std::uint32_t node = 500; node >= 2;)
         expected.push_back(node -= 2);
     EXPECT_EQ(drain(list), expected);
+}
+
+TEST_P(OpenListOrder, rekeyedInPartsItIsTheSame)
+{
+    const auto filled = []
+    {
+        Random random(3);
+        std::unique_ptr<OpenList> list = openLists().make(GetParam());
+        for (std::uint32_t node = 0; node < 500; ++node)
+            list->push(random.between(0.0, 1.0), random.index(3), node);
+        return list;
+    };
+    const auto key = [](OpenList::Entry &entry)
+    {
+        entry.f = static_cast<double>(entry.node * 7919 % 97);
+        return entry.node % 5 != 0;
+    };
+    const std::unique_ptr<OpenList> whole = filled();
+    EXPECT_TRUE(whole->rekey(key));
+    const std::uint64_t comparisons = whole->work().comparisons;
+    const std::vector<std::uint32_t> expected = drain(*whole);
+    for (const std::size_t most : {1u, 7u, 400u, 499u, 500u})
+    {
+        SCOPED_TRACE(most);
+        const std::unique_ptr<OpenList> list = filled();
+        std::size_t keyed = 0, calls = 0;
+        bool isDone = false;
+        while (!isDone)
+        {
+            const std::size_t before = keyed;
+            isDone = list->rekey(
+                [&](OpenList::Entry &entry)
+                {
+                    ++keyed;
+                    return key(entry);
+                },
+                most);
+            ++calls;
+            ASSERT_LE(keyed - before, most);
+        }
+        EXPECT_EQ(keyed, 500u) << "each once";
+        EXPECT_GE(calls, (500 + most - 1) / most);
+        EXPECT_EQ(list->work().comparisons, comparisons);
+        EXPECT_EQ(drain(*list), expected);
+    }
+}
+
+TEST_P(OpenListOrder, rekeyingMayBeginAnewAtAnyTime)
+{
+    const auto backwards = [](OpenList::Entry &entry)
+    {
+        entry.f = -static_cast<double>(entry.node);
+        return true;
+    };
+    for (std::size_t calls = 0; calls <= 5; ++calls)
+    {
+        SCOPED_TRACE(calls);
+        const std::unique_ptr<OpenList> list = openLists().make(GetParam());
+        for (std::uint32_t node = 0; node < 50; ++node)
+            list->push(1.0, 0.0, node);
+        // Every third is dropped, as far as that gets.
+        std::uint32_t seen = 0, dropped = 0;
+        for (std::size_t call = 0; call < calls; ++call)
+            list->rekey(
+                [&](OpenList::Entry &entry)
+                {
+                    entry.f = 7.0;
+                    dropped += ++seen % 3 == 0 ? 1 : 0;
+                    return seen % 3 != 0;
+                },
+                12);
+        list->beginRekeying();
+        EXPECT_TRUE(list->rekey(backwards));
+        std::vector<std::uint32_t> nodes = drain(*list);
+        EXPECT_EQ(nodes.size(), 50 - dropped);
+        EXPECT_TRUE(std::is_sorted(nodes.rbegin(), nodes.rend()));
+        EXPECT_EQ(std::unique(nodes.begin(), nodes.end()), nodes.end()) << "none twice";
+    }
+    // Nor does a list that is cleared remember any of it.
+    const std::unique_ptr<OpenList> list = openLists().make(GetParam());
+    for (std::uint32_t node = 0; node < 50; ++node)
+        list->push(1.0, 0.0, node);
+    EXPECT_FALSE(list->rekey(backwards, 12));
+    list->clear();
+    list->push(1.0, 0.0, 3);
+    list->push(1.0, 0.0, 4);
+    EXPECT_TRUE(list->rekey(backwards));
+    EXPECT_EQ(drain(*list), (std::vector<std::uint32_t>{4, 3}));
 }
 
 TEST_P(OpenListOrder, clearBeginsAnew)

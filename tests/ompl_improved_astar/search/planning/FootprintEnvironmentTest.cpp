@@ -2,7 +2,6 @@
 // other checker.
 
 #include "benchmarks/worlds/RandomWorlds.h"
-#include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
@@ -10,9 +9,6 @@
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <gtest/gtest.h>
-
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/spaces/ReedsSheppStateSpace.h>
 
 #include <algorithm>
 #include <cmath>
@@ -408,36 +404,4 @@ TEST(CurveCheck, offersTheFreeCurvesThatCostLessThanTheBoundCheapestFirst)
     EXPECT_GT(clear, 300);
     EXPECT_GT(close, 300);
     EXPECT_GT(dear, 100);
-}
-
-/** A checker that takes its time must not be asked on and on when the time is up. */
-TEST(StateSpaceEnvironment, posesOfMotionsAreAskedForUntilTheTimeIsUpAndHardlyLonger)
-{
-    const auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(3.0);
-    ompl::base::RealVectorBounds bounds(2);
-    bounds.setLow(-10.0);
-    bounds.setHigh(10.0);
-    space->setBounds(bounds);
-    const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
-    int asked = 0;
-    si->setStateValidityChecker([&asked](const ompl::base::State *) { return ++asked > 0; });
-    si->setup();
-    StateSpaceEnvironment environment(si, 0.1, {}, false);
-    for (int i = 0; i < 100; ++i)
-        ASSERT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
-    EXPECT_EQ(asked, 100);
-    EXPECT_FALSE(environment.wasInterrupted());
-    environment.setStop([] { return true; });
-    asked = 0;
-    int free = 0;
-    for (int i = 0; i < 100; ++i)
-        free += environment.isPassable({0.0, 0.0, 0.0});
-    EXPECT_LE(asked, 8);
-    EXPECT_EQ(free, asked);
-    EXPECT_TRUE(environment.wasInterrupted());
-    // Whether a pose as such is free is another question.
-    EXPECT_TRUE(environment.isFree({0.0, 0.0, 0.0}));
-    environment.setStop(nullptr);
-    EXPECT_TRUE(environment.isPassable({0.0, 0.0, 0.0}));
-    EXPECT_FALSE(environment.isPassable({11.0, 0.0, 0.0}));
 }

@@ -63,7 +63,7 @@ TEST(GapBridge, whatIsCutOutIsTheRestOfWhatIsLeft)
     for (const double begin : {0.0, 1.0, 4.9, 6.0})
         for (const double end : {6.5, 7.5, 8.0, whole})
         {
-            const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
+            const GapBridge::Gap gap = bridge.cutOut(*pricePath(model(), path, world, {}), begin, end);
             EXPECT_NEAR(gap.before.length(), begin, 1e-9);
             EXPECT_NEAR(gap.after.length(), whole - end, 1e-9);
             EXPECT_LT(parking_test::gap(gap.from, path.at(begin)), 1e-9);
@@ -81,7 +81,7 @@ TEST(GapBridge, takesWhatItKnowsOfPiecesThatAreCutOutWhole)
     cost.clearanceCost = 1.0;
     ClearanceWorld world{DiscCarWorld({{-100.0, -100.0}, {100.0, 100.0}}, {{{3.0, 3.5}, {6.0, 4.0}}})};
     const ReedsShepp curves(TURNING_RADIUS);
-    const PricedPath priced = pricePath(cost, bentAndBack(), world);
+    const PricedPath priced = *pricePath(cost, bentAndBack(), world, {});
     const Path &path = priced.path;
     ASSERT_EQ(priced.closeness.size(), path.pieces.size());
     EXPECT_GT(pathCloseness(cost, path, world), 1.0);
@@ -132,7 +132,7 @@ TEST(GapBridge, leadsThroughThePoseWithinItsLimits)
         const Path &path = bentAndBack();
         GapBridge bridge(world, curves, model());
         const double begin = random.between(0.0, 5.0), end = random.between(7.0, path.length());
-        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
+        const GapBridge::Gap gap = bridge.cutOut(*pricePath(model(), path, world, {}), begin, end);
         const Pose pose = poseBeside(path.at(random.between(begin, end)), 1.0, 0.5, random);
         const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, pose, INFINITE, ANY_NUMBER);
         ASSERT_TRUE(bridged);
@@ -164,7 +164,7 @@ TEST(GapBridge, leadsAlongNothingThatIsNotFree)
         SCOPED_TRACE(wall);
         DiscCarWorld world = open();
         GapBridge bridge(world, curves, model());
-        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), straight, world), 0.0, 20.0);
+        const GapBridge::Gap gap = bridge.cutOut(*pricePath(model(), straight, world, {}), 0.0, 20.0);
         ASSERT_TRUE(bridge.lead(gap, beside, INFINITE, ANY_NUMBER));
         world.boxes.push_back({{wall, -3.0}, {wall + 0.1, 3.0}});
         EXPECT_EQ(bridge.lead(gap, beside, INFINITE, ANY_NUMBER).has_value(), wall < 0.0 || wall > 24.0);
@@ -179,7 +179,7 @@ TEST(GapBridge, looksAtBothCurvesBeforeItSweepsEither)
     const Pose beside{10.0, 4.0, 0.0};
     DiscCarWorld world = open();
     GapBridge bridge(world, curves, model());
-    const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), straight, world), 0.0, 20.0);
+    const GapBridge::Gap gap = bridge.cutOut(*pricePath(model(), straight, world, {}), 0.0, 20.0);
     const std::optional<GapBridge::Bridged> bridged = bridge.lead(gap, beside, INFINITE, ANY_NUMBER);
     ASSERT_TRUE(bridged);
     EXPECT_GT(world.lengthsAsked, 0u);
@@ -219,7 +219,7 @@ TEST(GapBridge, hardlyEverLeadsThroughAPoseForLessThanTheCheapestCurve)
                             random.between(0.5, 4.0) * (random.chance(0.3) ? -1.0 : 1.0)});
         GapBridge bridge(world, curves, model());
         const double begin = random.between(0.0, 0.4) * path.length(), end = random.between(0.6, 1.0) * path.length();
-        const GapBridge::Gap gap = bridge.cutOut(pricePath(model(), path, world), begin, end);
+        const GapBridge::Gap gap = bridge.cutOut(*pricePath(model(), path, world, {}), begin, end);
         cheaper += bridge.canCostLess(gap, gap.cost - 1e-3);
         // Both sides of what the cheapest one costs.
         std::vector<ReedsSheppCurve> candidates;

@@ -4,11 +4,15 @@
 #include "ompl_improved_astar/search/planning/Restarts.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
 #include "tests/ompl_improved_astar/search/ClearanceWorld.h"
+#include "tests/ompl_improved_astar/search/RowOfCars.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 using namespace parking;
@@ -79,6 +83,131 @@ TEST(Restarts, findRightPathsOneAfterTheOtherTheSameInPieces)
     }
     EXPECT_GT(several, 20U);
     EXPECT_GT(limited, 20U);
+}
+
+namespace
+{
+    /** Counts who wants to prove that there is no way. */
+    class ProvableWorld : public DiscCarWorld
+    {
+    public:
+        explicit ProvableWorld(const DiscCarWorld &world) : DiscCarWorld(world)
+        {
+        }
+
+        std::unique_ptr<BodyCells> bodyCells(double /*side*/, int /*headings*/) override
+        {
+            ++proofs;
+            return nullptr;
+        }
+
+        std::uint64_t proofs{0};
+    };
+
+    /** What there is to be seen of a search. */
+    struct Seen
+    {
+        std::vector<Found> found;
+        std::uint64_t expanded, generated, roomsAsked, proofs;
+
+        bool operator==(const Seen &other) const
+        {
+            return found == other.found && expanded == other.expanded && generated == other.generated &&
+                   roomsAsked == other.roomsAsked && proofs == other.proofs;
+        }
+    };
+
+    /** Runs a Search, or Restarts that begin so many, for so many expansions each. */
+    template <class Searcher, class Run>
+    Seen seenOf(const CarProblem &problem, const SearchParameters &parameters, const Run &run)
+    {
+        ProvableWorld world(problem.world);
+        Searcher searcher;
+        searcher.begin(world, parameters);
+        for (const Pose &start : problem.starts)
+            searcher.addStart(start);
+        for (const Pose &goal : problem.goals)
+            searcher.addGoal(goal);
+        std::vector<Found> found = run(searcher);
+        const SearchStatistics statistics = searcher.statistics();
+        return {std::move(found), statistics.expanded, statistics.generated, world.roomsAsked, world.proofs};
+    }
+
+    Seen searchedOnce(const CarProblem &problem, const SearchParameters &parameters, std::uint64_t expansions)
+    {
+        return seenOf<Search>(
+            problem, parameters,
+            [expansions](Search &search)
+            {
+                std::vector<Found> found;
+                while (search.run(afterAsking(), expansions) == SearchOutcome::Improved)
+                    found.push_back({search.bestCost(), search.bestPath().length(), search.expanded()});
+                return found;
+            });
+    }
+
+    Seen searchedAnew(const CarProblem &problem, const SearchParameters &parameters, std::uint64_t expansions,
+                      std::uint64_t searches)
+    {
+        return seenOf<Restarts>(
+            problem, parameters,
+            [expansions, searches](Restarts &restarts)
+            {
+                std::vector<Found> found;
+                while (restarts.run(afterAsking(), expansions, searches, INFINITE))
+                    found.push_back({restarts.cost(), restarts.path().length(), restarts.expanded()});
+                return found;
+            });
+    }
+}  // namespace
+
+// Another way is wanted, not one at any cost, and that there is one is known: what is done for the sake of these in the
+// first search is left out, whatever the parameters say. Each of it makes a difference to that.
+TEST(Restarts, areNotGreedyInDetoursLoadNoMapAndLookForNoProof)
+{
+    constexpr std::uint64_t EXPANSIONS = 900;
+    const Row row;
+    const CarProblem trap = rowOfCars(row);
+    SearchParameters usual = parametersIn(trap);
+    usual.spreadOut = false;
+    usual.tuning.firstRestart = EXPANSIONS;
+    const Seen first = searchedOnce(trap, usual, EXPANSIONS), anew = searchedAnew(trap, usual, EXPANSIONS, 1);
+    ASSERT_FALSE(anew.found.empty());
+    EXPECT_GT(anew.found.front().expanded, usual.tuning.leastExpansions) << "there were detours";
+    SearchParameters counting = usual;
+    counting.tuning.greedyDetours = false;
+    EXPECT_FALSE(searchedOnce(trap, counting, EXPANSIONS) == first);
+    EXPECT_TRUE(searchedAnew(trap, counting, EXPANSIONS, 1) == anew);
+    SearchParameters loading = usual;
+    loading.eagerObstacles = true;
+    EXPECT_FALSE(searchedOnce(trap, loading, EXPANSIONS) == first);
+    EXPECT_TRUE(searchedAnew(trap, loading, EXPANSIONS, 1) == anew);
+    SearchParameters proving = usual;
+    proving.bodyRadius = usual.inscribedRadius;
+    proving.tuning.enclosureAfter = 1;
+    EXPECT_GT(searchedOnce(trap, proving, EXPANSIONS).proofs, 0u);
+    EXPECT_EQ(searchedAnew(trap, proving, EXPANSIONS, 1).proofs, 0u);
+}
+
+TEST(Restarts, spreadOutEveryOtherTime)
+{
+    SearchParameters usual = carParameters();
+    usual.detours = false;
+    SearchParameters straight = usual;
+    straight.spreadOut = false;
+    std::uint64_t before = 0, beforeStraight = 0;
+    for (std::uint64_t searches = 1; searches <= 6; ++searches)
+    {
+        SCOPED_TRACE(searches);
+        // One that is never solved spreads out until its end. Of all but the last the difference is known.
+        CarProblem problem{twoRooms(0.0), {{-9.0, -2.0, 0.5 * PI}}, {{6.0, 0.0, 0.0}}};
+        problem.world.tellsRoom = false;
+        const std::uint64_t spread = searchedAnew(problem, usual, 100000, searches).generated,
+                            kept = searchedAnew(problem, straight, 100000, searches).generated;
+        EXPECT_EQ(spread - before == kept - beforeStraight, searches % 2 == 0);
+        before = spread;
+        beforeStraight = kept;
+    }
 }
 
 TEST(Restarts, searchTowardsRootsThatWereAdded)
