@@ -75,6 +75,14 @@ namespace parking
             return box;
         }
 
+        void requireNear(const Eigen::Vector2d &start, const std::string &file)
+        {
+            if (!(start.lpNorm<Eigen::Infinity>() <= FARTHEST_COORDINATE))
+                throw Error(file + ": the start lies at " + formatNumber(start.x()) + ", " + formatNumber(start.y()) +
+                            "; coordinates of at most " + formatNumber(FARTHEST_COORDINATE) +
+                            " m are supported: move the origin");
+        }
+
         void requireStartOnMap(const Scenario &scenario, const std::string &file)
         {
             const OccupancyGrid &grid = *scenario.grid;
@@ -118,6 +126,8 @@ namespace parking
 
     void completeScenario(Scenario &scenario, const std::string &file)
     {
+        const Pose start = scenario.toWorld(scenario.start);
+        requireNear({start.x, start.y}, file);
         for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
             if (crossesItself(scenario.polygons[i]))
                 throw Error(file + ": the outline of polygon " + std::to_string(i + 1) +
@@ -138,9 +148,8 @@ namespace parking
             if (!scenario.goals.empty())
                 throw Error(source + ": both goal and slot are given; give one of them");
             scenario.slot->pose = checked(scenario.slot->pose, source, "slot");
-            scenario.goals = scenario.slot->goals(scenario.vehicle);
         }
-        if (scenario.goals.empty())
+        else if (scenario.goals.empty())
             throw Error(source + ": neither goal nor slot is given; one of them must be");
         const Eigen::Vector2d offset(scenario.start.x, scenario.start.y);
         scenario.worldOffset = offset;
@@ -148,7 +157,11 @@ namespace parking
         for (Pose &goal : scenario.goals)
             goal = shifted(checked(goal, source, "goal"), offset);
         if (scenario.slot)
+        {
+            // Local before the goals follow from it: far away they would be rounded.
             scenario.slot->pose = shifted(scenario.slot->pose, offset);
+            scenario.goals = scenario.slot->goals(scenario.vehicle);
+        }
         for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
         {
             requireSimple(scenario.polygons[i], i + 1, source);

@@ -10,8 +10,9 @@ namespace parking
         and a planner would drown in the empty space between. */
     constexpr double WORLD_REACH = 1e5;
 
-    /** \brief What all scenarios have in common once their parts are local: checks the start, the outlines and the
-       reach of the world, and sets the bounds. Throws parking::Error naming \e source. */
+    /** \brief What all scenarios have in common once their parts are local: checks the start (its coordinates in the
+        world up to FARTHEST_COORDINATE), the outlines and the reach of the world, and sets the bounds. Throws
+        parking::Error naming \e source. */
     void completeScenario(Scenario &scenario, const std::string &source);
 
     /** \brief A scenario from parts in world coordinates, without a file: what the readers do with theirs.

@@ -5,6 +5,7 @@
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
+#include <utility>
 
 namespace parking
 {
@@ -71,8 +72,13 @@ namespace parking
     void ParkingSlot::validate() const
     {
         const Require require("slot");
-        require.finite("pose x", pose.x, "metres");
-        require.finite("pose y", pose.y, "metres");
+        for (const auto &[field, value] : {std::pair{"pose x", pose.x}, {"pose y", pose.y}})
+        {
+            require.finite(field, value, "metres");
+            if (std::abs(value) > FARTHEST_COORDINATE)
+                require.that(false, field, value,
+                             "at most " + formatNumber(FARTHEST_COORDINATE) + " m either way: move the origin");
+        }
         require.finite("pose yaw", pose.yaw, "radians");
         require.positive("length", length, "metres");
         require.positive("width", width, "metres");

@@ -32,6 +32,11 @@ namespace parking
         double yaw{0.0};  ///< radians, counter-clockwise from +x
     };
 
+    /** \brief Coordinates of scenarios and slots that are larger in magnitude are refused, metres: beyond this two
+        neighbouring doubles are more than 2 micrometres apart, and what is found in exact numbers nearby (everything is
+        computed relative to the start) is no longer exact where it lies. */
+    constexpr double FARTHEST_COORDINATE = 1e10;
+
     /** \brief Are all three numbers finite? */
     inline bool isFinite(const Pose &pose)
     {

@@ -103,6 +103,7 @@ namespace parking
 
         std::vector<Variant> planBay(Exit &exit, bool allVariants)
         {
+            const ParkingSlot &slot = exit.slot;
             const Bay bay = bayOf(exit);
             const ExitBody &body = exit.body;
             ReverseParkingResult &result = exit.result;
@@ -110,7 +111,12 @@ namespace parking
             result.neededSlotLength = exit.vehicle.length() + 2.0 * exit.options.clearance;
             const double tight = narrowestAisleRadius(bay, body, exit.minRadius);
             result.neededAisleWidth = aisleNeeded(bay, body, tight, straightBeforeTurn(bay, body, tight));
-            if (const double side = std::min(bay.nearGap, bay.farGap); body.halfWidth > side + TOLERANCE)
+            // The closed end has no part in the way out: the car only moves away from it.
+            if (const double outside = body.trail - 0.5 * slot.length - exit.local.x; outside > TOLERANCE)
+                exit.refuse(ReverseParkingStatus::SlotTooShort, outside,
+                            "the car, with " + inCentimetres(exit.options.clearance) + " at the closed end, sticks " +
+                                inCentimetres(outside) + " out of the slot there");
+            else if (const double side = std::min(bay.nearGap, bay.farGap); body.halfWidth > side + TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooNarrow, body.halfWidth - side,
                             "the car, with " + inCentimetres(exit.options.clearance) + " on each side, sticks " +
                                 inCentimetres(body.halfWidth - side) + " out of the slot's side");

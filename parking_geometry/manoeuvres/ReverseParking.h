@@ -33,8 +33,11 @@ namespace parking
     /** \brief Whether there is a manoeuvre, and otherwise what is in its way. */
     enum class ReverseParkingStatus
     {
-        Fits,            ///< there is one
-        SlotTooShort,    ///< parallel: R_min > R_max, the corner A of the car would hit the bound P of the slot
+        Fits,  ///< there is one
+
+        /** No room at the closed end, or (parallel) R_min > R_max: the corner A of the car would hit the bound P of the
+            slot. */
+        SlotTooShort,
         SlotTooNarrow,   ///< no room beside the car, or (parallel) its tail would swing over the kerb
         AisleTooNarrow,  ///< no radius gets the car round within the aisle
         Blocked          ///< the construction is legal, but the world's callables refuse every variant of it

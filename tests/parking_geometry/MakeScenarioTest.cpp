@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +51,31 @@ namespace
         EXPECT_NEAR(made.goals.front().x, 5.0, 1e-9);
     }
 
+    TEST(MakeScenario, GoalsInASlotAreExactWhereverItLies)
+    {
+        const auto goals = [](double far)
+        {
+            Scenario scenario = somePlace(far, -far);
+            scenario.goals.clear();
+            scenario.slot = ParkingSlot();
+            scenario.slot->pose = {far + 5.5, -far - 3.25, 0.3};
+            scenario.slot->entry = SlotEntry::Either;
+            return makeScenario(scenario, "here").goals;
+        };
+        const std::vector<Pose> here = goals(0.0);
+        for (const double far : {4e9, -5.5e9, FARTHEST_COORDINATE})
+        {
+            const std::vector<Pose> there = goals(far);
+            ASSERT_EQ(there.size(), 2u);
+            for (std::size_t i = 0; i < 2; ++i)
+            {
+                EXPECT_EQ(there[i].x, here[i].x) << far;
+                EXPECT_EQ(there[i].y, here[i].y) << far;
+                EXPECT_EQ(there[i].yaw, here[i].yaw) << far;
+            }
+        }
+    }
+
     TEST(MakeScenario, AMapIsMovedToo)
     {
         Scenario scenario = somePlace(5.0, 5.0);
@@ -82,6 +109,22 @@ namespace
                 s.goals.front().x = 2e5;
             },
             "the goal lies 200000 m from the start");
+        // Where doubles are too far apart; just before that the same world is understood.
+        const auto move = [](Scenario &s, double x)
+        {
+            s = somePlace(x, 0.0);
+        };
+        const double beyond = std::nextafter(FARTHEST_COORDINATE, 2e10);
+        for (const double sign : {-1.0, 1.0})
+        {
+            expect([&](Scenario &s) { move(s, sign * beyond); }, "here: the start lies at ");
+            expect([&](Scenario &s) { move(s, sign * 5e12); },
+                   std::string(sign < 0.0 ? "at -" : "at ") +
+                       "5000000000000, 0; coordinates of at most 10000000000 m are supported");
+            Scenario last;
+            move(last, sign * FARTHEST_COORDINATE);
+            EXPECT_EQ(makeScenario(last, "here").worldOffset.x(), sign * FARTHEST_COORDINATE);
+        }
         expect([](Scenario &s) { s.polygons.front().pop_back(); }, "polygon 1 has 2 corners");
         expect([nan](Scenario &s) { s.polygons.front()[1].y() = nan; }, "polygon 1: corner 2");
         expect([](Scenario &s) { s.polygons.push_back({{0, 5}, {1, 6}, {1, 5}, {0, 6}}); }, "polygon 2 crosses itself");

@@ -125,6 +125,22 @@ TEST(ParkingSlot, BadFieldsAreNamed)
     EXPECT_NO_THROW(slot.validate()) << "only angled slots have an angle of their own";
 }
 
+TEST(ParkingSlot, APoseWhereDoublesAreTooFarApartIsRefused)
+{
+    for (double Pose::*const coordinate : {&Pose::x, &Pose::y})
+        for (const double sign : {-1.0, 1.0})
+        {
+            ParkingSlot slot;
+            slot.pose.*coordinate = sign * FARTHEST_COORDINATE;
+            EXPECT_NO_THROW(slot.validate());
+            slot.pose.*coordinate = sign * 5e11;
+            expectError([&] { slot.validate(); }, {coordinate == &Pose::x ? "slot: pose x is" : "slot: pose y is",
+                                                   "500000000000;", "at most 10000000000 m"});
+            slot.pose.*coordinate = sign * std::nextafter(FARTHEST_COORDINATE, 2e10);
+            expectError([&] { slot.goals(Vehicle()); }, {"slot: pose"});
+        }
+}
+
 TEST(ParkingSlot, OutlineIsTheRectangleCounterClockwise)
 {
     RandomParking random(12);

@@ -27,6 +27,9 @@ WRONG = [
     (lambda: world(goal=None), 'neither goal nor slot'),
     (lambda: world(goal=[[1, 2], [3, 4]]), 'goal must be an array of n rows (x, y, yaw)'),
     (lambda: world(goal=(5e5, 0, 0)), 'lies 500008 m from the start'),
+    (lambda: world(start=(5e12, 0, 0), goal=(5e12, 9, 0)), 'scenario: the start lies at 5000000000000, 0; coordinates of at most '
+     '10000000000 m'),
+    (lambda: ia.Slot('parallel', (4e9, -5e12, 0), 6, 2.5), 'slot: pose y is -5000000000000; it must be at most 10000000000 m'),
     (lambda: world(slot=3, goal=None), 'slot must be a Slot'),
     (lambda: world(slot=ia.Slot('parallel', (0, 5, 0), 6, 2.5)), 'both goal and slot'),
     (lambda: world(slot=ia.Slot('parallel', (0, 5, 0), 4, 2.5), goal=None), 'slot: length is 4 m'),

@@ -161,6 +161,28 @@ def test_coordinates_may_be_large():
     assert there.path[0, :2] == pytest.approx(far + (-10, -5), abs=1e-6)
 
 
+@pytest.mark.parametrize('far', [4e9, -5.5e9, 9e9])
+def test_slots_may_lie_far_away(far):
+    def asked(offset):
+        def moved(x, y, yaw):
+            return (x + offset, y - offset, yaw)
+        slot = ia.Slot('parallel', moved(0.125, -1.25, 0.3), length=6.5, width=2.4)
+        wall = [moved(*corner)[:2] for corner in ((-9, -5, 0), (9, -5, 0), (9, -4.5, 0), (-9, -4.5, 0))]
+        return ia.Scenario.from_polygons([wall], moved(-8.25, 1.75, 0), slot=slot, vehicle='vw_golf8')
+
+    here, there = asked(0.0), asked(far)
+    for planned in (ia.plan, ia.ParkingPlanner(tight=True, aisle_width=6.0).plan):
+        near, away = planned(here), planned(there)
+        # Not only nearly: numbers are the same ones up to where they are shown.
+        assert away.pieces.tolist() == near.pieces.tolist()
+        assert away.path[:, :2] == pytest.approx(near.path[:, :2] + (far, -far), abs=2e-6)
+        assert away.path[:, 2:].tolist() == near.path[:, 2:].tolist()
+        assert away.goal == pytest.approx(there.goals[0], abs=2e-6) and ia.check(there, away) and ia.check(there, away.path)
+    # The same world made anew of its own parts.
+    again = there.replace(slot=there.slot)
+    assert ia.plan(again).pieces.tolist() == ia.plan(here).pieces.tolist()
+
+
 def test_slots_and_vehicles():
     slot = ia.Slot('perpendicular', (0, -2.5, math.pi / 2), 5, 2.5, entry='either')
     walls = [[[-1.7, -5], [-1.7, -0.4], [-3.5, -0.4], [-3.5, -5]], [[1.7, -5], [1.7, -0.4], [3.5, -0.4], [3.5, -5]]]

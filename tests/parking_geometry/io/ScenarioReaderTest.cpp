@@ -155,8 +155,9 @@ TEST_F(TpcapReader, SaysWhatIsWrong)
     expectCaseError("0,0,,1,1,1,0", {"number 3 is ''"});
     expectCaseError("0;0;0;1;1;1;0", {"number 1"});
     expectCaseError("0,0,0,1e7,1,1,0", {"the goal", "10000000 m from the start"});
+    expectCaseError("0,2e10,0,0,2e10,1,0", {"the start lies at 0, 20000000000", "at most 10000000000 m"});
     expectCaseError("0,0,0,9,0,0,1,4,20,20,22,22,22,20,20,22", {"polygon 1 crosses itself"});
-    expectCaseError("1e308,0,0,-1e308,1,1,0", {"the goal", "inf"});
+    expectCaseError("1e308,0,0,-1e308,1,1,0", {"the start lies at 1e+308, 0", "at most 10000000000 m"});
     expectCaseError("0,0,0,1,1,1,1,3,0,0,1,0,1e9,1", {"obstacle 1"});
     expectCaseError(std::string("0,0,0,\0,1,1,0", 13), {"number 4"});
 }

@@ -149,6 +149,8 @@ TEST(ReverseParking, ClearanceIsKept)
         slot.lateralOffset = 0.0;
         slot.length += 0.2;
         slot.width += 0.2;
+        if (slot.kind != SlotKind::Parallel && random.chance(0.5))
+            slot.depth = random.between(0.0, slot.length - car.length());
         ReverseParkingOptions options;
         options.clearance = 0.1;
         const ReverseParking parking(car, options);
@@ -161,6 +163,44 @@ TEST(ReverseParking, ClearanceIsKept)
         for (const PathState &state : result.path.sample(0.02))
             ASSERT_GE(world.clearance(state.pose), 0.1 - 1e-6);
     }
+}
+
+TEST(ReverseParking, ABayThatIsTooShortForTheClearanceIsRefused)
+{
+    RandomParking random(30);
+    int tested = 0;
+    for (int i = 0; i < 300; ++i)
+    {
+        const Vehicle car = random.vehicle();
+        ParkingSlot slot = random.slot(car);
+        if (slot.kind == SlotKind::Parallel)
+            continue;
+        slot.lateralOffset = 0.0;
+        slot.length += 0.4;
+        slot.width += 0.4;
+        ReverseParkingOptions options;
+        options.clearance = random.between(0.02, 0.2);
+        for (const double change : {-0.01, -1e-6, 1e-6, 0.01})
+        {
+            slot.depth = options.clearance + change;
+            const ReverseParkingResult result = ReverseParking(car, options).plan(slot);
+            ASSERT_EQ(result.fits(), change > 0.0) << i << ": " << result.message;
+            const PolygonWorld world(car, slotSurroundings(slot, slot.side));
+            EXPECT_NEAR(world.clearance(slot.goals(car).front()), *slot.depth, 1e-9);
+            if (result.fits())
+                continue;
+            EXPECT_EQ(result.status, ReverseParkingStatus::SlotTooShort);
+            EXPECT_NEAR(result.missing, -change, 1e-9);
+            EXPECT_NE(result.message.find("at the closed end"), std::string::npos) << result.message;
+            // A world without a wall there has the last word.
+            std::vector<Polygon> open = slotSurroundings(slot, slot.side);
+            open.pop_back();
+            const PolygonWorld kinder(car, open);
+            EXPECT_TRUE(ReverseParking(car, options).plan(slot, kinder.queries()).fits());
+            ++tested;
+        }
+    }
+    EXPECT_GT(tested, 200);
 }
 
 TEST(ReverseParking, MirroredSlotsGiveMirroredManoeuvres)
