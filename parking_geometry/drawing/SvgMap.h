@@ -18,7 +18,11 @@ namespace parking
         constexpr const char *GOAL = "#059669";           ///< the car where it shall stand, and its slot
         constexpr const char *OBSTACLE = "#b4bdca";       ///< inside of an obstacle
         constexpr const char *OBSTACLE_EDGE = "#66717f";  ///< outline of an obstacle
-        constexpr const char *UNKNOWN = "#e1e6ed";        ///< cells of which nothing is known; outside of the map
+        constexpr const char *OUTSIDE = "#e1e6ed";        ///< beyond the end of the map, or of a world of polygons
+
+        /** \brief Cells of which nothing is known: of another hue than all other grounds, on the axis that the
+            red-green blind see too, and of another lightness, which is all that a print in black and white has. */
+        constexpr const char *UNKNOWN = "#e3cf9b";
 
         /** \brief What a simulated car drove, where it stands beside what was planned. */
         constexpr const char *DRIVEN = "#be185d";
@@ -39,7 +43,7 @@ namespace parking
     /** \brief What lies above what on a map. */
     enum class SvgLayer
     {
-        Ground,     ///< lowest: unknown cells, the slot
+        Ground,     ///< lowest: unknown cells, the outside of the map, the slot
         Obstacles,  ///< polygons and occupied cells
         Sweep,      ///< footprints along a path
         Lines,      ///< paths

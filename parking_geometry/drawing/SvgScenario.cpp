@@ -51,7 +51,7 @@ namespace parking
         {
             Polygon world = scenario.grid ? scenario.grid->outline() : cornersOf(scenario.bounds);
             std::reverse(world.begin(), world.end());  // it is the hole in all the rest
-            const SvgStyle style = filled(svg_colour::UNKNOWN);
+            const SvgStyle style = filled(svg_colour::OUTSIDE);
             if (map.drawOutlines(SvgLayer::Ground, {cornersOf(map.view()), world}, style))
                 map.addLegend({"outside of the map", style});
         }
@@ -151,6 +151,7 @@ namespace parking
     {
         map.setWorldOffset(scenario.worldOffset);
         drawOutside(map, scenario);
+        drawUnknown(map, scenario);  // before the slot, which may lie on it
         bool seen = drawCar(map, scenario.start, scenario.vehicle, svg_colour::START, "start");
         for (std::size_t i = 0; i < scenario.goals.size(); ++i)
         {
@@ -173,7 +174,6 @@ namespace parking
                 map.addLegend({"slot", style});
         }
         drawObstacles(map, scenario);
-        drawUnknown(map, scenario);
     }
 
     void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle, const std::string &what)

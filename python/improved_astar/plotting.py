@@ -4,57 +4,138 @@ import numbers
 
 from ._core import Error
 
-FORWARD, REVERSE, CAR, OBSTACLE, SLOT = '#2563eb', '#ea580c', '#1e3a8a', '#64748b', '#16a34a'
+# Those of the C++ side's pictures (svg_colour in SvgMap.h), with darker obstacles.
+FORWARD, REVERSE, START, GOAL, CAR = '#2563eb', '#ea580c', '#334155', '#059669', '#1e3a8a'
+FREE, OBSTACLE, UNKNOWN, OUTSIDE = '#ffffff', '#64748b', '#e3cf9b', '#e1e6ed'
+
+# What a legend lists, in this order.
+LABELS = ['forwards', 'reverse', 'car along the path', 'start', 'goal', 'other goal', 'middle of the rear axle', 'slot', 'obstacle',
+          'unknown', 'outside of the map']
 
 
-def _draw_world(axes, scenario):
+class _View:
+    """What the axes will show, and what of it has been named."""
+
+    def __init__(self, axes, scenario, states):
+        self.axes = axes
+        self.named = set()
+        room = scenario.vehicle.length + 1.0
+        poses = [scenario.start, *scenario.goals, *states[:, :3]]
+        x, y = [pose[0] for pose in poses], [pose[1] for pose in poses]
+        self.low, self.high = (min(x) - room, min(y) - room), (max(x) + room, max(y) + room)
+
+    def name(self, label, seen=True):
+        """The label of an artist: only the first one of its kind that can be seen has one."""
+        if not seen or label in self.named:
+            return None
+        self.named.add(label)
+        return label
+
+    def name_colour(self, label, colour):
+        """Names what no single artist stands for."""
+        if label not in self.named:
+            self.axes.plot([], [], linestyle='none', marker='s', markersize=8, color=colour, markeredgecolor=START,
+                           markeredgewidth=0.4, label=self.name(label))
+
+    def shows(self, corners):
+        from matplotlib.path import Path
+        from matplotlib.transforms import Bbox
+        return Path(corners, closed=False).intersects_bbox(Bbox([self.low, self.high]))
+
+    def corners(self):
+        return [self.low, (self.high[0], self.low[1]), self.high, (self.low[0], self.high[1])]
+
+
+def _draw_grid(view, scenario):
+    import numpy
     from matplotlib import colors
-    from matplotlib.patches import Polygon
     from matplotlib.transforms import Affine2D
-    for corners in scenario.polygons:
-        axes.add_patch(Polygon(corners, closed=True, facecolor=OBSTACLE, edgecolor='#334155', linewidth=0.6, zorder=1))
+    grid, axes = scenario.grid, view.axes
+    rows, columns = grid.shape
+    x, y, yaw = scenario.origin
+    place = Affine2D().scale(scenario.resolution).rotate(yaw).translate(x, y)
+    axes.imshow(grid, origin='lower', extent=(0, columns, 0, rows), cmap=colors.ListedColormap([FREE, OBSTACLE, UNKNOWN]),
+                vmin=0, vmax=2, interpolation='nearest', transform=place + axes.transData, zorder=0)
+    # The cells near the view, and of these the ones whose middles are in it.
+    seen = place.inverted().transform(view.corners())
+    first = numpy.clip(numpy.floor(seen.min(axis=0)), 0, (columns, rows)).astype(int)
+    end = numpy.clip(numpy.ceil(seen.max(axis=0)), 0, (columns, rows)).astype(int)
+    near = grid[first[1]:end[1], first[0]:end[0]]
+    for label, colour, kind in (('obstacle', OBSTACLE, 1), ('unknown', UNKNOWN, 2)):
+        middles = place.transform(numpy.argwhere(near == kind)[:, ::-1] + first + 0.5)
+        if ((middles >= view.low) & (middles <= view.high)).all(axis=1).any():
+            view.name_colour(label, colour)
+    if ((seen < 0) | (seen > (columns, rows))).any():
+        view.name_colour('outside of the map', OUTSIDE)
+
+
+def _draw_world(view, scenario):
+    from matplotlib.patches import Polygon, Rectangle
+    axes = view.axes
+    axes.set_facecolor(OUTSIDE)
     if scenario.grid is not None:
-        rows, columns = scenario.grid.shape
-        x, y, yaw = scenario.origin
-        shades = colors.ListedColormap(['#ffffff', OBSTACLE, '#e2e8f0'])
-        placed = Affine2D().scale(scenario.resolution).rotate(yaw).translate(x, y) + axes.transData
-        axes.imshow(scenario.grid, origin='lower', extent=(0, columns, 0, rows), cmap=shades, vmin=0, vmax=2,
-                    interpolation='nearest', transform=placed, zorder=0)
+        _draw_grid(view, scenario)
+    else:
+        left, bottom, right, top = scenario.bounds
+        axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, facecolor=FREE, zorder=0))
+        if left > view.low[0] or bottom > view.low[1] or right < view.high[0] or top < view.high[1]:
+            view.name_colour('outside of the map', OUTSIDE)
+    for corners in scenario.polygons:
+        axes.add_patch(Polygon(corners, closed=True, facecolor=OBSTACLE, edgecolor='#334155', linewidth=0.6, zorder=1,
+                               label=view.name('obstacle', view.shows(corners))))
     if scenario.slot is not None:
-        axes.add_patch(Polygon(scenario.slot.outline, closed=True, fill=False, edgecolor=SLOT, linewidth=1.2,
-                               linestyle='--', zorder=2))
+        axes.add_patch(Polygon(scenario.slot.outline, closed=True, fill=False, edgecolor=GOAL, linewidth=1.2, linestyle='--',
+                               zorder=2, label=view.name('slot', view.shows(scenario.slot.outline))))
 
 
-def _draw_footprints(axes, vehicle, path, spacing):
+def _draw_cars(view, scenario):
+    """The car where it stands and where it shall stand; other goals are mostly the same place the other way round."""
+    from matplotlib.patches import Polygon
+    for pose, colour, label in ((scenario.start, START, 'start'), (scenario.goals[0], GOAL, 'goal')):
+        body = Polygon(scenario.vehicle.footprint(pose), closed=True, facecolor=colour + '55', edgecolor=colour, linewidth=1.2,
+                       zorder=4, label=view.name(label))
+        view.axes.add_patch(body)
+        view.axes.plot(*pose[:2], 'o', color=colour, markersize=3, zorder=6, label=view.name('middle of the rear axle'))
+    for goal in scenario.goals[1:]:
+        view.axes.plot(*goal[:2], 'o', color='#ffffff', markeredgecolor=GOAL, markersize=5, linestyle='none', zorder=6,
+                       label=view.name('other goal'))
+
+
+def _draw_footprints(view, vehicle, path, spacing):
     from matplotlib.patches import Polygon
     driven, last = 0.0, -math.inf
     for k, (x, y, yaw, _, _) in enumerate(path):
         if k > 0:
             driven += math.hypot(x - path[k - 1][0], y - path[k - 1][1])
-        end = k in (0, len(path) - 1)
+        end = k == len(path) - 1
         cusp = 0 < k < len(path) - 1 and path[k][3] != path[k + 1][3]
         if end or cusp or driven - last >= spacing:
             last = driven
-            axes.add_patch(Polygon(vehicle.footprint((x, y, yaw)), closed=True, fill=end, facecolor='#dbe7fb',
-                                   edgecolor=CAR, alpha=1.0 if end else 0.35, linewidth=1.0 if end else 0.6,
-                                   zorder=4 if end else 3))
+            view.axes.add_patch(Polygon(vehicle.footprint((x, y, yaw)), closed=True, fill=False, edgecolor=CAR, alpha=0.35,
+                                        linewidth=0.6, zorder=3, label=view.name('car along the path')))
 
 
-def _draw_path(axes, path):
+def _draw_path(view, path):
     begin = 0
-    drawn = set()
     for k in range(1, len(path) + 1):
         if k == len(path) or (k > begin + 1 and path[k][3] != path[k - 1][3]):
-            direction = path[k - 1][3]
-            name = 'forwards' if direction > 0 else 'reverse'
-            axes.plot(path[begin:k, 0], path[begin:k, 1], color=FORWARD if direction > 0 else REVERSE, linewidth=1.8,
-                      zorder=5, label=None if name in drawn else name)
-            drawn.add(name)
+            forwards = path[k - 1][3] > 0
+            view.axes.plot(path[begin:k, 0], path[begin:k, 1], color=FORWARD if forwards else REVERSE, linewidth=1.8,
+                           zorder=5, label=view.name('forwards' if forwards else 'reverse'))
             begin = k - 1
 
 
+def _draw_legend(axes, beside):
+    """What is named, beside the axes or in a corner of them."""
+    handles, labels = axes.get_legend_handles_labels()
+    named = dict(zip(labels, handles))
+    order = [label for label in LABELS if label in named] + [label for label in named if label not in LABELS]
+    place = {'loc': 'upper left', 'bbox_to_anchor': (1.01, 1.0), 'borderaxespad': 0.0} if beside else {'loc': 'upper right'}
+    axes.legend([named[label] for label in order], order, fontsize='small', **place)
+
+
 def plot(self, path=None, axes=None, footprints=1.5):
-    """Draws a result: obstacles, slot, path, the car along it.
+    """Draws a result: obstacles, slot, path, the car along it, and a legend of all that is seen.
 
     path: of a picture to write (.png, .svg, .pdf); axes: matplotlib's, to draw into;
     footprints: metres between outlines of the car, 0 for none. Returns the axes.
@@ -69,26 +150,21 @@ def plot(self, path=None, axes=None, footprints=1.5):
     if axes is None:
         if path is None:
             from matplotlib import pyplot
-            figure, axes = pyplot.subplots(figsize=(9, 6))
+            figure, axes = pyplot.subplots(figsize=(9, 6), layout='constrained')
         else:
             figure = Figure(figsize=(9, 6), layout='constrained')
             axes = figure.add_subplot()
-    _draw_world(axes, scenario)
     states = self.path
+    view = _View(axes, scenario, states)
+    _draw_world(view, scenario)
+    _draw_cars(view, scenario)
     if len(states) > 0:
-        _draw_path(axes, states)
+        _draw_path(view, states)
         if footprints > 0:
-            _draw_footprints(axes, scenario.vehicle, states, footprints)
-        axes.legend(loc='upper right', fontsize='small')
-    x, y = [scenario.start[0]], [scenario.start[1]]
-    for goal in scenario.goals:
-        x.append(goal[0])
-        y.append(goal[1])
-    x += list(states[:, 0])
-    y += list(states[:, 1])
-    room = scenario.vehicle.length + 1.0
-    axes.set_xlim(min(x) - room, max(x) + room)
-    axes.set_ylim(min(y) - room, max(y) + room)
+            _draw_footprints(view, scenario.vehicle, states, footprints)
+    _draw_legend(axes, beside=figure is not None)
+    axes.set_xlim(view.low[0], view.high[0])
+    axes.set_ylim(view.low[1], view.high[1])
     axes.set_aspect('equal')
     axes.set_xlabel('x, m')
     axes.set_ylabel('y, m')

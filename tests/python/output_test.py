@@ -1,5 +1,6 @@
 """Pictures, pages, results of comparisons, stubs."""
 import json
+import math
 import os
 import re
 import sqlite3
@@ -7,6 +8,7 @@ import sqlite3
 import pytest
 
 import improved_astar as ia
+from improved_astar import plotting
 
 ROOT = os.environ['PARKING_SOURCE_DIR']
 SCENARIOS = os.path.join(ROOT, 'benchmarks', 'scenarios')
@@ -32,12 +34,83 @@ def test_plot_writes_a_picture(name, tmp_path):
         assert low < found.path[:, 0].min() and high > found.path[:, 0].max()
 
 
+def legend_of(axes):
+    return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+PATH, CARS = ['forwards', 'reverse', 'car along the path'], ['start', 'goal', 'middle of the rear axle']
+
+
+def test_legends_name_all_that_is_seen(tmp_path):
+    pytest.importorskip('matplotlib')
+    file = tmp_path / 'path.png'
+
+    def named(problem, **values):
+        return legend_of(ia.plan(problem, **values).plot(file))
+
+    assert legend_of(result().plot(file)) == [*PATH, *CARS, 'slot', 'obstacle']
+    assert legend_of(result().plot(file, footprints=0)) == ['forwards', 'reverse', *CARS, 'slot', 'obstacle']
+    # Of a path that goes one way only, in a world whose one obstacle lies beyond the view.
+    far = [[80, 80], [81, 80], [81, 81]]
+    ahead = ia.Scenario.from_polygons([far], (0, 0, 0), (8, 0, 0))
+    assert named(ahead) == ['forwards', 'car along the path', *CARS]
+    # One that lies across the view has no corner in it; a hole in a map lies askew as the map does.
+    across = ia.Scenario.from_polygons([[[-90, 4], [90, 4], [90, 4.5], [-90, 4.5]]], (0, 0, 0), (8, 0, 0))
+    assert named(across)[-1] == 'obstacle'
+    either = ia.Slot('perpendicular', (8, 5, 0), length=6, width=3, entry='either')
+    several = ia.Scenario.from_polygons([far], (0, 0, 0), slot=either)
+    assert [*CARS[:2], 'other goal', CARS[2], 'slot'] == named(several)[-5:]
+    # Without a path the problem is drawn all the same.
+    blocked = ia.Scenario.from_polygons([[[-1, -3], [4, -3], [4, 3], [-1, 3]]], (0, 0, 0), (8, 0, 0))
+    assert named(blocked) == [*CARS, 'obstacle']
+
+
+def test_legends_of_maps(tmp_path):
+    pytest.importorskip('matplotlib')
+    import numpy
+
+    def named(cells, **more):
+        problem = ia.Scenario.from_grid(cells, (40, 40, 0), (48, 40, 0), resolution=0.5, **more)
+        return legend_of(ia.plan(problem).plot(tmp_path / 'map.png'))[5:]
+
+    cells = numpy.zeros((200, 200), dtype=numpy.uint8)
+    assert named(cells) == []
+    cells[0, :], cells[:, 0] = 1, 2  # which the view does not reach
+    assert named(cells) == []
+    cells[72, 105] = 1
+    assert named(cells) == ['obstacle']
+    cells[88, 85] = 2
+    assert named(cells) == ['obstacle', 'unknown']
+    assert named(cells[:90, :]) == ['obstacle', 'unknown', 'outside of the map']
+    # On a map that lies askew, and ends in the lower left corner of the view.
+    assert named(numpy.zeros((200, 200), dtype=numpy.uint8), origin=(53, 1, 0.5)) == ['outside of the map']
+    # A cell 10 m along it and 30 m across it, which lies in the view; with the two swapped it does not.
+    turned, origin = numpy.zeros((400, 400), dtype=numpy.uint8), (44 - 10 * 0.8 + 30 * 0.6, 43 - 10 * 0.6 - 30 * 0.8,
+                                                                  math.atan2(0.6, 0.8))
+    turned[68, 26] = 2  # 13 m along it and 34 m across it: 2 m above the view
+    assert named(turned, origin=origin) == ['outside of the map']
+    turned[60, 20] = 2
+    assert named(turned, origin=origin) == ['unknown', 'outside of the map']
+
+
+def test_pictures_have_the_same_colours_everywhere():
+    with open(os.path.join(ROOT, 'parking_geometry', 'drawing', 'SvgMap.h'), encoding='utf-8') as stream:
+        colours = dict(re.findall(r'constexpr const char \*(\w+) = "(#\w+)"', stream.read()))
+    for name in ('FORWARD', 'REVERSE', 'START', 'GOAL', 'UNKNOWN', 'OUTSIDE'):
+        assert getattr(plotting, name) == colours[name], name
+
+
 def test_plot_draws_into_axes_of_the_caller():
     matplotlib = pytest.importorskip('matplotlib')
     matplotlib.use('Agg')
     from matplotlib import pyplot
     _, axes = pyplot.subplots()
+    axes.plot([0, 1], [0, 1], label='mine')
     assert result().plot(axes=axes) is axes
+    once = legend_of(axes)
+    assert once[-1] == 'mine' and once[:3] == PATH
+    result().plot(axes=axes)
+    assert legend_of(axes) == once
 
 
 def test_animate_makes_a_page_that_needs_nothing(tmp_path):

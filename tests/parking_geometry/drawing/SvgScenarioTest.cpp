@@ -1,7 +1,11 @@
 #include "parking_geometry/drawing/SvgScenario.h"
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +101,48 @@ TEST(SvgScenario, LegendsNameWhatIsSeenOfAMap)
     // A map that lies askew and ends within the view.
     scenario.grid = OccupancyGrid(200, 200, 0.5, {10.0, -60.0, 0.2}, Cell::Free);
     EXPECT_EQ(legendOf(scenario), with(CARS, "outside of the map"));
+}
+
+TEST(SvgScenario, UnknownIsNotTheOutsideOfTheMap)
+{
+    Scenario scenario = openGround();
+    scenario.grid = OccupancyGrid(20, 200, 0.5, {-5.0, -50.0, 0.0}, Cell::Unknown);
+    scenario.slot = ParkingSlot{};
+    SvgMap map(viewAround(scenario));
+    drawScenario(map, scenario);
+    std::map<std::string, std::string> colours;
+    for (const SvgLegendEntry &entry : map.legend())
+        colours[entry.label] = entry.style.fill;
+    EXPECT_EQ(colours["unknown (not to be entered)"], svg_colour::UNKNOWN);
+    EXPECT_EQ(colours["outside of the map"], svg_colour::OUTSIDE);
+    const std::string svg = map.toSvg(0, 0);
+    for (const char *colour : {svg_colour::UNKNOWN, svg_colour::OUTSIDE})
+        EXPECT_NE(svg.find("fill=\"" + std::string(colour) + '"'), std::string::npos) << colour;
+    // A slot on unknown cells is seen.
+    const std::size_t slot = svg.find("stroke-dasharray=\"6 4\"");
+    ASSERT_NE(slot, std::string::npos);
+    EXPECT_LT(svg.find(svg_colour::UNKNOWN), slot);
+}
+
+TEST(SvgScenario, GroundsDifferInLightnessAlone)
+{
+    // CIE L*: white is 100, and what differs by 7 is told apart side by side, whatever colours the eye sees.
+    const auto lightness = [](const std::string &colour)
+    {
+        double luminance = 0.0;
+        for (const auto &[place, share] : {std::pair{1, 0.2126}, {3, 0.7152}, {5, 0.0722}})
+        {
+            const double value = std::stoi(colour.substr(static_cast<std::size_t>(place), 2), nullptr, 16) / 255.0;
+            luminance += share * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+        }
+        return 116.0 * std::cbrt(luminance) - 16.0;
+    };
+    const std::vector<std::string> grounds{"#fbfcfd", svg_colour::OUTSIDE, svg_colour::UNKNOWN, svg_colour::OBSTACLE};
+    EXPECT_NE(SvgMap({{0, 0}, {1, 1}}).toSvg(0, 0).find("fill=\"" + grounds.front() + '"'), std::string::npos)
+        << "free";
+    for (std::size_t i = 0; i < grounds.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_GT(std::abs(lightness(grounds[i]) - lightness(grounds[k])), 7.0) << grounds[i] << ' ' << grounds[k];
 }
 
 TEST(SvgScenario, LegendsNameWhatIsSeenOfAPath)
