@@ -133,6 +133,31 @@ class ChecksTest(unittest.TestCase):
                            check=True)
             self.assertEqual(self.run_check('readme_sample').returncode, 0)
 
+    def test_versions_that_differ(self):
+        changes = '# Changelog\n\nNewest first.\n\n## 0.3.0 (unreleased)\n\nAll new.\n\n## 0.2.0\n'
+        self.write('CMakeLists.txt', 'cmake_minimum_required(VERSION 3.25)\nproject(some_project\n  VERSION 0.3.0\n)\n')
+        self.write('CHANGELOG.md', changes)
+        self.write('integrations/nav2/package.xml', '<?xml version="1.0"?>\n<version>0.3.0</version>\n')
+        self.write('CITATION.cff', 'cff-version: 1.2.0\ntitle: some\n')
+        self.write('pyproject.toml', 'cmake.version = ">=3.25"\ndynamic = ["version"]\ninput = "CMakeLists.txt"\n')
+        self.write('scripts/package', 'libompl-improved-astar$soversion\n')
+        done = self.run_check('version')
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for name, text in (('CHANGELOG.md', changes.replace('## 0.3.0', '## 0.4.0')), ('CHANGELOG.md', '# Changelog\n'),
+                           ('integrations/nav2/package.xml', '<version>0.2.0</version>\n'),
+                           ('CITATION.cff', 'cff-version: 1.2.0\nversion: "0.2.0"\n'),
+                           ('pyproject.toml', 'dynamic = ["version"]\ninput = "CMakeLists.txt"\nversion = "0.2.0"\n'),
+                           ('pyproject.toml', 'dynamic = ["version"]\n'),
+                           ('scripts/package', 'libompl-improved-astar0.2\n')):
+            with self.subTest(f'{name}: {text}'):
+                with open(os.path.join(self.root, name), encoding='utf-8') as file:
+                    before = file.read()
+                self.write(name, text)
+                self.expect_found('version', name)
+                self.write(name, before)
+        self.write('CMakeLists.txt', 'project(some_project)\n')
+        self.expect_found('version', 'CMakeLists.txt')
+
     def make_documented(self):
         if not shutil.which('doxygen'):
             self.skipTest('doxygen is not installed')
