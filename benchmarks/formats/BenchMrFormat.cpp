@@ -227,8 +227,16 @@ namespace parking
             const std::optional<Pose> start = options.start ? options.start : poseOf(file, text, "data-start");
             const std::optional<Pose> goal = options.goal ? options.goal : poseOf(file, text, "data-goal");
             if (!start || !goal)
-                throw Error(file + ": a scene of Bench-MR says no " + (start ? "goal" : "start") + "; give " +
-                            (start ? "--goal" : "--start") + " X,Y,YAW (of the middle of the body)");
+            {
+                // Whichever program reads it: this one has the options.
+                const std::string point = options.vehicle.empty() ? "body" : "rear axle";
+                throw Error(file + ": a scene of Bench-MR says " +
+                            (start  ? "no goal; parking_convert takes --goal X,Y,YAW"
+                             : goal ? "no start; parking_convert takes --start X,Y,YAW"
+                                    : "neither start nor goal; parking_convert takes --start X,Y,YAW and --goal "
+                                      "X,Y,YAW") +
+                            " (of the middle of the " + point + ") and writes a file that says so");
+            }
             scenario.start = *start;
             scenario.goals = {*goal};
             return makeScenario(std::move(scenario), file);
@@ -275,7 +283,7 @@ namespace parking
     {
         return {"benchmr",
                 ".svg",
-                "polygon scenes of Bench-MR; obstacles are convex, start and goal may be options",
+                "polygon scenes of Bench-MR; obstacles are convex, start and goal are options of parking_convert",
                 [](std::string_view begin) { return begin.find("<svg") != std::string_view::npos; },
                 LARGEST,
                 parse,

@@ -1,5 +1,6 @@
 #include "benchmarks/formats/ScenarioFormat.h"
 
+#include "benchmarks/formats/MatFile.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/MakeScenario.h"
 #include "parking_geometry/text/NearestName.h"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
 
 namespace parking
 {
@@ -23,6 +26,17 @@ namespace parking
         static const std::vector<ScenarioFormat> formats{commonParkingFormat(), benchMrFormat(), tpcapFormat(),
                                                          yamlFormat()};
         return formats;
+    }
+
+    std::string scenarioFormatLines()
+    {
+        std::ostringstream lines;
+        for (const ScenarioFormat &format : scenarioFormats())
+            lines << "  " << std::left << std::setw(26) << format.name << std::setw(6) << format.extension
+                  << format.text << "\n";
+        if (!hasMatFiles())
+            lines << "\nThis build has no MATLAB files (.mat): build it with libmatio-dev.\n";
+        return lines.str();
     }
 
     const ScenarioFormat &scenarioFormat(std::string_view name)

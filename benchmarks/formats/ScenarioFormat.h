@@ -41,6 +41,9 @@ namespace parking
     /** \brief All formats; the last one is what a file is taken for that none recognizes. */
     const std::vector<ScenarioFormat> &scenarioFormats();
 
+    /** \brief The formats for texts of --help, a line each, and one where this build has no MATLAB files. */
+    std::string scenarioFormatLines();
+
     /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
     const ScenarioFormat &scenarioFormat(std::string_view name);
 

@@ -1,5 +1,6 @@
 #include "benchmarks/programs/PlanOptions.h"
 
+#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
@@ -114,9 +115,10 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_plan SCENARIO [options]\n\n"
-                "Plans one parking problem: a YAML scenario or a case of the Trajectory Planning Competition of\n"
-                "Automated Parking (CSV). docs/scenario-format.md describes both.\n\n"
-             << describe() << "\nPlanners:\n";
+                "Plans one parking problem. What SCENARIO is its content tells; docs/scenario-format.md and\n"
+                "docs/formats.md describe the formats.\n\n"
+             << describe() << "\nFormats:\n"
+             << scenarioFormatLines() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 18 ? 18 - each.name.size() : 1, ' ')
                  << each.summary << "\n";

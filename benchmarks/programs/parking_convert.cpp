@@ -1,7 +1,6 @@
 // parking_convert: parking problems and results from one format into another. docs/formats.md says how.
 
 #include "benchmarks/formats/HopeScenes.h"
-#include "benchmarks/formats/MatFile.h"
 #include "benchmarks/formats/ResultFormat.h"
 #include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/system/CommandLine.h"
@@ -32,7 +31,7 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("to", oneValue("FORMAT"), "of OUTPUT (default: as its name ends)");
+        add("to", oneValue("FORMAT"), "of OUTPUT (default: as its name ends; with --hope yaml)");
         add("check", "look at INPUT, and at OUTPUT once it is written; status 1 when something is wrong");
         add("vehicle", oneValue("NAME|FILE"), "the car (default: the file's, or the format's)");
         add("start", oneValue("X,Y,YAW"), "instead of the file's, or where the format says none");
@@ -52,21 +51,15 @@ namespace
                 "       parking_convert --hope LEVEL OUTPUT [--count N] [--seed N] [--to FORMAT]\n\n"
                 "Converts parking problems between formats, and results of parking_plan --json into those of others. "
                 "What\nINPUT is its content tells.\n\n"
-             << describe() << "\nFormats of problems, read and written:\n";
-        for (const ScenarioFormat &format : scenarioFormats())
-            text << "  " << std::left << std::setw(26) << format.name << std::setw(6) << format.extension << format.text
-                 << "\n";
-        text << "\nFormats of results, written:\n";
+             << describe() << "\nFormats of problems, read and written:\n"
+             << scenarioFormatLines() << "\nFormats of results, written:\n";
         for (const ResultFormat &format : resultFormats())
             text << "  " << std::left << std::setw(26) << format.name << std::setw(6) << format.extension << format.text
                  << "\n";
         text << "\nLevels of HOPE:";
         for (const std::string &level : hopeLevels())
             text << ' ' << level;
-        text << "\n";
-        if (!hasMatFiles())
-            text << "\nThis build has no MATLAB files (.mat): build it with libmatio-dev.\n";
-        text << "\nExamples:\n"
+        text << "\n\nExamples:\n"
                 "  parking_convert Case7.csv Case7.yaml --check\n"
                 "  parking_convert Case07.mat case07.yaml\n"
                 "  parking_convert parking1.svg parking1.yaml --start 3,-7.2,0 --goal 4.05,-2.6,1.5708 --check\n"

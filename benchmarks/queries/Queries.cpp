@@ -1,6 +1,7 @@
 #include "benchmarks/queries/Queries.h"
 
 #include "benchmarks/comparison/BenchmarkConfig.h"
+#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/formats/YamlFormat.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -106,7 +107,7 @@ namespace parking
             {
                 if (maps.empty())
                     throw Error(inQuotes(folderOrFile) +
-                                ": no world there (maps and scenarios as .yaml files, TPCAP cases as .csv files)");
+                                ": no world there (maps and scenarios as .yaml files, cases as .csv or .mat files)");
             }
         }
         else
@@ -119,7 +120,7 @@ namespace parking
         for (const std::string &file : scenarios)
         {
             QueryWorld world;
-            world.scenario = readScenario(file, {vehicle});
+            world.scenario = readAnyScenario(file, {vehicle, {}, {}});
             world.name = fs::path(file).stem().string();
             // A scenario on a map that is there as well would be the same world twice.
             const bool isKnown = std::any_of(worlds.begin(), worlds.end(),

@@ -45,11 +45,13 @@ namespace
         add("seed", oneValue("TEXT"), "any word or number (default 1)");
         add("kind", manyValues("NAME"), "only worlds of this kind; may be given several times (default: every kind)");
         add("from", manyValues("DIR|FILE"),
-            "instead: worlds of a folder or file, maps, scenarios or TPCAP cases; may be given several times");
+            "instead: worlds of a folder or file, maps or scenarios of any format that parking_plan reads; may be "
+            "given several times");
         add("worlds", oneValue("N"), "of each kind (default 2)");
         add("queries", oneValue("N"), "in each world (default 8); every other goal is pushed to an obstacle");
         add("margin", oneValue("M"), "metres that start and goal have on all sides (default 0)");
-        add("vehicle", oneValue("NAME|FILE"), "the car (default: of a file its own, otherwise one drawn at random)");
+        add("vehicle", oneValue("NAME|FILE"),
+            "the car (default: a scenario's own, TPCAP's on maps, otherwise one drawn at random)");
         add("help", "this text");
         return options;
     }

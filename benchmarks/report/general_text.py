@@ -51,7 +51,7 @@ Nobody has to believe in our worlds, or in this seed:
 
 ```sh
 parking_queries --output mine --seed whatever --kind streets --kind clutter --worlds 5 --margin 0.1
-parking_queries --output there --from FOLDER     # maps, scenarios or TPCAP cases of a folder
+parking_queries --output there --from FOLDER     # maps and scenarios of a folder
 parking_plan mine/streets_3_2.yaml --svg path.svg
 ```
 

@@ -11,6 +11,7 @@ import zlib
 from programs import SCENARIOS, SHARED_DATA, ProgramTest, bundled, main
 
 CONVERT = os.environ['PARKING_CONVERT']
+QUERIES = os.environ['PARKING_QUERIES']
 CASE = '0,0,0.1,8,1,-1.2,2,4,3,2,2,4,2,4,4,2,4,-5,-5,-3,-5,-4,-4\n'
 SCENE = '''<?xml version="1.0"?>
 <svg
@@ -151,8 +152,29 @@ class ScenariosTest(ConvertTest):
         car = json.loads(re.sub(r'(\w+):', r'"\1":', re.search(r'vehicle: (.*)', yaml).group(1)).replace("'", '"'))
         self.assertAlmostEqual(car['wheelbase'] / math.tan(car['max_steering_angle']), 4.0)
         self.assertAlmostEqual(car['rear_overhang'], car['wheelbase'] + car['front_overhang'])
-        self.assertIn('--start X,Y,YAW', self.refused('scene.svg', 'other.yaml'))
-        self.assertIn('--goal', self.refused('scene.svg', 'other.yaml', '--start', '0,0,0'))
+
+    def test_scenes_without_start_or_goal_are_refused_with_what_helps(self):
+        self.write('scene.svg', SCENE)
+        start, goal = ('--start', '0,-1,0'), ('--goal', '15,-5,1.5')
+        both = 'neither start nor goal; parking_convert takes --start X,Y,YAW and --goal X,Y,YAW (of the middle of the body)'
+        self.assertIn(both, self.refused('scene.svg', 'other.yaml'))
+        self.assertIn('no goal; parking_convert takes --goal X', self.refused('scene.svg', 'other.yaml', *start))
+        self.assertIn('no start; parking_convert takes --start X', self.refused('scene.svg', 'other.yaml', *goal))
+        self.assertIn('of the middle of the rear axle', self.refused('scene.svg', 'other.yaml', '--vehicle', 'vw_golf8'))
+        # Programs without such options say who has them, and it does help.
+        self.refused_plan('scene.svg', parts=[both])
+        self.assert_refused(self.run_program(QUERIES, '--output', 'q', '--from', 'scene.svg'), both)
+        self.convert('scene.svg', 'whole.svg', *start, *goal)
+        self.assertEqual(self.planned('whole.svg')['status'], 'exact')
+
+    def test_every_program_reads_every_format(self):
+        self.write('case.csv', CASE)
+        for name in ['case.csv', 'a.yaml', 'b.svg'] + (['d.mat'] if self.has_mat_files() else []):
+            if name != 'case.csv':
+                self.convert('case.csv', name, '--vehicle', 'tpcap')
+            self.assertEqual(self.planned(name, '--vehicle', 'tpcap')['status'], 'exact')
+            done = self.run_program(QUERIES, '--output', 'from ' + name, '--from', name, '--queries', 1)
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
 
     def test_scenes_that_are_none(self):
         for text, word in ((SCENE.replace('h -2', 'c -2,1 0,0 1,1'), "'c'"), (SCENE.replace('112', 'x'), 'x'),
@@ -222,9 +244,10 @@ class ScenariosTest(ConvertTest):
     def test_what_no_planner_takes_is_refused_by_all(self):
         self.write('case.csv', CASE)
         far = '1e300,0,0'
-        for arguments in (['--start', far], ['--goal', far]):
-            self.assertIn('case.csv', self.refused('case.csv', '--check', *arguments))
-            self.assertIn('100000 m', self.refused('case.csv', 'out.yaml', *arguments))
+        for option, limit in (('--start', 'at most 10000000000 m'), ('--goal', 'at most 100000 m')):
+            self.assertIn('case.csv', self.refused('case.csv', '--check', option, far))
+            self.assertIn(limit, self.refused('case.csv', 'out.yaml', option, far))
+        self.assertIn('at most 100000 m', self.refused('case.csv', 'out.yaml', '--start', '0,100020,0'))
         self.convert('case.csv', 'ok.yaml', '--check', '--start', '0,99990,0')
         self.write('knot.csv', '0,0,0,9,0,0,1,4,20,20,22,22,22,20,20,22\n')
         self.write('knot.yaml', 'start: [0, 0, 0]\ngoal: [9, 0, 0]\npolygons: [[[20, 20], [22, 22], [22, 20], [20, 22]]]\n')
@@ -233,7 +256,7 @@ class ScenariosTest(ConvertTest):
             for part in parts:
                 self.assertIn(part, self.refused(name, '--check'))
             self.refused_plan(name, parts=parts)
-            self.assert_refused(self.run_program(os.environ['PARKING_QUERIES'], '--output', 'q', '--from', name), *parts)
+            self.assert_refused(self.run_program(QUERIES, '--output', 'q', '--from', name), *parts)
         self.assertEqual(sorted(os.listdir(self.folder)), ['case.csv', 'knot.csv', 'knot.yaml', 'ok.yaml'])
 
     def test_pipes_and_devices(self):
@@ -288,6 +311,8 @@ class ScenariosTest(ConvertTest):
         done = self.convert('--help')
         for word in ('benchmr', 'commonparking', 'tpcap', 'yaml', 'extreme', 'Examples:', 'commonparking-trajectory'):
             self.assertIn(word, done.stdout)
+        for extension in ('.mat', '.svg', '.csv', '.yaml'):
+            self.assertIn(extension, self.plan('--help').stdout)
 
     @unittest.skipUnless(os.path.isdir(os.path.join(SHARED_DATA, 'tpcap')), 'no TPCAP cases')
     def test_tpcap_cases(self):
