@@ -192,6 +192,14 @@ namespace parking
         return obstacles_.covers(box.x, box.y);
     }
 
+    int FootprintChecker::side(const OrientedBox &local) const
+    {
+        const int side = edges_.side(local, CONTACT_BAND);
+        if (side > 0 && isInsideObstacle(local))
+            return -1;
+        return side > 0 && std::hypot(local.halfLength, local.halfWidth) > edges_.reach() ? 0 : side;
+    }
+
     double FootprintChecker::clearance(const Pose &pose) const
     {
         CheckCounts counts;

@@ -117,6 +117,13 @@ namespace parking
         std::size_t countNearer(const Pose &from, const Arc &arc, const ArcSamples &samples, double clearance,
                                 std::size_t most, CheckCounts &counts) const;
 
+        /** \brief On which side of contact a box is that is larger or smaller than the body: 1 when it touches no
+            obstacle, -1 when it does, 0 when that cannot be told.
+
+            \param local in the local frame; how far from its centre obstacles are looked for is enough for boxes whose
+            corners are up to a metre farther out than the body's, and larger ones are never found to touch nothing */
+        int side(const OrientedBox &local) const;
+
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
            reports: dear where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;

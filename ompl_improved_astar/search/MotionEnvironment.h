@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/PoseCell.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace parking::search
 {
     /** \brief Where the car's body surely collides, cell by cell, for proofs that there is no way.
 
-        A cell is a square of places of the body's middle and one of several equal parts of the circle of headings. */
+        A cell is a square of places of the body's middle and a part of the circle of headings. */
     class BodyCells
     {
     public:
@@ -32,6 +33,17 @@ namespace parking::search
 
             \param x, y middle of the square, whose sides are parallel to the axes */
         virtual Headings blocked(double x, double y) const = 0;
+
+        /** \brief What is known of the body's collisions in a cell. */
+        enum class Contact
+        {
+            None,        ///< the body is free at every place and heading
+            Everywhere,  ///< it collides at every place and heading
+            Unknown      ///< it may be free at some and collide at others
+        };
+
+        /** \brief The same for one cell of any size, more closely. */
+        virtual Contact contact(const PoseCell &cell) const = 0;
     };
 
     /** \brief What the search asks of the world. One search uses one environment from one thread.

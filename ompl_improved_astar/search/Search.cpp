@@ -212,7 +212,7 @@ namespace parking::search
             return;
         if (needsDetour())
             takeDetour();
-        widenEnclosures();
+        seekProof();
     }
 
     void Search::close(Frontier &own, NodeIndex index)

@@ -7,6 +7,7 @@
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
 #include "ompl_improved_astar/search/proofs/Enclosure.h"
+#include "ompl_improved_astar/search/proofs/RefinedEnclosure.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <array>
@@ -384,10 +385,20 @@ namespace parking::search
         void endDetours();
         void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index);
         bool explore();
-        void beginEnclosures();
+        void seekProof();
+        bool beginProof();
+        bool widenEnclosures(std::uint64_t expansions);
+        bool refineEnclosure(std::uint64_t expansions);
         double wayAhead(Side side, double x, double y);
-        void widenEnclosures();
         std::size_t bytesOfEnclosures() const;
+
+        /** Which cells are tried to prove that there is no way. */
+        enum class ProofStage
+        {
+            EqualCells,
+            RefinedCells,
+            Over
+        };
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
@@ -433,9 +444,10 @@ namespace parking::search
         Visited filled_;                                // by that
         Side explored_{Side::Goal};                     // the frontier that was explored last
         std::vector<Successor> motions_;                // towards a pose, one after the other
+        ProofStage proofStage_{ProofStage::EqualCells};
         std::vector<Enclosure> enclosures_;  // of the starts and of the goals; none before the first is needed
+        std::unique_ptr<RefinedEnclosure> refined_;
         std::unique_ptr<BodyCells> bodyCells_;
-        std::size_t enclosureLevel_{0};  // of their cells: each finer than the one before
         // Estimate of the node with which the confined side came nearer last, and turns of that side up to then.
         double progressEstimate_{std::numeric_limits<double>::infinity()};
         std::uint64_t progressAt_{0};

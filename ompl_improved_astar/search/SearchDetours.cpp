@@ -132,29 +132,49 @@ namespace parking::search
         }
         fillsDetour_ = false;
         explored_ = Side::Goal;
-        enclosureLevel_ = 0;
+        proofStage_ = ProofStage::EqualCells;
         enclosures_.clear();
+        refined_.reset();
         bodyCells_.reset();
         progressEstimate_ = INFINITE;
         progressAt_ = frontier(confined_).turns();
     }
 
-    void Search::beginEnclosures()
+    /** Begins the proof of the stage; false when the environment knows no cells. */
+    bool Search::beginProof()
     {
         const SearchTuning &tuning = parameters_.tuning;
-        bodyCells_.reset();
         if (parameters_.bodyRadius <= 0.0)
-            return;
-        const double side = tuning.enclosureCells[enclosureLevel_] * parameters_.bodyRadius;
-        const int headings = tuning.enclosureHeadings[enclosureLevel_];
-        bodyCells_ = environment_->bodyCells(side, headings);
+            return false;
+        const double side = tuning.enclosureCell * parameters_.bodyRadius;
+        bodyCells_ = environment_->bodyCells(side, tuning.enclosureHeadings);
         if (!bodyCells_)
-            return;
-        enclosures_ = std::vector<Enclosure>(2);
-        for (const Side each : {Side::Start, Side::Goal})
-            enclosures_[static_cast<std::size_t>(each)].begin(
-                *bodyCells_, frontier(each).rootPoses(), frontier(opposite(each)).rootPoses(), side, headings,
-                tuning.mostColumns, [this, each](double x, double y) { return wayAhead(each, x, y); });
+            return false;
+        const auto ahead = [this](Side of)
+        {
+            return [this, of](double x, double y)
+            {
+                return wayAhead(of, x, y);
+            };
+        };
+        if (proofStage_ == ProofStage::EqualCells)
+        {
+            enclosures_ = std::vector<Enclosure>(2);
+            for (const Side each : {Side::Start, Side::Goal})
+                enclosures_[static_cast<std::size_t>(each)].begin(
+                    *bodyCells_, frontier(each).rootPoses(), frontier(opposite(each)).rootPoses(), side,
+                    tuning.enclosureHeadings, tuning.mostColumns, ahead(each));
+            return true;
+        }
+        RefinedEnclosure::Levels levels;
+        levels.side = tuning.refinedCell * parameters_.bodyRadius;
+        levels.headings = tuning.refinedHeadings;
+        levels.coarse = tuning.refinedCoarse;
+        levels.fine = tuning.refinedFine;
+        refined_ = std::make_unique<RefinedEnclosure>();
+        refined_->begin(*bodyCells_, frontier(Side::Start).rootPoses(), frontier(Side::Goal).rootPoses(), levels,
+                        ahead(Side::Start), ahead(Side::Goal));
+        return true;
     }
 
     std::size_t Search::bytesOfEnclosures() const
@@ -162,7 +182,7 @@ namespace parking::search
         std::size_t bytes = 0;
         for (const Enclosure &enclosure : enclosures_)
             bytes += enclosure.bytes();
-        return bytes;
+        return bytes + (refined_ ? refined_->bytes() : 0);
     }
 
     double Search::wayAhead(Side side, double x, double y)
@@ -177,21 +197,10 @@ namespace parking::search
         return way < INFINITE ? way : FARTHER + straight;
     }
 
-    void Search::widenEnclosures()
+    /** Goes on with the proof by what so many expansions since it may have begun are worth; false when it is over. */
+    bool Search::widenEnclosures(std::uint64_t expansions)
     {
-        const SearchTuning &tuning = parameters_.tuning;
-        if (detoursTaken() == 0 || improved_ || statistics_.expanded < detoursSince_ + tuning.enclosureAfter ||
-            enclosureLevel_ >= std::size(tuning.enclosureCells))
-            return;
-        if (!bodyCells_)
-            beginEnclosures();
-        if (!bodyCells_)
-        {
-            enclosureLevel_ = std::size(tuning.enclosureCells);
-            return;
-        }
-        const std::size_t columns =
-            1 + (statistics_.expanded - detoursSince_ - tuning.enclosureAfter) / tuning.expansionsPerColumn;
+        const std::size_t columns = 1 + expansions / parameters_.tuning.expansionsPerColumn;
         bool isConnected = false, isOver = true;
         for (Enclosure &enclosure : enclosures_)
         {
@@ -201,13 +210,40 @@ namespace parking::search
             isConnected = isConnected || verdict == Enclosure::Verdict::Connected;
             isOver = isOver && verdict != Enclosure::Verdict::Unknown;
         }
-        const bool isTooLarge = static_cast<double>(bytesOfEnclosures()) >
-                                tuning.memoryOfEnclosures * static_cast<double>(parameters_.maxMemory);
-        if (!isConnected && !isOver && !isTooLarge)
+        return !isConnected && !isOver;
+    }
+
+    /** The same with cells that are cut where it matters. */
+    bool Search::refineEnclosure(std::uint64_t expansions)
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        const RefinedEnclosure::Verdict verdict =
+            refined_->widen(tuning.stepsPerExpansion + expansions / tuning.expansionsPerStep);
+        if (verdict == RefinedEnclosure::Verdict::Closed)
+            proof_ = Exhaustion::Enclosed;
+        return verdict == RefinedEnclosure::Verdict::Unknown;
+    }
+
+    void Search::seekProof()
+    {
+        const SearchTuning &tuning = parameters_.tuning;
+        if (detoursTaken() == 0 || improved_ || statistics_.expanded < detoursSince_ + tuning.enclosureAfter ||
+            proofStage_ == ProofStage::Over)
             return;
-        bodyCells_.reset();
+        if (!bodyCells_ && !beginProof())
+        {
+            proofStage_ = ProofStage::Over;
+            return;
+        }
+        const std::uint64_t expansions = statistics_.expanded - detoursSince_ - tuning.enclosureAfter;
+        const bool goesOn = refined_ ? refineEnclosure(expansions) : widenEnclosures(expansions);
+        if (goesOn && static_cast<double>(bytesOfEnclosures()) <=
+                          tuning.memoryOfEnclosures * static_cast<double>(parameters_.maxMemory))
+            return;
+        proofStage_ = refined_ ? ProofStage::Over : ProofStage::RefinedCells;
         enclosures_.clear();
-        ++enclosureLevel_;
+        refined_.reset();
+        bodyCells_.reset();
     }
 
     void Search::pushToDetour(std::size_t detour, std::size_t level, NodeIndex index)

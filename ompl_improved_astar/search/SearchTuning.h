@@ -101,17 +101,23 @@ namespace parking::search
 
         /** \name Proving that there is no way, when the search stays stuck
 
-            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names. Each try has
-            finer cells than the one before: coarse ones soon get to the end of large yards, fine ones close gaps that
-            are only a little too narrow.
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names. The first try has
+            equal, coarse cells, which soon get to the end of large yards; the second one cuts them where it matters, to
+            close gaps that are only a little too narrow.
             @{ */
-        std::uint64_t enclosureAfter{400};        ///< expansions with detours before the proof begins
-        std::uint64_t expansionsPerColumn{10};    ///< an expansion is worth a column of cells at each end, and one
-                                                  ///< more for each so many that came before it
-        std::size_t mostColumns{500000};          ///< at each end,
-        double memoryOfEnclosures{0.25};          ///< and no more than this share of the memory for both
-        double enclosureCells[3]{0.5, 0.2, 0.1};  ///< side of a cell, in radii of the largest disc within the car
-        int enclosureHeadings[3]{32, 72, 120};    ///< cells round the circle
+        std::uint64_t enclosureAfter{400};      ///< expansions with detours before the proof begins
+        std::uint64_t expansionsPerColumn{10};  ///< an expansion is worth a column of cells at each end, and one
+                                                ///< more for each so many that came before it
+        std::size_t mostColumns{500000};        ///< at each end,
+        double memoryOfEnclosures{0.25};        ///< and no more than this share of the memory for both
+        double enclosureCell{0.5};              ///< side of a cell, in radii of the largest disc within the car
+        int enclosureHeadings{32};              ///< cells round the circle
+        double refinedCell{4.0};                ///< side of the coarsest cells of the second try, in the same radii,
+        int refinedHeadings{4};                 ///< and those round the circle:
+        int refinedCoarse{3};                   ///< they are cut so often where it is doubtful whether they are free,
+        int refinedFine{8};                     ///< and no more than so often where it matters
+        std::uint64_t stepsPerExpansion{10};    ///< of the second try at each end,
+        std::uint64_t expansionsPerStep{300};   ///< and one more for each so many expansions that came before it
         /** @} */
 
         /** \name Thinking again after the first solution

@@ -36,6 +36,13 @@ namespace parking
                 return cells_.blocked(x, y);
             }
 
+            Contact contact(const PoseCell &cell) const override
+            {
+                if (cells_.touchThroughout(cell))
+                    return Contact::Everywhere;
+                return cells_.areFreeThroughout(cell) ? Contact::None : Contact::Unknown;
+            }
+
         private:
             double centreOffset_;
             FootprintCells cells_;

@@ -314,6 +314,14 @@ namespace
                 const std::uint64_t all = world_.distanceFrom(x, y) > 0.0 ? 0 : ~std::uint64_t{0};
                 return {all, all};
             }
+            Contact contact(const PoseCell &cell) const override
+            {
+                ++world_.asked;
+                const double distance = world_.distanceFrom(cell.middle.x, cell.middle.y);
+                if (distance > cell.side)
+                    return Contact::None;
+                return distance > 0.0 ? Contact::Unknown : Contact::Everywhere;
+            }
 
         private:
             CellWorld &world_;
@@ -347,7 +355,7 @@ namespace
         search.run({}, MOST_EXPANSIONS);
         EXPECT_FALSE(search.hasSolution());
         EXPECT_EQ(search.expanded(), MOST_EXPANSIONS);
-        EXPECT_EQ(world.begun, 3) << "coarse cells, then finer ones";
+        EXPECT_EQ(world.begun, 2) << "equal cells, then some that are cut";
     }
 }  // namespace
 
@@ -365,7 +373,7 @@ TEST(SearchDetours, theProofIsGivenUpBeforeItFillsTheMemory)
 {
     CellWorld world = roomForADisc();
     searchInVain(world, 0.0);
-    EXPECT_LT(world.asked, 10u);
+    EXPECT_LT(world.asked, 200u);
 }
 
 TEST(SearchDetours, leadAlongAnAisleRatherThanRoundThemAll)

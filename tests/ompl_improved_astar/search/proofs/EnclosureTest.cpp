@@ -59,6 +59,11 @@ namespace
             return bits;
         }
 
+        Contact contact(const PoseCell & /*cell*/) const override
+        {
+            return Contact::Unknown;
+        }
+
         Pose poseIn(int column, int row, int heading) const
         {
             return {SIDE * column, SIDE * row, 2.0 * PI * (heading + 0.5) / headings_ - PI};
@@ -186,6 +191,10 @@ TEST(Enclosure, reachesATargetSoonWhereTheWayIsKnown)
         Headings blocked(double, double) const override
         {
             return {};
+        }
+        Contact contact(const PoseCell & /*cell*/) const override
+        {
+            return Contact::None;
         }
     };
     const OpenCells cells;
