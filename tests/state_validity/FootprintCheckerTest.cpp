@@ -307,6 +307,24 @@ TEST(FootprintChecker, KnowsTheInsideOfLargeObstacles)
     EXPECT_EQ(checker.freeLength({100.0, 0.0, 1.0}, 0.0, 1.0), 0.0);
 }
 
+TEST(FootprintChecker, KnowsOnWhichSideOfContactOtherBoxesAre)
+{
+    const Vehicle vehicle;
+    const FootprintChecker checker(box({rectangle(4.0, 4.0, {6.0, 0.0, 0.0})}), vehicle);
+    const auto side = [&](double x, double halfLength, double halfWidth)
+    {
+        const Pose local = checker.obstacles().toLocal({x, 0.0, 0.0});
+        return checker.side({local.x, local.y, 1.0, 0.0, halfLength, halfWidth});
+    };
+    EXPECT_EQ(side(3.0, 0.999, 0.1), 1);
+    EXPECT_EQ(side(3.0, 1.001, 0.1), -1);
+    EXPECT_EQ(side(3.0, 1.0, 0.1), 0) << "touching";
+    EXPECT_EQ(side(6.0, 0.1, 0.1), -1) << "inside of the obstacle";
+    EXPECT_EQ(side(0.0, 2.6, 2.0), 1) << "larger than the body";
+    EXPECT_EQ(side(-4.0, 4.0, 4.0), 0) << "so large that not all is looked at";
+    EXPECT_EQ(side(-4.0, 30.0, 30.0), 0);
+}
+
 TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)
 {
     // A wall whose side lies as far from the front bumper as said.
