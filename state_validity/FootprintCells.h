@@ -37,8 +37,8 @@ namespace parking
         /** \brief Does the body touch an obstacle wherever it is in the cell? A yes is proven; a no says nothing.
 
             By the edges of the obstacles, not by circles: closer than blocked(), and dearer for a single cell.
-            \param cell of the body's middle, of any size, in the coordinates of the problem; yes for one that is not
-            finite */
+            \param cell of the body's middle, of any size, in the coordinates of the problem; yes for one whose middle
+            is not finite */
         bool touchThroughout(const PoseCell &cell) const;
 
         /** \brief Is the body free of obstacles wherever it is in the cell? A yes is proven; a no says nothing. */

@@ -207,6 +207,9 @@ namespace parking::search
             if (leaf == NONE || contentOf(leaf) == Content::Blocked || cell(leaf).isRoot[flood])
                 continue;
             cell(leaf).isRoot[flood] = true;
+            // A start and a goal in one cell: the other flood has come here before this was known.
+            if (cell(leaf).from[1 - flood] != NONE)
+                floods_[1 - flood].arrivals.push_back(leaf);
             reach(flood, leaf, leaf);
         }
     }
@@ -322,8 +325,8 @@ namespace parking::search
         }
     }
 
-    /** Cuts the doubtful cells on the way to a cell that lie behind the last one without any, and those beside them.
-        Returns false when they are all of the finest level. */
+    /** Cuts the doubtful cells on the way to a cell, back to the last one that has none before it, and those beside
+        them. Returns false when they are all of the finest level. */
     bool RefinedEnclosure::refineWay(std::size_t flood, CellIndex end)
     {
         const auto isCoarse = [this](CellIndex index)

@@ -38,7 +38,7 @@ namespace parking::search
             double side{1.0};  ///< of a cell of level 0, metres
             int headings{4};   ///< of level 0 round the circle, 2 or more
             int coarse{3};     ///< doubtful cells of lower levels than this one are always cut,
-            int fine{8};       ///< those of this one never; at most 12
+            int fine{8};       ///< those of this one never; at most 12, with at most 32,768 headings
         };
 
         /** \brief Begins a proof. What was seen for another is forgotten.
@@ -50,7 +50,8 @@ namespace parking::search
         void begin(const BodyCells &body, const std::vector<Pose> &starts, const std::vector<Pose> &goals,
                    const Levels &levels, Ahead aheadOfStarts, Ahead aheadOfGoals);
 
-        /** \brief Goes on by so many steps of either flood, each of the size of a look at a cell's neighbours. */
+        /** \brief Goes on by so many steps of either flood: a look at the neighbours of a cell, or cutting those of a
+            way. */
         Verdict widen(std::size_t steps);
 
         /** \brief What the last widen() said. */
@@ -116,7 +117,7 @@ namespace parking::search
             std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting;
             std::vector<CellIndex> detached;  // what was reached from these is to be detached, too
             std::vector<CellIndex> loose;     // may be reached some other way
-            std::vector<CellIndex> arrivals;  // cells with targets, when they were reached
+            std::vector<CellIndex> arrivals;  // reached cells with roots of the other flood, and some that were
         };
 
         Cell &cell(CellIndex index)
@@ -142,7 +143,9 @@ namespace parking::search
         void visitNeighbours(CellIndex index, const Visitor &visitor);
 
         // Between two steps each open leaf that has not been reached is loose, or those of its neighbours that have
-        // been reached wait or hang on something detached: a flood that has nothing to do has come as far as it can.
+        // been reached wait or hang on something detached; and each root of the other flood that has been reached is
+        // among the arrivals. So a flood that has nothing to do has come as far as it can, and not to the other's
+        // roots.
         void step(std::size_t flood);
         void plantRoots(std::size_t flood);
         void reach(std::size_t flood, CellIndex index, CellIndex from);

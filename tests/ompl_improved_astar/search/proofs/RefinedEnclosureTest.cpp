@@ -47,6 +47,11 @@ namespace
     class Room final : public BodyCells
     {
     public:
+        /** All of it is closed. */
+        Room() : open_(static_cast<std::size_t>(SIZE) * SIZE * HEADINGS, false)
+        {
+        }
+
         explicit Room(std::uint64_t seed) : open_(static_cast<std::size_t>(SIZE) * SIZE * HEADINGS, true)
         {
             Random random(seed);
@@ -243,6 +248,38 @@ TEST(RefinedEnclosure, agreesWithAFloodOfTheFinestCells)
     }
     EXPECT_GT(closed, 80);
     EXPECT_GT(connected, 80);
+}
+
+/** Whatever is round a start and a goal in one cell, and where the others are: one flood must not end before the other
+   has seen that it is where it was to come to. */
+TEST(RefinedEnclosure, connectsWhatIsInOneCell)
+{
+    for (std::uint64_t seed = 0; seed < 5000; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const auto any = [&]
+        {
+            return FineCell{random.below(6), random.below(6), random.below(HEADINGS)};
+        };
+        Room room;
+        room.doubts = random.below(2);
+        const FineCell origin{0, 0, random.below(HEADINGS)}, shared = random.chance(0.5) ? origin : any(),
+                                                             other = any();
+        const int open = random.below(200);
+        for (int i = 0; i < open; ++i)
+            room.open(any());
+        for (const FineCell &each : {origin, shared, other})
+            room.open(each);
+        RefinedEnclosure::Levels large = levels(0);
+        large.fine = 1;
+        large.side = 2.0 * SIDE;
+        large.headings = HEADINGS / 2;
+        RefinedEnclosure proof;
+        proof.begin(room, {Room::poseIn(origin), Room::poseIn(shared)}, {Room::poseIn(shared), Room::poseIn(other)},
+                    large, {}, {});
+        ASSERT_EQ(prove(proof, random), Verdict::Connected);
+    }
 }
 
 /** A proof begun anew knows nothing of the one before, and memory does not grow by it. */
