@@ -184,14 +184,18 @@ namespace parking::search
 
         /** \name Leading what was found past obstacles that it comes too near to
 
-            Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k.
+            Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k, and in worlds of other
+           kinds (otherJ8, otherJ9, otherT21 to otherT23).
             @{ */
-        double roomToSpare{1.12};        ///< factor on the preferred clearance, which is sampled along paths
-        std::size_t posesBeside{6};      ///< that are tried for each part
-        double dearerForRoom{1.02};      ///< so much dearer may a path be that keeps it between its samples, too
-        std::uint64_t leastForRoom{30};  ///< expansions in search of a way with room where both ends have it,
-        std::uint64_t mostForRoom{60};   ///< else as many as there were so far, but no more
-        double longestForRoom{30.0};     ///< for a path no longer than this: the disc's way is found anew
+        double roomToSpare{1.12};      ///< factor on the preferred clearance, which is sampled along paths
+        std::size_t posesBeside{6};    ///< that are tried for each part, and as many short of a cusp
+        double dearerForRoom{1.02};    ///< so much dearer may a path be that keeps it between its samples, too
+        std::size_t partsForRoom{3};   ///< that are planned anew,
+        double reachForRoom{4.0};      ///< from so far before each to so far behind it,
+        std::size_t placesForRoom{3};  ///< or up to where the car has room: the first of so many places
+        double shareForRoom{0.5};      ///< of the expansions so far are spent on all of them,
+        double leastForRoom{60.0};     ///< but at least so many on each
+        double mostForRoom{200.0};     ///< and no more than so many
         /** @} */
 
         /** \name Improving until stopped

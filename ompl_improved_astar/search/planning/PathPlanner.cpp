@@ -20,6 +20,7 @@ namespace parking::search
         parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
         parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
         restarts_.begin(environment, parameters_.search);
+        replanner_.begin(environment, parameters_.search);
         CostModel closer = search_.cost();
         closer.samplesApart = parameters_.search.tuning.closerSamples;
         prices_.begin(environment, search_.cost());
@@ -30,7 +31,7 @@ namespace parking::search
         costWhenTurned_ = costWhenRelaxed_ = INFINITE;
         relaxations_ = 0;
         shortenerConnections_ = 0;
-        hasRoomySearch_ = hasApproach_ = false;
+        hasApproach_ = false;
         approaches_ = {};
         goodEnough_ = false;
         round_ = 0;
@@ -308,8 +309,7 @@ namespace parking::search
         sum += approaches_;
         if (hasApproach_)
             sum += approach_->statistics();
-        if (hasRoomySearch_)
-            sum += roomySearch_->statistics();
+        sum += replanner_.statistics();
         sum.connections += shortenerConnections_;
         return sum;
     }

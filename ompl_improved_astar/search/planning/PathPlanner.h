@@ -2,9 +2,9 @@
 
 #include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/planning/PathPrices.h"
+#include "ompl_improved_astar/search/planning/PathReplanner.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "ompl_improved_astar/search/planning/Restarts.h"
-#include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -118,8 +118,8 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
         std::uint64_t expanded() const
         {
-            return search_.expanded() + restarts_.expanded() + (hasRoomySearch_ ? roomySearch_->expanded() : 0) +
-                   approaches_.expanded + (hasApproach_ ? approach_->expanded() : 0);
+            return search_.expanded() + restarts_.expanded() + replanner_.expanded() + approaches_.expanded +
+                   (hasApproach_ ? approach_->expanded() : 0);
         }
 
         /** \brief What search and shortening did in this query. */
@@ -167,9 +167,11 @@ namespace parking::search
         /** One pass over the best path, by the next one of the steps, until none of them makes it cheaper any more. */
         bool relaxBest();
         std::size_t mostCuspsOf(const Path &path) const;
+        /** Takes \e other instead of a path if it costs no more than \e most. */
+        bool takeForRoom(const Path &other, double most, Path &path, double &cost);
         /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
         bool widen(Path &path, double &cost);
-        bool canLeaveWithRoom(const Pose &pose);
+        /** The same; then plans parts anew that still come too near to something. */
         void findRoom(Path &best, double &cost);
         bool isShortestPossible(const Path &path, double cost);
         /** Looks for something cheaper by searches that begin anew. */
@@ -183,9 +185,7 @@ namespace parking::search
         std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
         bool hasApproach_{false};           // in this query
         SearchStatistics approaches_;       // what those before it did in this query
-        std::optional<RoomyEnvironment> roomy_;
-        std::unique_ptr<Search> roomySearch_;  // made when a path comes too near to something
-        bool hasRoomySearch_{false};           // in this query
+        PathReplanner replanner_;
         std::vector<Pose> starts_;
         PathPrices prices_;        // by the model of the search
         PathPrices closerPrices_;  // by one that looks more closely

@@ -3,6 +3,7 @@
 
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
+#include "ompl_improved_astar/search/planning/CloseParts.h"
 #include "ompl_improved_astar/search/planning/PathRelaxer.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
@@ -147,80 +148,79 @@ namespace parking::search
         return relax(path, cost, step, tuning.relaxCusps) && take(path, cost);
     }
 
+    bool PathPlanner::takeForRoom(const Path &other, double most, Path &path, double &cost)
+    {
+        const std::optional<double> costOfOther = prices_.cost(other, stop_);
+        if (!costOfOther || *costOfOther > most || other.cusps() > mostCuspsOf(path))
+            return false;
+        path = other;
+        cost = *costOfOther;
+        return true;
+    }
+
     bool PathPlanner::widen(Path &path, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         PathWidener widener(*environment_, *search_.model().curves(), search_.cost(), tuning);
-        Path wider = path;
-        const bool isWider = widener.pass(wider, stop_);
-        shortenerConnections_ += widener.connections();
-        if (!isWider)
-            return !widener.isTooNear();
         // Between its samples a path may be nearer than its cost tells, so that what keeps the room may look dearer.
         const double most = cost * (parameters_.anytime ? 1.0 : tuning.dearerForRoom);
-        const auto takeIfCheap = [&](const Path &other)
+        Path wider = path;
+        bool isTaken = true;  // what the widener has come to
+        if (widener.pass(wider, stop_))
         {
-            const std::optional<double> costOfOther = prices_.cost(other, stop_);
-            if (!costOfOther || *costOfOther > most)
-                return false;
-            path = other;
-            cost = *costOfOther;
-            return true;
-        };
-        if (!takeIfCheap(wider))
-            return false;
-        double strict = widener.priced().cost;
-        PathPrices strictPrices;
-        strictPrices.begin(*environment_, widener.strictCost());
-        if (shortenByOtherKnots(strictPrices, wider, strict, wider.length() / tuning.mostKnots))
-            takeIfCheap(wider);
-        return !widener.isTooNear();
-    }
-
-    bool PathPlanner::canLeaveWithRoom(const Pose &pose)
-    {
-        const double clearance = search_.cost().preferredClearance, radius = parameters_.search.turningRadius;
-        const Arc arcs[2]{{0.0, radius}, {0.0, -radius}};
-        double clear[2]{0.0, 0.0};
-        if (environment_->keeps(pose, clearance))
-            environment_->clearLengths(pose, arcs, 2, clearance, clear);
-        return clear[0] > 0.0 || clear[1] > 0.0;
+            isTaken = takeForRoom(wider, most, path, cost);
+            double strict = widener.priced().cost;
+            PathPrices strictPrices;
+            strictPrices.begin(*environment_, widener.strictCost());
+            // Shorter, it may be near to something again, for a moment that costs little and can be helped for less.
+            if (isTaken && shortenByOtherKnots(strictPrices, wider, strict, wider.length() / tuning.mostKnots) &&
+                takeForRoom(wider, most, path, cost) && widener.pass(wider, stop_))
+                isTaken = takeForRoom(wider, most, path, cost);
+        }
+        shortenerConnections_ += widener.connections();
+        return isTaken && !widener.isTooNear();
     }
 
     void PathPlanner::findRoom(Path &best, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
-        if (isTimeUp() || widen(best, cost))
-            return;
-        if (best.length() > tuning.longestForRoom * parameters_.search.turningRadius || search_.isFull() ||
-            !canLeaveWithRoom(best.start) || !canLeaveWithRoom(best.end()) || isTimeUp())
-            return;
-        // Where both ends have room there may be a way that has it everywhere. A search for such a way finds it sooner
-        // than one that may come nearer.
-        SearchParameters parameters = parameters_.search;
-        parameters.eagerObstacles = false;
-        parameters.maxMemory = memoryLeft();
-        roomy_.emplace(*environment_, search_.cost().preferredClearance);
-        if (!roomySearch_)
-            roomySearch_ = std::make_unique<Search>();
-        roomySearch_->begin(*roomy_, parameters);
-        hasRoomySearch_ = true;
-        roomySearch_->setCostBound(cost);
-        roomySearch_->addStart(best.start);
-        roomySearch_->addGoal(best.end());
-        const std::uint64_t most = std::clamp(search_.expanded(), tuning.leastForRoom, tuning.mostForRoom);
-        if (roomySearch_->run(stop_, most) != SearchOutcome::Improved)
-            return;
-        Path other = roomySearch_->bestPath();
-        std::optional<double> costOfOther = prices_.cost(other, stop_);
-        if (!costOfOther)
-            return;
-        shortenWhole(other, *costOfOther, other.length() / tuning.mostKnots);
-        widen(other, *costOfOther);
-        if (*costOfOther < cost)
+        const double clearance = search_.cost().preferredClearance, radius = parameters_.search.turningRadius;
+        const auto closePartsOfBest = [&]
         {
-            best = std::move(other);
-            cost = *costOfOther;
+            return closeParts(*environment_, best, 0.0, clearance, radius, stop_);
+        };
+        bool hasRoom = isTimeUp() || widen(best, cost);
+        std::vector<ClosePart> parts;
+        if (!hasRoom)
+            parts = closePartsOfBest();
+        double left = 0.0;  // metres along the path: what is too near before that is left as it is
+        for (std::size_t k = 0; k < tuning.partsForRoom && !hasRoom && !search_.isFull() && !isTimeUp(); ++k)
+        {
+            const auto part =
+                std::find_if(parts.begin(), parts.end(), [&](const ClosePart &each) { return each.begin > left; });
+            if (part == parts.end())
+                return;
+            // All parts share what the effort for the path is worth, but each is worth a little.
+            const double unspent = tuning.shareForRoom * static_cast<double>(search_.expanded()) -
+                                   static_cast<double>(replanner_.expanded());
+            const auto most = static_cast<std::uint64_t>(std::clamp(unspent, tuning.leastForRoom, tuning.mostForRoom));
+            const std::optional<Path> replanned = replanner_.replan(best, *part, {most, memoryLeft()}, stop_);
+            const double before = cost;
+            if (!replanned || !takeForRoom(*replanned, cost, best, cost))
+            {
+                left = part->end;
+                continue;
+            }
+            Path wider = best;
+            double costOfWider = cost;
+            hasRoom = widen(wider, costOfWider) && costOfWider < before;
+            if (costOfWider < before)
+            {
+                best = std::move(wider);
+                cost = costOfWider;
+            }
+            if (!hasRoom)
+                parts = closePartsOfBest();
         }
     }
 }  // namespace parking::search

@@ -10,101 +10,100 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double HARDLY_LESS = 0.98;    // of the preferred clearance is as good
-        constexpr double LONG_STRIDE = 1.0;     // metres, where the car gets near to nothing in between,
-        constexpr double MIDDLE_STRIDE = 0.25;  // or not so far
-        constexpr double SHORT_STRIDE = 0.05;   // metres, elsewhere
-        constexpr double FARTHEST_POINT = 1.5;  // turning radii from the rear axle to the body's, or not much more
         constexpr std::size_t POSES_BETWEEN_STOPS = 4;
-        constexpr double SAME_PART = 0.5;    // metres: parts nearer to each other are one
         constexpr double LEAST_GAIN = 1e-4;  // metres of cost: smaller gains are not worth a new path
         constexpr double LEVER = 2.0;        // metres: a turn moves the ends of the body by about as much per radian
-        // To the side and by a turn, in preferred clearances.
-        constexpr std::array<double, 9> ASIDE{-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0};
         // How far from that pose the path is left, and reached again, at least: in widths of the bend by which a car
         // gets to the side by the preferred clearance.
         constexpr std::array<double, 3> REACHES{1.5, 3.0, 6.0};
-    }  // namespace
+        constexpr double AT_CUSP = 0.1;  // metres along the path: no farther from a cusp is at it
 
-    std::vector<PathWidener::ClosePart> PathWidener::closeParts(const Path &path, double from, const StopFunction &stop)
-    {
-        std::vector<ClosePart> parts;
-        const double enough = HARDLY_LESS * cost_.preferredClearance;
-        Pose pose = path.start;
-        double driven = 0.0;
-        std::size_t asked = 0;
-        for (const PathPiece &piece : path.pieces)
+        /** By what a pose is changed, in preferred clearances. */
+        struct Change
         {
-            const Arc arc{piece.curvature, piece.length};
-            const double length = piece.driven();
-            double clear = length;
-            if (driven + length > from)
-                environment_.clearLengths(pose, &arc, 1, cost_.preferredClearance, &clear);
-            // No point of the body moves much farther than this per metre: where there is room, strides are long.
-            const double speed = 1.0 + FARTHEST_POINT * std::abs(piece.curvature) * curves_.turningRadius();
-            for (double at = std::max(clear, from - driven); clear < length;)
-            {
-                // Some checkers take long to tell clearances.
-                if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
-                    return parts;
-                const Pose there = advance(pose, piece, at);
-                double stride = SHORT_STRIDE;
-                if (environment_.keeps(there, enough + speed * LONG_STRIDE))
-                    stride = LONG_STRIDE;
-                else if (environment_.keeps(there, enough + speed * MIDDLE_STRIDE))
-                    stride = MIDDLE_STRIDE;
-                else if (!environment_.keeps(there, enough))
-                {
-                    const double place = driven + at, clearance = environment_.clearance(there);
-                    if (parts.empty() || place - parts.back().end > SAME_PART)
-                        parts.push_back({place, place, place, clearance});
-                    ClosePart &part = parts.back();
-                    part.end = place;
-                    if (clearance < part.clearance)
-                    {
-                        part.nearest = place;
-                        part.clearance = clearance;
-                    }
-                }
-                if (at >= length)
-                    break;
-                at = std::min(length, at + stride);
-            }
-            driven += length;
-            pose = advance(pose, piece);
-        }
-        return parts;
-    }
+            double along;  ///< in the direction of the heading,
+            double aside;  ///< to the left of it,
+            double turn;   ///< to the left: by so much at the ends of the body
+        };
 
-    std::vector<Pose> PathWidener::posesBeside(const Pose &pose, const StopFunction &stop)
-    {
-        // From the smallest change on.
-        static const auto changes = []
+        /** To the side and by a turn, from the smallest change on. */
+        std::vector<Change> changesSidewards()
         {
-            std::vector<std::pair<double, double>> all;
+            constexpr std::array<double, 9> ASIDE{-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0};
+            std::vector<Change> all;
             for (const double aside : ASIDE)
                 for (const double turn : ASIDE)
-                    all.emplace_back(aside, turn);
+                    all.push_back({0.0, aside, turn});
             std::stable_sort(all.begin(), all.end(),
-                             [](const auto &a, const auto &b)
-                             { return std::hypot(a.first, a.second) < std::hypot(b.first, b.second); });
+                             [](const Change &a, const Change &b)
+                             { return std::hypot(a.aside, a.turn) < std::hypot(b.aside, b.turn); });
             return all;
-        }();
+        }
+
+        /** Farther and farther along, with turns. */
+        std::vector<Change> changesBackwards()
+        {
+            std::vector<Change> all;
+            for (const double along : {0.5, 1.0, 2.0, 3.0, 4.0, 6.0})
+                for (const double turn : {0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0})
+                    all.push_back({along, 0.0, turn});
+            return all;
+        }
+
+        /** Where a car changes its direction. */
+        struct Cusp
+        {
+            Pose pose;
+            double back;  ///< 1 if it goes on forwards from there, else -1
+        };
+
+        /** The first cusp of a path about so many metres along it. */
+        std::optional<Cusp> cuspAt(const Path &path, double place)
+        {
+            double driven = 0.0;
+            Pose pose = path.start;
+            for (std::size_t i = 0; i + 1 < path.pieces.size() && driven < place + AT_CUSP; ++i)
+            {
+                const double length = path.pieces[i].length, next = path.pieces[i + 1].length;
+                driven += path.pieces[i].driven();
+                pose = advance(pose, path.pieces[i]);
+                if (length * next < 0.0 && std::abs(driven - place) <= AT_CUSP)
+                    return Cusp{pose, next > 0.0 ? 1.0 : -1.0};
+            }
+            return std::nullopt;
+        }
+    }  // namespace
+
+    std::vector<Pose> PathWidener::posesNear(const ClosePart &part, const StopFunction &stop)
+    {
         std::vector<Pose> result;
         std::size_t asked = 0;
-        for (const auto &[aside, turn] : changes)
+        // Adds the first of the changed poses that have room.
+        const auto add = [&](const Pose &pose, const std::vector<Change> &changes, double direction)
         {
-            if (result.size() >= tuning_.posesBeside)
-                break;
-            if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
-                return {};
-            const double side = aside * cost_.preferredClearance;
-            const Pose beside{pose.x - side * std::sin(pose.yaw), pose.y + side * std::cos(pose.yaw),
-                              pose.yaw + turn * cost_.preferredClearance / LEVER};
-            if (environment_.keeps(beside, strict_.preferredClearance) && environment_.isPassable(beside))
-                result.push_back(beside);
-        }
-        return result;
+            const std::size_t most = result.size() + tuning_.posesBeside;
+            for (const Change &change : changes)
+            {
+                if (result.size() == most)
+                    return true;
+                if (++asked % POSES_BETWEEN_STOPS == 0 && stop && stop())
+                    return false;
+                const double along = direction * change.along * cost_.preferredClearance;
+                const double aside = change.aside * cost_.preferredClearance;
+                const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+                const Pose changed{pose.x + along * c - aside * s, pose.y + along * s + aside * c,
+                                   pose.yaw + change.turn * cost_.preferredClearance / LEVER};
+                if (environment_.keeps(changed, strict_.preferredClearance) && environment_.isPassable(changed))
+                    result.push_back(changed);
+            }
+            return true;
+        };
+        static const std::vector<Change> backwards = changesBackwards(), sidewards = changesSidewards();
+        const Path &path = priced_.path;
+        if (const std::optional<Cusp> cusp = cuspAt(path, part.nearest);
+            cusp && !add(cusp->pose, backwards, cusp->back))
+            return {};
+        return add(path.at(part.nearest), sidewards, 1.0) ? result : std::vector<Pose>();
     }
 
     bool PathWidener::leadAside(const ClosePart &part, std::size_t mostCusps, double &reach, const StopFunction &stop)
@@ -115,7 +114,7 @@ namespace parking::search
             PricedPath priced;
             double reach;
         };
-        const std::vector<Pose> poses = posesBeside(priced_.path.at(part.nearest), stop);
+        const std::vector<Pose> poses = posesNear(part, stop);
         if (poses.empty())
             return false;
         // Of most paths no part is too near, or nothing beside it free, so that this is left until now.
@@ -171,7 +170,7 @@ namespace parking::search
         double done = 0.0;  // metres along the path
         const std::size_t mostCusps = path.cusps() + 1;
         priced_ = {path, {}, 0.0};
-        std::vector<ClosePart> parts = closeParts(path, 0.0, stop);
+        std::vector<ClosePart> parts = close(path, 0.0, stop);
         isTooNear_ = false;
         for (std::size_t k = 0; k < parts.size() && !(stop && stop());)
         {
@@ -185,13 +184,13 @@ namespace parking::search
             }
             improved = true;
             // What comes of it may still be near to something, and is looked at from there on.
-            done = std::max(done + SAME_PART, reach);
-            parts = closeParts(priced_.path, done, stop);
+            done = std::max(done + PARTS_APART, reach);
+            parts = close(priced_.path, done, stop);
             k = 0;
         }
         // A way to a pose aside may be near to something, too.
         if (improved && !isTooNear_)
-            isTooNear_ = !closeParts(priced_.path, 0.0, stop).empty();
+            isTooNear_ = !close(priced_.path, 0.0, stop).empty();
         if (improved)
             path = priced_.path;
         return improved;

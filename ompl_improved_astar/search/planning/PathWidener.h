@@ -4,6 +4,7 @@
 #include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/SearchTuning.h"
+#include "ompl_improved_astar/search/planning/CloseParts.h"
 #include "ompl_improved_astar/search/planning/GapBridge.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
@@ -17,10 +18,10 @@ namespace parking::search
 
         Shortening replaces parts of a path by curves between poses of the path, so that it never gets farther from an
         obstacle than these. Here the pose that is nearest to an obstacle, of each part that is too near, is put aside
-        and turned until it keeps the preferred clearance, and the path is led through it by two curves of bounded
-        curvature where that is cheaper. The path stays free and drivable, keeps its ends, and gets one more cusp at
-       most. Parts at these stay as they are: a car that stands too near to something cannot be led past it.
-       Deterministic. */
+        and turned until it keeps the preferred clearance, or put back where the car turns round there, and the path is
+        led through it by two curves of bounded curvature where that is cheaper. The path stays free and drivable, keeps
+        its ends, and gets one more cusp at most. Parts at these stay as they are: a car that stands too near to
+        something cannot be led past it. Deterministic. */
     class PathWidener
     {
     public:
@@ -71,22 +72,20 @@ namespace parking::search
         }
 
     private:
-        /** What is driven nearer than preferred: metres along the path. */
-        struct ClosePart
-        {
-            double begin, end;
-            double nearest;    ///< where the car is nearest to an obstacle,
-            double clearance;  ///< and how near
-        };
-
         static CostModel withRoomToSpare(CostModel cost, const SearchTuning &tuning)
         {
             cost.preferredClearance *= tuning.roomToSpare;
             return cost;
         }
 
-        std::vector<ClosePart> closeParts(const Path &path, double from, const StopFunction &stop);
-        std::vector<Pose> posesBeside(const Pose &pose, const StopFunction &stop);
+        std::vector<ClosePart> close(const Path &path, double from, const StopFunction &stop)
+        {
+            return closeParts(environment_, path, from, cost_.preferredClearance, curves_.turningRadius(), stop);
+        }
+
+        /** Poses with the preferred clearance near the one at which the path is nearest to an obstacle: short of it
+            where the car turns round there, then beside it. None if it is time to stop. */
+        std::vector<Pose> posesNear(const ClosePart &part, const StopFunction &stop);
         bool leadAside(const ClosePart &part, std::size_t mostCusps, double &reach, const StopFunction &stop);
 
         MotionEnvironment &environment_;

@@ -2,9 +2,11 @@
 
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 #include "ompl_improved_astar/search/planning/PathRelaxer.h"
+#include "ompl_improved_astar/search/planning/PathReplanner.h"
 #include "ompl_improved_astar/search/planning/PathTurner.h"
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
+#include "tests/ompl_improved_astar/search/ClearanceWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -180,7 +182,17 @@ namespace
             return DiscCarWorld::countNearer(from, arc, first, apart, samples, clearance, most);
         }
 
+        void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                          double *clear) override
+        {
+            if (tellsClear)
+                ClearanceWorld(*this).clearLengths(from, arcs, count, clearance, clear);
+            else
+                DiscCarWorld::clearLengths(from, arcs, count, clearance, clear);
+        }
+
         std::uint64_t looks{0}, closer{0};
+        bool tellsClear{false};
     };
 }  // namespace
 
@@ -278,6 +290,20 @@ TEST(PathPlannerStopping, nobodyLooksAtAWholePathWithoutAskingInBetween)
          [&](Path &changed, const StopFunction &stop)
          {
              return PathWidener(world, curves, model, tuning).pass(changed, stop);
+         }},
+        {"replanner", 8,
+         [&](Path &changed, const StopFunction &stop)
+         {
+             world.tellsClear = true;
+             PathReplanner replanner;
+             SearchParameters parameters = carParameters();
+             parameters.inscribedRadius = corridor.radius;
+             parameters.cost = model;
+             replanner.begin(world, parameters);
+             const std::optional<Path> other = replanner.replan(changed, {78.0, 82.0, 80.0, 0.1},
+                                                                {400, std::numeric_limits<std::size_t>::max()}, stop);
+             changed = other ? *other : changed;
+             return other.has_value();
          }}};
     for (const Part &part : parts)
     {

@@ -131,6 +131,29 @@ TEST(PathWidener, leadsStraightDrivesPastABlock)
     }
 }
 
+/** A car that turns round in front of a wall does so before it comes too near, forwards or backwards. */
+TEST(PathWidener, turnsRoundShortOfAWall)
+{
+    const ReedsShepp curves(RADIUS);
+    for (const double direction : {1.0, -1.0})
+        for (const double room : {0.02, 0.1, 0.25})
+        {
+            SCOPED_TRACE(::testing::Message() << direction << ", " << room);
+            const Path before{{0.0, 0.0, direction < 0.0 ? PI : 0.0},
+                              {{0.0, 10.0 * direction}, {0.25 * direction, -6.0 * direction}}};
+            // The car's front, or its rear, is so far from the wall when it turns round.
+            const double reach = direction > 0.0 ? 2.6 : 0.0;
+            DiscCarWorld world({{-20.0, -20.0}, {20.0, 20.0}});
+            world.boxes.push_back({{10.0 + reach + world.radius + room, -19.0}, {19.0, 19.0}});
+            ASSERT_NEAR(leastGap(world, before), room, 1e-9);
+            Path path = before;
+            EXPECT_TRUE(widenerFor(world, curves).pass(path, nullptr));
+            EXPECT_EQ(faultOf(path, world, {before.start}, {before.end()}, RADIUS), "");
+            EXPECT_GE(leastGap(world, path), 0.95 * PREFERRED);
+            EXPECT_LE(path.cusps(), before.cusps() + 1);
+        }
+}
+
 TEST(PathWidener, leavesAloneWhatKeepsWhatIsPreferred)
 {
     const ReedsShepp curves(RADIUS);

@@ -88,7 +88,7 @@ TEST(RoomyEnvironment, AWayWithRoomIsFoundBesideOneWithout)
     SearchTuning usual;
     usual.dearToRelax = usual.dearToRelaxOnce = std::numeric_limits<double>::infinity();
     SearchTuning without = usual;
-    without.leastForRoom = without.mostForRoom = 0;
+    without.partsForRoom = 0;
     SearchTuning shortenedOnly = without;
     shortenedOnly.posesBeside = 0;
     for (std::uint64_t number = 0; number < 600; ++number)
@@ -123,8 +123,8 @@ TEST(RoomyEnvironment, AWayWithRoomIsFoundBesideOneWithout)
 TEST(RoomyEnvironment, RoomCostsNoMoreThanItMay)
 {
     SearchTuning spacious, shortenedOnly;
-    spacious.leastForRoom = spacious.mostForRoom = 0;
-    shortenedOnly.leastForRoom = shortenedOnly.mostForRoom = 0;
+    spacious.partsForRoom = 0;
+    shortenedOnly.partsForRoom = 0;
     shortenedOnly.posesBeside = 0;
     int changed = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed)
