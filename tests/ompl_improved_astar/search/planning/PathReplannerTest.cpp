@@ -3,6 +3,7 @@
 #include "ompl_improved_astar/search/planning/PathReplanner.h"
 #include "tests/ompl_improved_astar/search/CarProblems.h"
 #include "tests/ompl_improved_astar/search/ClearanceWorld.h"
+#include "tests/ompl_improved_astar/search/planning/ShortestFree.h"
 
 #include <gtest/gtest.h>
 
@@ -35,10 +36,10 @@ namespace
     }
 
     /** A wall across the way with two doors: one that is hardly wider than the car, straight on, and a wide one. */
-    ClearanceWorld wallWithDoors(double wider = 0.1)
+    ClearanceWorld wallWithDoors()
     {
         DiscCarWorld world({{-40.0, -10.0}, {40.0, 10.0}});
-        const double door = world.radius + wider;
+        const double door = world.radius + 0.1;
         world.boxes.push_back({{-1.0, -10.0}, {1.0, -door}});
         world.boxes.push_back({{-1.0, door}, {1.0, 2.0}});
         world.boxes.push_back({{-1.0, 7.0}, {1.0, 10.0}});
@@ -189,43 +190,33 @@ TEST(PathReplanner, onlyMakesPathsCheaperInRandomWorlds)
         ClearanceWorld world(randomField(seed % 40, 6));
         Random random(seed);
         const Pose from = world.freePose(random), to = world.freePose(random);
-        std::vector<ReedsSheppCurve> candidates;
-        curves.candidates(from, to, candidates);
+        const Path path = shortestFree(world, curves, from, to);
         SearchParameters known = parameters(world);
         known.cost.steeringChangePenalty = 0.5;
         // What full lock is the search knows; nobody else must tell it.
         SearchParameters unknown = known;
         unknown.cost.fullLockCurvature = 1.0;
-        for (const ReedsSheppCurve &curve : candidates)
+        replanner.begin(world, known);
+        for (const ClosePart &part : partsOf(world, path))
         {
-            Path path{from, {}};
-            for (std::size_t k = 0; k < curve.count; ++k)
-                path.append(curve.pieces[k]);
-            if (!faultOf(path, world, {from}, {path.end()}, TURNING_RADIUS).empty())
+            const std::optional<Path> other = replanner.replan(path, part, {100, EFFORT.memory}, nullptr);
+            ++(other ? replanned : failed);
+            if (!other)
                 continue;
-            replanner.begin(world, known);
-            for (const ClosePart &part : partsOf(world, path))
+            ASSERT_EQ(faultOf(*other, world, {from}, {path.end()}, TURNING_RADIUS), "");
+            // But for what one look more or less is worth, since closeness is sampled.
+            const double oneLook = known.cost.clearanceCost * known.cost.samplesApart;
+            const double before = pathCost(known.cost, path, world), after = pathCost(known.cost, *other, world);
+            ASSERT_LT(after, before + oneLook);
+            dearer += after > before;
+            const std::optional<Path> again = [&]
             {
-                const std::optional<Path> other = replanner.replan(path, part, {100, EFFORT.memory}, nullptr);
-                ++(other ? replanned : failed);
-                if (!other)
-                    continue;
-                ASSERT_EQ(faultOf(*other, world, {from}, {path.end()}, TURNING_RADIUS), "");
-                // But for what one look more or less is worth, since closeness is sampled.
-                const double oneLook = known.cost.clearanceCost * known.cost.samplesApart;
-                const double before = pathCost(known.cost, path, world), after = pathCost(known.cost, *other, world);
-                ASSERT_LT(after, before + oneLook);
-                dearer += after > before;
-                const std::optional<Path> again = [&]
-                {
-                    PathReplanner fresh;
-                    fresh.begin(world, unknown);
-                    return fresh.replan(path, part, {100, EFFORT.memory}, nullptr);
-                }();
-                ASSERT_TRUE(again);
-                ASSERT_EQ(again->length(), other->length());
-            }
-            break;
+                PathReplanner fresh;
+                fresh.begin(world, unknown);
+                return fresh.replan(path, part, {100, EFFORT.memory}, nullptr);
+            }();
+            ASSERT_TRUE(again);
+            ASSERT_EQ(again->length(), other->length());
         }
     }
     EXPECT_GT(replanned, 30);

@@ -2,6 +2,7 @@
 
 #include "ompl_improved_astar/search/planning/PathWidener.h"
 #include "tests/ompl_improved_astar/search/NoisyWorld.h"
+#include "tests/ompl_improved_astar/search/planning/ShortestFree.h"
 
 #include <gtest/gtest.h>
 
@@ -36,22 +37,6 @@ namespace
     PathWidener widenerFor(DiscCarWorld &world, const ReedsShepp &curves)
     {
         return PathWidener(world, curves, model(), SearchTuning());
-    }
-
-    /** The shortest free curve between two poses, as whoever cares for nothing but length would drive. */
-    Path shortestFree(DiscCarWorld &world, const ReedsShepp &curves, const Pose &from, const Pose &to)
-    {
-        std::vector<ReedsSheppCurve> candidates;
-        curves.candidates(from, to, candidates);
-        for (const ReedsSheppCurve &curve : candidates)
-        {
-            Path path{from, {}};
-            for (std::size_t k = 0; k < curve.count; ++k)
-                path.append(curve.pieces[k]);
-            if (faultOf(path, world, {from}, {path.end()}, RADIUS).empty())
-                return path;
-        }
-        return {from, {}};
     }
 
     /** A straight drive of 17 m along y = 0 with a block beside it, so far from the flank of the car. */
