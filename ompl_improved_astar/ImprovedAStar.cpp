@@ -159,6 +159,7 @@ namespace ompl::geometric
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
+        query_->stateEnvironment->setEnding([this](std::vector<Pose> &poses) { endAtGoal(poses); });
         query_->footprintEnvironment.reset();
 
         parking::search::CarInSpace &car = query_->car;

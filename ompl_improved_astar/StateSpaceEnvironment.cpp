@@ -164,7 +164,9 @@ namespace parking
 
     bool StateSpaceEnvironment::acceptPath(const Path &path)
     {
-        const std::vector<Pose> poses = pathStates(path, stateSpacing_);
+        std::vector<Pose> poses = pathStates(path, stateSpacing_);
+        if (ending_)
+            ending_(poses);
         for (std::size_t i = 1; i < poses.size(); ++i)
             if (isTimeUp() || !isMotionFree(poses[i - 1], poses[i]))
                 return false;

@@ -10,6 +10,9 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace parking
 {
@@ -56,6 +59,13 @@ namespace parking
             interrupted_ = false;
         }
 
+        /** \brief How the poses of a path are changed before it is handed out, to end at the very goal: what
+           acceptPath() is asked for are the motions between these. */
+        void setEnding(std::function<void(std::vector<Pose> &)> ending)
+        {
+            ending_ = std::move(ending);
+        }
+
         bool isFree(const Pose &pose) override;
         bool isPassable(const Pose &pose) override;
         double clearance(const Pose &pose) override;
@@ -95,6 +105,7 @@ namespace parking
         bool clearanceKnown_;
         Box bounds_;
         search::StopFunction stop_;
+        std::function<void(std::vector<Pose> &)> ending_;
         bool interrupted_{false};
         std::uint64_t checkedStates_{0};
         std::uint64_t clearances_{0};  // asked for
