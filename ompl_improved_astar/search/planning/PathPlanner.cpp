@@ -31,8 +31,7 @@ namespace parking::search
         costWhenTurned_ = costWhenRelaxed_ = INFINITE;
         relaxations_ = 0;
         shortenerConnections_ = 0;
-        hasApproach_ = false;
-        approaches_ = {};
+        approach_.forget();
         goodEnough_ = false;
         round_ = 0;
         weights_ = parameters.search.weights;
@@ -267,14 +266,9 @@ namespace parking::search
             // where memory is short, another search would take as much again.
             if (starts_.empty() || search_.isFull() || (stop && stop()))
                 return search_.nearestPath(target, path);
-            if (!approach_)
-                approach_ = std::make_unique<Search>();
-            search = approach_.get();
-            if (std::exchange(hasApproach_, true))
-                approaches_ += approach_->statistics();
             SearchParameters parameters = parameters_.search;
             parameters.maxMemory = memoryLeft();
-            search->begin(*environment_, parameters);
+            search = &approach_.begin(*environment_, parameters);
             for (const Pose &start : starts_)
                 search->addStart(start);
         }
@@ -306,9 +300,7 @@ namespace parking::search
     {
         SearchStatistics sum = search_.statistics();
         sum += restarts_.statistics();
-        sum += approaches_;
-        if (hasApproach_)
-            sum += approach_->statistics();
+        sum += approach_.statistics();
         sum += replanner_.statistics();
         sum.connections += shortenerConnections_;
         return sum;

@@ -5,13 +5,13 @@
 #include "ompl_improved_astar/search/planning/PathReplanner.h"
 #include "ompl_improved_astar/search/planning/PathShortener.h"
 #include "ompl_improved_astar/search/planning/Restarts.h"
+#include "ompl_improved_astar/search/planning/SideSearch.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -118,8 +118,7 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded, for those who ask at every step. */
         std::uint64_t expanded() const
         {
-            return search_.expanded() + restarts_.expanded() + replanner_.expanded() + approaches_.expanded +
-                   (hasApproach_ ? approach_->expanded() : 0);
+            return search_.expanded() + restarts_.expanded() + replanner_.expanded() + approach_.expanded();
         }
 
         /** \brief What search and shortening did in this query. */
@@ -182,9 +181,7 @@ namespace parking::search
         PathPlannerParameters parameters_;
         Search search_;
         Restarts restarts_;
-        std::unique_ptr<Search> approach_;  // made when a goal cannot be reached
-        bool hasApproach_{false};           // in this query
-        SearchStatistics approaches_;       // what those before it did in this query
+        SideSearch approach_;  // for the place nearest to a goal that cannot be reached
         PathReplanner replanner_;
         std::vector<Pose> starts_;
         PathPrices prices_;        // by the model of the search

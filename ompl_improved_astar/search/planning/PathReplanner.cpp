@@ -22,8 +22,8 @@ namespace parking::search
         parameters_.eagerObstacles = false;
         // A way is known: that there is none need not be proven.
         parameters_.tuning.enclosureAfter = NEVER;
-        isUnderWay_ = false;
-        ended_ = {};
+        side_.forget();
+        connections_ = 0;
     }
 
     bool PathReplanner::canLeaveWithRoom(const Pose &pose)
@@ -59,33 +59,29 @@ namespace parking::search
         const std::optional<double> end = begin ? placeWithRoom(path, part.end + reach, length) : std::nullopt;
         if (!end || (stop && stop()))
             return std::nullopt;
-        if (std::exchange(isUnderWay_, true))
-            ended_ += search_->statistics();
-        if (!search_)
-            search_ = std::make_unique<Search>();
         SearchParameters parameters = parameters_;
         parameters.maxMemory = effort.memory;
         roomy_.emplace(*environment_, parameters.cost.preferredClearance);
-        search_->begin(*roomy_, parameters);
-        const ReedsShepp &curves = *search_->model().curves();
-        const CostModel &cost = search_->cost();
+        Search &search = side_.begin(*roomy_, parameters);
+        const ReedsShepp &curves = *search.model().curves();
+        const CostModel &cost = search.cost();
         const std::optional<PricedPath> priced = pricePath(cost, path, *environment_, stop);
         if (!priced)
             return std::nullopt;
         const GapBridge::Gap gap = GapBridge(*environment_, curves, cost).cutOut(*priced, *begin, *end);
         if (stop && stop())
             return std::nullopt;
-        search_->setCostBound(gap.cost);
-        search_->addStart(gap.from);
-        search_->addGoal(gap.after.start);
-        if (search_->run(stop, effort.expansions) != SearchOutcome::Improved)
+        search.setCostBound(gap.cost);
+        search.addStart(gap.from);
+        search.addGoal(gap.after.start);
+        if (search.run(stop, effort.expansions) != SearchOutcome::Improved)
             return std::nullopt;
-        Path way = search_->bestPath();
+        Path way = search.bestPath();
         const SearchTuning &tuning = parameters.tuning;
         const double spacing = std::max(tuning.knotSpacing * parameters.turningRadius, way.length() / tuning.mostKnots);
         PathShortener shortener(*environment_, curves, cost);
         shortener.pass(way, spacing, 0.0, INFINITE, CurveChoice::Cheapest, stop);
-        ended_.connections += shortener.connections();
+        connections_ += shortener.connections();
         Path whole = gap.before;
         whole.extend(way);
         whole.extend(gap.after);
@@ -94,9 +90,8 @@ namespace parking::search
 
     SearchStatistics PathReplanner::statistics() const
     {
-        SearchStatistics sum = ended_;
-        if (isUnderWay_)
-            sum += search_->statistics();
+        SearchStatistics sum = side_.statistics();
+        sum.connections += connections_;
         return sum;
     }
 }  // namespace parking::search

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/Search.h"
+#include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/planning/CloseParts.h"
 #include "ompl_improved_astar/search/planning/RoomyEnvironment.h"
+#include "ompl_improved_astar/search/planning/SideSearch.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 namespace parking::search
@@ -47,7 +47,7 @@ namespace parking::search
         /** \brief Nodes expanded in this query: statistics().expanded. */
         std::uint64_t expanded() const
         {
-            return ended_.expanded + (isUnderWay_ ? search_->expanded() : 0);
+            return side_.expanded();
         }
 
         /** \brief What its searches did in this query, and how many pairs of poses were joined to shorten what they
@@ -64,8 +64,7 @@ namespace parking::search
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
         std::optional<RoomyEnvironment> roomy_;
-        std::unique_ptr<Search> search_;  // made when a path comes too near to something
-        bool isUnderWay_{false};          // in this query
-        SearchStatistics ended_;          // what those before it did in this query
+        SideSearch side_;
+        std::uint64_t connections_{0};  // to shorten what was found in this query
     };
 }  // namespace parking::search

@@ -30,22 +30,12 @@ namespace parking::search
         parameters_ = parameters;
         starts_.clear();
         goals_.clear();
-        isUnderWay_ = false;
+        side_.forget();
         searches_ = 0;
-        ended_ = {};
-    }
-
-    void Restarts::end()
-    {
-        if (isUnderWay_)
-            ended_ += search_->statistics();
-        isUnderWay_ = false;
     }
 
     bool Restarts::beginNext(const StopFunction &stop, double mostCost)
     {
-        if (!search_)
-            search_ = std::make_unique<Search>();
         const SearchTuning &tuning = parameters_.tuning;
         SearchParameters parameters = parameters_;
         parameters.eagerObstacles = false;
@@ -65,21 +55,23 @@ namespace parking::search
         parameters.weights.near = weight(parameters_.weights.near);
         weights_ = parameters.weights;
         parameters.spreadOut = parameters_.spreadOut && fraction(number, 2) < 0.5;
-        search_->begin(*environment_, parameters);
-        search_->setCostBound(mostCost);
+        Search &search = side_.begin(*environment_, parameters);
+        search.setCostBound(mostCost);
         for (const Pose &start : starts_)
-            search_->addStart(start);
+            search.addStart(start);
         for (const Pose &goal : goals_)
         {
             // Each is joined with all starts.
             if (stop && stop())
+            {
+                side_.end();
                 return false;
-            search_->addGoal(goal);
+            }
+            search.addGoal(goal);
         }
         most_ = static_cast<std::uint64_t>(
             std::min(tuning.mostOfRestart, tuning.firstRestart * std::pow(tuning.longerRestarts, searches_)));
         ++searches_;
-        isUnderWay_ = true;
         return true;
     }
 
@@ -88,29 +80,22 @@ namespace parking::search
     {
         while (expanded() < mostExpansions)
         {
-            if (!isUnderWay_ && (searches_ >= mostSearches || !beginNext(stop, mostCost)))
+            if (!side_.isUnderWay() && (searches_ >= mostSearches || !beginNext(stop, mostCost)))
                 return false;
-            search_->setCostBound(mostCost);
+            Search &search = side_.search();
+            search.setCostBound(mostCost);
             const std::uint64_t left = mostExpansions - expanded();
-            const SearchOutcome outcome = search_->run(stop, std::min(most_, search_->expanded() + left));
+            const SearchOutcome outcome = search.run(stop, std::min(most_, search.expanded() + left));
             if (outcome == SearchOutcome::Improved)
             {
                 weights_ = weights_.lowered(parameters_.tuning.weightsOfAfterthought);
-                search_->setWeights(weights_, stop);
+                search.setWeights(weights_, stop);
                 return true;
             }
-            if (outcome == SearchOutcome::Stopped && search_->expanded() < most_ && !search_->isFull())
+            if (outcome == SearchOutcome::Stopped && search.expanded() < most_ && !search.isFull())
                 return false;
-            end();
+            side_.end();
         }
         return false;
-    }
-
-    SearchStatistics Restarts::statistics() const
-    {
-        SearchStatistics sum = ended_;
-        if (isUnderWay_)
-            sum += search_->statistics();
-        return sum;
     }
 }  // namespace parking::search

@@ -1,14 +1,13 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/planning/SideSearch.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace parking::search
@@ -38,14 +37,14 @@ namespace parking::search
         void addStart(const Pose &pose)
         {
             starts_.push_back(pose);
-            end();
+            side_.end();
         }
 
         /** \brief The same for a goal. */
         void addGoal(const Pose &pose)
         {
             goals_.push_back(pose);
-            end();
+            side_.end();
         }
 
         /** \brief Goes on with the search under way and then begins others, until expanded() or searches() is that
@@ -59,19 +58,19 @@ namespace parking::search
         /** \brief What run() has found. */
         const Path &path() const
         {
-            return search_->bestPath();
+            return side_.search().bestPath();
         }
 
         /** \brief What it costs. */
         double cost() const
         {
-            return search_->bestCost();
+            return side_.search().bestCost();
         }
 
         /** \brief Nodes expanded since begin(). */
         std::uint64_t expanded() const
         {
-            return ended_.expanded + (isUnderWay_ ? search_->expanded() : 0);
+            return side_.expanded();
         }
 
         /** \brief Searches begun since begin(). */
@@ -81,20 +80,20 @@ namespace parking::search
         }
 
         /** \brief What all searches did since begin(). */
-        SearchStatistics statistics() const;
+        SearchStatistics statistics() const
+        {
+            return side_.statistics();
+        }
 
     private:
-        void end();
         bool beginNext(const StopFunction &stop, double mostCost);
 
         MotionEnvironment *environment_{nullptr};
         SearchParameters parameters_;
         std::vector<Pose> starts_, goals_;
-        std::unique_ptr<Search> search_;  // made when the first begins
-        bool isUnderWay_{false};
+        SideSearch side_;
         HeuristicWeights weights_;  // of the search under way
         std::uint64_t searches_{0};
-        std::uint64_t most_{0};   // expansions of the one under way
-        SearchStatistics ended_;  // what those before it did
+        std::uint64_t most_{0};  // expansions of the one under way
     };
 }  // namespace parking::search
