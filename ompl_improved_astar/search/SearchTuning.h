@@ -185,7 +185,7 @@ namespace parking::search
         /** \name Leading what was found past obstacles that it comes too near to
 
             Chosen by hand on random queries with seeds tuneM2 to tuneM6 and judge20261124k, and in worlds of other
-           kinds (otherJ8, otherJ9, otherT21 to otherT23).
+            kinds (otherJ8, otherJ9, otherT21 to otherT23).
             @{ */
         double roomToSpare{1.12};      ///< factor on the preferred clearance, which is sampled along paths
         std::size_t posesBeside{6};    ///< that are tried for each part, and as many short of a cusp
@@ -196,6 +196,17 @@ namespace parking::search
         double shareForRoom{0.5};      ///< of the expansions so far are spent on all of them,
         double leastForRoom{60.0};     ///< but at least so many on each
         double mostForRoom{200.0};     ///< and no more than so many
+        /** @} */
+
+        /** \name Another way than one that passes near to obstacles
+
+            Chosen by hand on random queries with the tuning seeds that docs/planner-figures.md names.
+            @{ */
+        double dearlyClose{0.4};  ///< a path of whose cost this share is for being near to obstacles is thought
+                                  ///< about, be it the bare curve; and if it is for what is
+        double closeToEnds{1.0};  ///< farther than this from both ends, another way is looked for: one that keeps the
+        double mostForAnother{1e3};  ///< preferred clearance, by as many expansions as there were, but no more than
+                                     ///< this, and one by a search that begins anew
         /** @} */
 
         /** \name Improving until stopped

@@ -10,7 +10,8 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-    }  // namespace
+        constexpr std::uint64_t NEVER = std::uint64_t{1} << 62;  // expansions
+    }                                                            // namespace
 
     void PathPlanner::begin(MotionEnvironment &environment, const PathPlannerParameters &parameters)
     {
@@ -80,6 +81,27 @@ namespace parking::search
         return closeness ? *closeness : std::max(0.0, bestCost_ - costWithoutCloseness(search_.cost(), bestPath_));
     }
 
+    double PathPlanner::closenessShare(const Path &path, double cost) const
+    {
+        return (cost - costWithoutCloseness(search_.cost(), path)) / cost;
+    }
+
+    bool PathPlanner::passesClosely(const Path &path, double cost)
+    {
+        const double share = parameters_.search.tuning.dearlyClose, length = path.length(),
+                     end = parameters_.search.tuning.closeToEnds * parameters_.search.turningRadius;
+        if (length <= 2.0 * end || closenessShare(path, cost) <= share)
+            return false;
+        const std::optional<double> closeness =
+            pathCloseness(search_.cost(), path.first(length - end).rest(end), *environment_, stop_);
+        return closeness && *closeness > share * cost;
+    }
+
+    double PathPlanner::expectedLength()
+    {
+        return std::max(search_.shortestMotion(), search_.estimate());
+    }
+
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
     {
         stop_ = stop;
@@ -129,9 +151,11 @@ namespace parking::search
                              search_.bestCost() < little + parameters_.search.turningRadius &&
                              isKnownToBeClear(search_.bestPath());
         const bool isShortest = search_.bestPath().length() <= shortest * (1.0 + 1e-9);
-        const double expected = std::max(shortest, search_.estimate());
-        // Nor with the shortest curve itself, dear as it may be, nor with what costs little more than it promised.
-        const bool isBare = isShortest && search_.expanded() == 0;
+        const double expected = expectedLength();
+        // Nor with the shortest curve itself, unless it is very near to something, nor with what costs little more than
+        // it promised.
+        const bool isBare = isShortest && search_.expanded() == 0 &&
+                            closenessShare(search_.bestPath(), search_.bestCost()) <= tuning.dearlyClose;
         const bool isCheap =
             search_.bestCost() < tuning.hardlyDearer * expected && search_.bestPath().cusps() <= tuning.fewCusps;
         if (!isShort && !isBare && !isCheap)
@@ -162,6 +186,14 @@ namespace parking::search
         if (parameters_.shorten && search_.cost().prefersClearance())
             findRoom(best, cost);
         take(best, cost);
+        if (parameters_.shorten && !goodEnough_ && !search_.isFull() && passesClosely(best, cost) &&
+            searchAnew(NEVER, 1) && search_.cost().prefersClearance())
+        {
+            best = bestPath_;
+            cost = bestCost_;
+            findRoom(best, cost);
+            take(best, cost);
+        }
     }
 
     void PathPlanner::goOn(std::uint64_t expansions)
@@ -185,14 +217,14 @@ namespace parking::search
             goOn(tuning.secondAfterthought);
     }
 
-    bool PathPlanner::searchAnew()
+    bool PathPlanner::searchAnew(std::uint64_t expansions, std::uint64_t searches)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         const double factor = parameters_.shorten ? tuning.dearerToBeShortened : 1.0;
-        const std::uint64_t expansions = restarts_.expanded() + tuning.expansionsPerRound;
-        const std::uint64_t searches = restarts_.searches() + tuning.restartsPerRound;
+        const std::uint64_t mostExpansions = restarts_.expanded() + expansions;
+        const std::uint64_t mostSearches = restarts_.searches() + searches;
         bool progress = false;
-        while (!goodEnough_ && restarts_.run(stop_, expansions, searches, factor * bestCost_))
+        while (!goodEnough_ && restarts_.run(stop_, mostExpansions, mostSearches, factor * bestCost_))
         {
             Path path = restarts_.path();
             double cost = restarts_.cost();
@@ -251,7 +283,7 @@ namespace parking::search
                 searching = outcome != SearchOutcome::Exhausted;
             }
             if (!goodEnough_ && !isTimeUp())
-                progress = searchAnew() || progress;
+                progress = searchAnew(tuning.expansionsPerRound, tuning.restartsPerRound) || progress;
             if (isShortestPossible(bestPath_, bestCost_) || (!searching && !progress && round_ > tuning.leastRounds))
                 return Outcome::Solved;
         }

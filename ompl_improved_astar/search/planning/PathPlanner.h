@@ -172,9 +172,17 @@ namespace parking::search
         bool widen(Path &path, double &cost);
         /** The same; then plans parts anew that still come too near to something. */
         void findRoom(Path &best, double &cost);
+        /** Looks for another way that keeps what is preferred, if the path passes closely. Is it cheaper? */
+        bool findWayWithRoom(Path &path, double &cost);
+        /** Is much of what a path costs for being near to obstacles, and not only where it begins and ends? */
+        bool passesClosely(const Path &path, double cost);
+        /** What part of the cost of a path is for being near to obstacles. */
+        double closenessShare(const Path &path, double cost) const;
+        /** Metres that the way is expected to be long at least. */
+        double expectedLength();
         bool isShortestPossible(const Path &path, double cost);
-        /** Looks for something cheaper by searches that begin anew. */
-        bool searchAnew();
+        /** Looks for something cheaper by searches that begin anew, by no more of either than so many. */
+        bool searchAnew(std::uint64_t expansions, std::uint64_t searches);
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};

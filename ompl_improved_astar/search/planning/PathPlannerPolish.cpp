@@ -181,6 +181,28 @@ namespace parking::search
         return isTaken && !widener.isTooNear();
     }
 
+    bool PathPlanner::findWayWithRoom(Path &path, double &cost)
+    {
+        const SearchTuning &tuning = parameters_.search.tuning;
+        if (search_.isFull() || isTimeUp() || !passesClosely(path, cost))
+            return false;
+        const double length = path.length(), expansions = static_cast<double>(search_.expanded());
+        const auto most =
+            static_cast<std::uint64_t>(std::clamp(expansions, tuning.leastForRoom, tuning.mostForAnother));
+        std::optional<Path> other =
+            replanner_.replan(path, {0.0, length, 0.5 * length, 0.0}, {most, memoryLeft()}, stop_);
+        std::optional<double> costOfOther = other ? prices_.cost(*other, stop_) : std::nullopt;
+        if (!costOfOther || isTimeUp())
+            return false;
+        shortenTwice(*other, *costOfOther);
+        relaxFirst(*other, *costOfOther, *costOfOther / expectedLength());
+        if (!(*costOfOther < cost) || other->cusps() > mostCuspsOf(path))
+            return false;
+        path = std::move(*other);
+        cost = *costOfOther;
+        return true;
+    }
+
     void PathPlanner::findRoom(Path &best, double &cost)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
@@ -189,7 +211,7 @@ namespace parking::search
         {
             return closeParts(*environment_, best, 0.0, clearance, radius, stop_);
         };
-        bool hasRoom = isTimeUp() || widen(best, cost);
+        bool hasRoom = isTimeUp() || widen(best, cost) || (findWayWithRoom(best, cost) && widen(best, cost));
         std::vector<ClosePart> parts;
         if (!hasRoom)
             parts = closePartsOfBest();

@@ -122,9 +122,10 @@ TEST(RoomyEnvironment, AWayWithRoomIsFoundBesideOneWithout)
 /** However much more room is asked for between the samples, by its plain cost a path gets hardly dearer. */
 TEST(RoomyEnvironment, RoomCostsNoMoreThanItMay)
 {
-    SearchTuning spacious, shortenedOnly;
+    SearchTuning spacious;
     spacious.partsForRoom = 0;
-    shortenedOnly.partsForRoom = 0;
+    spacious.dearlyClose = 2.0;  // no path is compared with others, which may cost anything
+    SearchTuning shortenedOnly = spacious;
     shortenedOnly.posesBeside = 0;
     int changed = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed)
