@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace parking
 {
@@ -24,5 +25,24 @@ namespace parking
                     letter = '?';
             return message;
         }
+    };
+
+    /** \brief An Error about one field of a thing: readers of files look up by its name on which line it stands. */
+    class FieldError : public Error
+    {
+    public:
+        /** \brief An error that says \e message, about \e field. */
+        FieldError(const std::string &message, std::string field) : Error(message), field_(std::move(field))
+        {
+        }
+
+        /** \brief What the message calls the field: the key of files, where there is one for it. */
+        const std::string &field() const
+        {
+            return field_;
+        }
+
+    private:
+        std::string field_;
     };
 }  // namespace parking

@@ -15,17 +15,20 @@ namespace parking
         class Extent
         {
         public:
-            Extent(const std::string &file, const Eigen::Vector2d &start) : file_(file), start_(start)
+            Extent(const PlaceOfPart &placeOf, const Eigen::Vector2d &start) : placeOf_(placeOf), start_(start)
             {
                 box_.min = box_.max = start;
             }
 
-            void add(const Eigen::Vector2d &point, const std::string &what)
+            void add(const Eigen::Vector2d &point, const char *what, ScenarioPart part, std::size_t index = 0)
             {
                 const double distance = (point - start_).lpNorm<Eigen::Infinity>();
                 if (!(distance <= WORLD_REACH))  // also for what overflowed to NaN
-                    throw Error(file_ + ": " + what + " lies " + formatNumber(distance) +
+                {
+                    const std::string number = part == ScenarioPart::Outline ? " " + std::to_string(index + 1) : "";
+                    throw Error(placeOf_(part, index) + ": " + what + number + " lies " + formatNumber(distance) +
                                 " m from the start; at most " + formatNumber(WORLD_REACH) + " m are supported");
+                }
                 box_.include(point);
             }
 
@@ -35,34 +38,34 @@ namespace parking
             }
 
         private:
-            const std::string &file_;
+            const PlaceOfPart &placeOf_;
             Eigen::Vector2d start_;
             Box box_;
         };
 
-        Box boundsOfMap(const Scenario &scenario, const std::string &file)
+        Box boundsOfMap(const Scenario &scenario, const PlaceOfPart &placeOf)
         {
-            Extent extent(file, {scenario.start.x, scenario.start.y});
+            Extent extent(placeOf, {scenario.start.x, scenario.start.y});
             for (const Pose &goal : scenario.goals)
-                extent.add({goal.x, goal.y}, "the goal");
+                extent.add({goal.x, goal.y}, "the goal", ScenarioPart::Goal);
             const std::vector<Eigen::Vector2d> outline = scenario.grid->outline();
             Box box{outline.front(), outline.front()};
             for (const Eigen::Vector2d &corner : outline)
             {
-                extent.add(corner, "a corner of the map");
+                extent.add(corner, "a corner of the map", ScenarioPart::Map);
                 box.include(corner);
             }
             return box;
         }
 
-        Box boundsOfPolygons(const Scenario &scenario, const std::string &file)
+        Box boundsOfPolygons(const Scenario &scenario, const PlaceOfPart &placeOf)
         {
-            Extent extent(file, {scenario.start.x, scenario.start.y});
+            Extent extent(placeOf, {scenario.start.x, scenario.start.y});
             for (const Pose &goal : scenario.goals)
-                extent.add({goal.x, goal.y}, "the goal");
+                extent.add({goal.x, goal.y}, "the goal", ScenarioPart::Goal);
             for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
                 for (const Eigen::Vector2d &corner : scenario.polygons[i])
-                    extent.add(corner, "a corner of obstacle " + std::to_string(i + 1));
+                    extent.add(corner, "a corner of obstacle", ScenarioPart::Outline, i);
 
             const Eigen::Vector2d margin(POLYGON_WORLD_MARGIN, POLYGON_WORLD_MARGIN);
             Box box{extent.box().min - margin, extent.box().max + margin};
@@ -75,15 +78,15 @@ namespace parking
             return box;
         }
 
-        void requireNear(const Eigen::Vector2d &start, const std::string &file)
+        void requireNear(const Eigen::Vector2d &start, const PlaceOfPart &placeOf)
         {
             if (!(start.lpNorm<Eigen::Infinity>() <= FARTHEST_COORDINATE))
-                throw Error(file + ": the start lies at " + formatNumber(start.x()) + ", " + formatNumber(start.y()) +
-                            "; coordinates of at most " + formatNumber(FARTHEST_COORDINATE) +
+                throw Error(placeOf(ScenarioPart::Start, 0) + ": the start lies at " + formatNumber(start.x()) + ", " +
+                            formatNumber(start.y()) + "; coordinates of at most " + formatNumber(FARTHEST_COORDINATE) +
                             " m are supported: move the origin");
         }
 
-        void requireStartOnMap(const Scenario &scenario, const std::string &file)
+        void requireStartOnMap(const Scenario &scenario, const PlaceOfPart &placeOf)
         {
             const OccupancyGrid &grid = *scenario.grid;
             const Pose onMap = relativeTo(grid.origin(), scenario.start);
@@ -91,9 +94,10 @@ namespace parking
             const double height = static_cast<double>(grid.height()) * grid.resolution();
             if (onMap.x >= 0.0 && onMap.y >= 0.0 && onMap.x <= width && onMap.y <= height)
                 return;
-            throw Error(file + ": start outside the map: it lies at " + formatNumber(onMap.x) + ", " +
-                        formatNumber(onMap.y) + " m from the map's lower left corner, and the map is " +
-                        formatNumber(width) + " x " + formatNumber(height) + " m");
+            throw Error(placeOf(ScenarioPart::Start, 0) + ": start outside the map: it lies at " +
+                        formatNumber(onMap.x) + ", " + formatNumber(onMap.y) +
+                        " m from the map's lower left corner, and the map is " + formatNumber(width) + " x " +
+                        formatNumber(height) + " m");
         }
 
         /** Checks a pose, and brings its yaw into [-pi, pi]. */
@@ -124,17 +128,22 @@ namespace parking
         }
     }  // namespace
 
-    void completeScenario(Scenario &scenario, const std::string &file)
+    void completeScenario(Scenario &scenario, const std::string &source, const PlaceOfPart &placeOf)
     {
+        if (!placeOf)
+        {
+            completeScenario(scenario, source, [&source](ScenarioPart, std::size_t) { return source; });
+            return;
+        }
         const Pose start = scenario.toWorld(scenario.start);
-        requireNear({start.x, start.y}, file);
+        requireNear({start.x, start.y}, placeOf);
         for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
             if (crossesItself(scenario.polygons[i]))
-                throw Error(file + ": the outline of polygon " + std::to_string(i + 1) +
+                throw Error(placeOf(ScenarioPart::Outline, i) + ": the outline of polygon " + std::to_string(i + 1) +
                             " crosses itself; list the corners in their order round it");
         if (scenario.grid)
-            requireStartOnMap(scenario, file);
-        scenario.bounds = scenario.grid ? boundsOfMap(scenario, file) : boundsOfPolygons(scenario, file);
+            requireStartOnMap(scenario, placeOf);
+        scenario.bounds = scenario.grid ? boundsOfMap(scenario, placeOf) : boundsOfPolygons(scenario, placeOf);
     }
 
     Scenario makeScenario(Scenario scenario, const std::string &source)

@@ -2,6 +2,8 @@
 
 #include "parking_geometry/Scenario.h"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 
 namespace parking
@@ -10,10 +12,22 @@ namespace parking
         and a planner would drown in the empty space between. */
     constexpr double WORLD_REACH = 1e5;
 
+    /** \brief A part of a scenario that may be wrong. */
+    enum class ScenarioPart
+    {
+        Start,   ///< where the car stands
+        Goal,    ///< or the slot that it follows from
+        Map,     ///< the grid
+        Outline  ///< one of the polygons, by its index
+    };
+
+    /** \brief Says where a part of a scenario stands, as "file:line"; the index is that of a polygon. */
+    using PlaceOfPart = std::function<std::string(ScenarioPart part, std::size_t index)>;
+
     /** \brief What all scenarios have in common once their parts are local: checks the start (its coordinates in the
         world up to FARTHEST_COORDINATE), the outlines and the reach of the world, and sets the bounds. Throws
-        parking::Error naming \e source. */
-    void completeScenario(Scenario &scenario, const std::string &source);
+        parking::Error naming \e source, or the place of the part that is wrong where \e placeOf is given. */
+    void completeScenario(Scenario &scenario, const std::string &source, const PlaceOfPart &placeOf = {});
 
     /** \brief A scenario from parts in world coordinates, without a file: what the readers do with theirs.
 

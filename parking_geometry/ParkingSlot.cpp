@@ -14,6 +14,15 @@ namespace parking
         /** Rounding of user input, not centimetres: what may stick out of a slot that is exactly as long as the car. */
         constexpr double TOLERANCE = 1e-9;
 
+        /** Along a whole street; what is longer is in other units. */
+        constexpr double LONGEST = 1000.0;
+
+        void checkLength(const Require &require, const char *field, double value)
+        {
+            require.that(value > 0.0 && value <= LONGEST, field, value,
+                         "a number of metres above 0 and up to " + formatNumber(LONGEST));
+        }
+
         std::string inCentimetres(double metres)
         {
             return formatNumber(std::ceil(metres * 1000.0 - 1e-6) / 10.0) + " cm";
@@ -80,8 +89,8 @@ namespace parking
                              "at most " + formatNumber(FARTHEST_COORDINATE) + " m either way: move the origin");
         }
         require.finite("pose yaw", pose.yaw, "radians");
-        require.positive("length", length, "metres");
-        require.positive("width", width, "metres");
+        checkLength(require, "length", length);
+        checkLength(require, "width", width);
         if (kind == SlotKind::Angled)
             require.that(angle > 0.0 && angle <= 0.5 * PI + TOLERANCE, "angle", angle,
                          "in (0, 1.5708] radians, above 0 and up to 90 degrees");

@@ -72,8 +72,8 @@ namespace parking
         /** \brief Corners of the slot, counter-clockwise. */
         Polygon outline() const;
 
-        /** \brief Throws parking::Error naming the first field that is not finite or out of its range; the pose within
-            FARTHEST_COORDINATE. */
+        /** \brief Throws parking::Error naming the first field that is not finite or out of its range: the pose within
+            FARTHEST_COORDINATE, length and width up to 1 km. */
         void validate() const;
 
         /** \brief Angle between +x of the pose and the aisle: 0 for parallel, pi/2 for perpendicular, else angle. */

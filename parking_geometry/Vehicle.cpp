@@ -17,6 +17,16 @@ namespace parking
         constexpr double SHORTEST = 0.01;
         constexpr double TIGHTEST_TURN = 0.01, WIDEST_TURN = 1000.0;  // metres
 
+        /** A car with less never gets there: what takes time would take hours, and memory for all of them. With more
+            the numbers are in other units, or get out of hand when they are squared. Twice what a timed path asks for
+            (SpeedLimits), so that a share of it may be kept for the controller. */
+        void checkLimit(const Require &require, const char *field, double value, const std::string &unit)
+        {
+            require.that(value >= Vehicle::LEAST_LIMIT && value <= Vehicle::GREATEST_LIMIT, field, value,
+                         "a number of " + unit + " from " + formatNumber(Vehicle::LEAST_LIMIT) + " to " +
+                             formatNumber(Vehicle::GREATEST_LIMIT));
+        }
+
         void checkLength(const Require &require, const char *field, double value, bool zeroAllowed)
         {
             const bool ok = std::isfinite(value) && value >= (zeroAllowed ? 0.0 : SHORTEST) && value <= LONGEST;
@@ -71,8 +81,8 @@ namespace parking
         require.that(radius >= TIGHTEST_TURN && radius <= WIDEST_TURN, "max_steering_angle", maxSteeringAngle,
                      "an angle that turns the car round a circle with a radius of 0.01 to 1000 m, not " +
                          formatNumber(radius) + " m");
-        require.positive("max_speed", maxSpeed, "m/s");
-        require.positive("max_acceleration", maxAcceleration, "m/s^2");
-        require.positive("max_steering_rate", maxSteeringRate, "rad/s");
+        checkLimit(require, "max_speed", maxSpeed, "m/s");
+        checkLimit(require, "max_acceleration", maxAcceleration, "m/s^2");
+        checkLimit(require, "max_steering_rate", maxSteeringRate, "rad/s");
     }
 }  // namespace parking

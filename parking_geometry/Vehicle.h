@@ -17,6 +17,9 @@ namespace parking
         Planning Competition of Automated Parking (TPCAP). */
     struct Vehicle
     {
+        static constexpr double LEAST_LIMIT = 0.02;      ///< m/s, m/s^2 and rad/s that a car's limits are at least
+        static constexpr double GREATEST_LIMIT = 100.0;  ///< and at most
+
         std::string name{"tpcap"};      ///< for results; one of vehicleNames() or of the user's own
         double wheelbase{2.8};          ///< rear axle to front axle
         double frontOverhang{0.96};     ///< front axle to front bumper
@@ -71,7 +74,8 @@ namespace parking
         std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
 
         /** \brief Throws parking::Error naming the first field that is not finite or out of its range: lengths up to
-            50 m, wheelbase and width from 1 cm, a turning radius of 1 cm to 1 km. */
+            50 m, wheelbase and width from 1 cm, a turning radius of 1 cm to 1 km, speed, acceleration and steering rate
+            from LEAST_LIMIT to GREATEST_LIMIT. */
         void validate() const;
     };
 

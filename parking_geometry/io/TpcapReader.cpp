@@ -47,9 +47,10 @@ namespace parking
             {
                 const double value = take(what);
                 // The bound keeps the conversion defined; a file that large was refused before.
-                if (value < 0.0 || value > 1e9 || value != std::floor(value))
+                constexpr double MOST = 1e9;
+                if (value < 0.0 || value > MOST || value != std::floor(value))
                     throw Error(file_ + ": number " + std::to_string(next_) + " is " + formatNumber(value) + "; " +
-                                what + " must be a whole number that is not negative");
+                                what + " must be a whole number from 0 to " + formatNumber(MOST));
                 return static_cast<std::size_t>(value);
             }
 

@@ -37,9 +37,9 @@ namespace parking
         {
             vehicle.validate();
         }
-        catch (const Error &error)
+        catch (const FieldError &error)
         {
-            throw Error(map.file() + ": " + error.what());
+            map.failAt(error.field(), error.what());
         }
         return vehicle;
     }

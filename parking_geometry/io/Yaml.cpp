@@ -5,17 +5,96 @@
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <sstream>
+
+#include <yaml-cpp/eventhandler.h>
 
 namespace parking
 {
     namespace
     {
+        /** Where a document begins, and whether there is anything in it. */
+        class DocumentBegin : public YAML::EventHandler
+        {
+        public:
+            std::optional<YAML::Mark> mark;
+            bool isEmpty{true};
+
+            void OnDocumentStart(const YAML::Mark &) override
+            {
+            }
+            void OnDocumentEnd() override
+            {
+            }
+            void OnNull(const YAML::Mark &at, YAML::anchor_t) override
+            {
+                note(at, true);
+            }
+            void OnAlias(const YAML::Mark &at, YAML::anchor_t) override
+            {
+                note(at, false);
+            }
+            void OnScalar(const YAML::Mark &at, const std::string &, YAML::anchor_t, const std::string &) override
+            {
+                note(at, false);
+            }
+            void OnSequenceStart(const YAML::Mark &at, const std::string &, YAML::anchor_t,
+                                 YAML::EmitterStyle::value) override
+            {
+                note(at, false);
+            }
+            void OnSequenceEnd() override
+            {
+            }
+            void OnMapStart(const YAML::Mark &at, const std::string &, YAML::anchor_t,
+                            YAML::EmitterStyle::value) override
+            {
+                note(at, false);
+            }
+            void OnMapEnd() override
+            {
+            }
+
+        private:
+            void note(const YAML::Mark &at, bool isNothing)
+            {
+                if (mark)
+                    return;
+                mark = at;
+                isEmpty = isNothing;
+            }
+        };
+
+        /** Throws where a second document begins, which YAML::Load() does not look at: what stands there would be
+            missing without a word. Not for the mark of an end with nothing behind it. */
+        void refuseSecondDocument(const std::string &file, const std::string &text)
+        {
+            std::istringstream stream(text);
+            YAML::Parser parser(stream);
+            int before = -1;
+            for (bool isFirst = true;; isFirst = false)
+            {
+                DocumentBegin document;
+                if (!parser.HandleNextDocument(document) || !document.mark)
+                    return;
+                // yaml-cpp finds one empty document after another, for ever, where a comma stands behind the end.
+                const bool isStuck = document.isEmpty && document.mark->pos == before;
+                if (!isFirst && (!document.isEmpty || isStuck))
+                    throw Error(file + ':' + std::to_string(document.mark->line + 1) +
+                                ": a second YAML document begins here; a file must hold one");
+                before = document.mark->pos;
+            }
+        }
+
         YAML::Node parse(const std::string &file, const std::string &text)
         {
             try
             {
-                return YAML::Load(text);
+                const YAML::Node top = YAML::Load(text);
+                refuseSecondDocument(file, text);
+                return top;
             }
             catch (const YAML::Exception &error)
             {
@@ -104,11 +183,24 @@ namespace parking
         return value;
     }
 
+    YAML::Node YamlMap::list(const std::string &key, const std::string &right) const
+    {
+        const YAML::Node value = node(key);
+        if (!value.IsSequence())
+            fail(value, key + " is " + kindOf(value) + "; it must be " + right);
+        return value;
+    }
+
     std::string YamlMap::text(const std::string &key) const
+    {
+        return textOr(key, "a word");
+    }
+
+    std::string YamlMap::textOr(const std::string &key, const std::string &right) const
     {
         const YAML::Node value = node(key);
         if (!value.IsScalar() || value.Scalar().empty())
-            fail(value, key + " is " + kindOf(value) + "; it must be a word");
+            fail(value, key + " is " + kindOf(value) + "; it must be " + right);
         return value.Scalar();
     }
 
@@ -186,6 +278,11 @@ namespace parking
     void YamlMap::failAt(const std::string &key, const std::string &message) const
     {
         fail(node_[key], message);
+    }
+
+    std::string YamlMap::placeOf(const std::string &key) const
+    {
+        return place(node_[key]);
     }
 
     std::string YamlMap::place(const YAML::Node &at) const

@@ -16,7 +16,8 @@ namespace parking
     class YamlMap
     {
     public:
-        /** \brief Parses a file's text. Throws when it is no YAML or its top is not a mapping. */
+        /** \brief Parses a file's text. Throws when it is no YAML, holds more than one document or its top is not a
+            mapping. */
         YamlMap(const std::string &file, const std::string &text);
 
         /** \brief Views \e node. \param what how messages call it, for example "slot" */
@@ -43,6 +44,12 @@ namespace parking
         YamlMap map(const std::string &key) const;       ///< called key in messages
         /** @} */
 
+        /** \brief text() of a key that may have other values, too: \e right says which, after "it must be". */
+        std::string textOr(const std::string &key, const std::string &right) const;
+
+        /** \brief A sequence, maybe of nothing. \param right what it must be, as for textOr() */
+        YAML::Node list(const std::string &key, const std::string &right) const;
+
         /** \brief number(), or \e otherwise when the key is missing. */
         double numberOr(const std::string &key, double otherwise) const;
 
@@ -59,6 +66,12 @@ namespace parking
         /** \brief The same for the line on which the value of \e key stands, or the key when it has none. */
         [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
 
+        /** \brief The file and the line of \e at, for messages: "lot.yaml:12". */
+        std::string place(const YAML::Node &at) const;
+
+        /** \brief The same of the value of \e key. */
+        std::string placeOf(const std::string &key) const;
+
         /** \brief The file that messages name. */
         const std::string &file() const
         {
@@ -67,7 +80,6 @@ namespace parking
 
     private:
         void check() const;
-        std::string place(const YAML::Node &at) const;
 
         std::string file_;
         std::string what_;

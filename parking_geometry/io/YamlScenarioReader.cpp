@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 namespace parking
 {
@@ -13,6 +14,7 @@ namespace parking
     {
         /** Of all polygons of a world together. */
         constexpr std::size_t MOST_CORNERS = 1000000;
+        const char *const POLYGONS = "a list of polygons, each a list of [x, y], or [] for none";
 
         std::string besides(const std::string &file, const std::string &other)
         {
@@ -21,12 +23,9 @@ namespace parking
 
         std::vector<Polygon> readPolygons(const YamlMap &map, const Eigen::Vector2d &offset)
         {
-            const YAML::Node list = map.node("polygons");
-            if (!list.IsSequence() && !list.IsNull())
-                map.failAt("polygons", "polygons must be a list of polygons, each a list of [x, y]");
             std::vector<Polygon> polygons;
             std::size_t corners = 0;
-            for (const YAML::Node &outline : list)
+            for (const YAML::Node &outline : map.list("polygons", POLYGONS))
             {
                 const std::string which = "polygon " + std::to_string(polygons.size() + 1);
                 if (!outline.IsSequence())
@@ -54,7 +53,7 @@ namespace parking
         /** A map_server map or a SurroundOcc file: told apart by their first bytes, as extensions are free. */
         OccupancyGrid readGrid(const YamlMap &map, std::vector<std::string> &files)
         {
-            const std::string name = map.text("map");
+            const std::string name = map.textOr("map", "the path of a map, or a mapping with the key polygons");
             const std::string file = besides(map.file(), name);
             const std::string extension = std::filesystem::path(name).extension().string();
             if (extension == ".pgm" || extension == ".png")
@@ -66,22 +65,48 @@ namespace parking
             return readSurroundOcc(file);
         }
 
+        /** The mapping that holds the polygons: the scenario, or what stands under its key map; none with a grid. */
+        std::optional<YamlMap> polygonsOf(const YamlMap &map)
+        {
+            if (map.has("polygons"))
+                return map;
+            if (!map.node("map").IsMap())
+                return std::nullopt;
+            YamlMap inner = map.map("map");
+            inner.allowOnly({"polygons"});
+            return inner;
+        }
+
+        /** Where a part of the scenario stands, for what is found out once all is read (see completeScenario()). */
+        std::string placeOf(const YamlMap &map, ScenarioPart part, std::size_t index)
+        {
+            switch (part)
+            {
+                case ScenarioPart::Start:
+                    return map.placeOf("start");
+                case ScenarioPart::Goal:
+                    return map.placeOf(map.has("goal") ? "goal" : "slot");
+                case ScenarioPart::Map:
+                    return map.placeOf("map");
+                default:
+                {
+                    const YamlMap polygons = polygonsOf(map).value_or(map);
+                    return polygons.place(polygons.node("polygons")[index]);
+                }
+            }
+        }
+
         void readWorld(Scenario &scenario, const YamlMap &map)
         {
             if (map.has("map") == map.has("polygons"))
                 map.fail(YAML::Node(), map.has("map") ? "both map and polygons are given; give one of them"
                                                       : "neither map nor polygons is given; one of them must be");
-            if (map.has("polygons"))
+            if (const std::optional<YamlMap> polygons = polygonsOf(map))
             {
-                scenario.polygons = readPolygons(map, scenario.worldOffset);
-                return;
-            }
-            // The polygons may also stand under the key map.
-            if (map.node("map").IsMap())
-            {
-                const YamlMap inner = map.map("map");
-                inner.allowOnly({"polygons"});
-                scenario.polygons = readPolygons(inner, scenario.worldOffset);
+                if (map.has("unknown_is_occupied"))
+                    map.failAt("unknown_is_occupied",
+                               "unknown_is_occupied is given for a world of polygons; only cells of a map are unknown");
+                scenario.polygons = readPolygons(*polygons, scenario.worldOffset);
                 return;
             }
             scenario.grid = readGrid(map, scenario.files);
@@ -107,6 +132,9 @@ namespace parking
             if (map.has("entry"))
                 slot.entry = static_cast<SlotEntry>(map.choice("entry", {"reverse", "forward", "either"}));
             slot.angle = map.numberOr("angle", slot.angle);
+            if (map.has("angle") && slot.kind != SlotKind::Angled)
+                map.failAt("angle", "angle is given for a slot of the kind " + map.text("kind") +
+                                        "; only angled slots have one");
             if (map.has("side"))
                 slot.side = static_cast<SlotSide>(map.choice("side", {"right", "left", "either"}));
             if (map.has("depth"))
@@ -145,7 +173,8 @@ namespace parking
                 return Vehicle();
             if (map.node("vehicle").IsMap())
                 return vehicleFromYaml(map.map("vehicle"));
-            const std::string name = map.text("vehicle");
+            const std::string name = map.textOr(
+                "vehicle", "the name of a car, the path of a vehicle file, or a mapping with the car's fields");
             const std::string extension = std::filesystem::path(name).extension().string();
             if (extension == ".yaml" || extension == ".yml")
                 return readVehicle(std::filesystem::absolute(besides(map.file(), name)).string(), &files);
@@ -174,7 +203,8 @@ namespace parking
         scenario.unknownIsOccupied = map.has("unknown_is_occupied") ? map.flag("unknown_is_occupied") : true;
         readWorld(scenario, map);
         readGoals(scenario, map);
-        completeScenario(scenario, file);
+        completeScenario(scenario, file,
+                         [&map](ScenarioPart part, std::size_t index) { return placeOf(map, part, index); });
         return scenario;
     }
 }  // namespace parking

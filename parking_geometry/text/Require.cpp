@@ -24,8 +24,9 @@ namespace parking
     void Require::that(bool ok, std::string_view field, double value, std::string_view right) const
     {
         if (!ok)
-            throw Error(thing_ + ": " + std::string(field) + " is " + formatNumber(value) + "; it must be " +
-                        std::string(right));
+            throw FieldError(thing_ + ": " + std::string(field) + " is " + formatNumber(value) + "; it must be " +
+                                 std::string(right),
+                             std::string(field));
     }
 
     void Require::positive(std::string_view field, double value, std::string_view unit) const

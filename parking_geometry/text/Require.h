@@ -7,7 +7,7 @@ namespace parking
 {
     /** \brief Checks the values of one thing.
 
-        A value that is not right is a parking::Error that names the thing, the field, its value and what would be
+        A value that is not right is a parking::FieldError that names the thing, the field, its value and what would be
         right, for example "mpc: step is 0; it must be above 0 and up to 1 second". */
     class Require
     {

@@ -57,6 +57,9 @@ namespace parking
                     throw Error(where + "the steering rate is beyond the car's " +
                                 formatNumber(vehicle.maxSteeringRate) + " rad/s");
             }
+            if (!(motion.duration() <= LONGEST_MOTION))
+                throw Error(what + "it takes " + formatNumber(std::round(motion.duration())) + " s; at most " +
+                            formatNumber(LONGEST_MOTION) + " s are supported");
         }
     }  // namespace
 

@@ -15,7 +15,8 @@ namespace parking
     {
     public:
         /** \brief Throws parking::Error for a motion that is not finite, never drives, does not begin or end at rest,
-            changes its direction without coming to rest, runs backwards in time, or is more than the car can do. */
+            changes its direction without coming to rest, runs backwards in time, takes more than LONGEST_MOTION,
+            or is more than the car can do. */
         MotionReference(const TimedMotion &motion, const Vehicle &vehicle);
 
         TimedState at(std::size_t leg, double time) const override;

@@ -1,5 +1,6 @@
 #include "path_tracking/simulation/ClosedLoop.h"
 
+#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/reference/MotionReference.h"
@@ -198,6 +199,9 @@ namespace parking
                                 double initialSteering) const
     {
         const TimedReference &reference = controller.reference();
+        if (!(reference.duration() <= LONGEST_MOTION))
+            throw Error("closed loop: the path takes " + formatNumber(std::round(reference.duration())) +
+                        " s; at most " + formatNumber(LONGEST_MOTION) + " s are driven");
         controller.setGuard(guard_);
         Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, parameters_.plantStep);
         Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);

@@ -89,7 +89,8 @@ namespace parking
 
             \param start where the car really stands; the begin of the path when absent
             \param initialSteering radians, of the wheels
-            Throws parking::Error for a path that cannot be used; what happens on the way is in the result. */
+            Throws parking::Error for a path that cannot be used or takes more than LONGEST_MOTION; what happens on
+            the way is in the result. */
         DriveResult drive(const Path &path, const std::optional<Pose> &start = std::nullopt,
                           double initialSteering = 0.0) const;
 

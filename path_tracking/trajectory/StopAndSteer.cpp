@@ -1,6 +1,7 @@
 #include "path_tracking/trajectory/StopAndSteer.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
@@ -17,6 +18,19 @@ namespace parking
         constexpr double CURVATURE_SLACK = 1e-3;  // share by which a path may exceed the car's curvature: rounding
         constexpr double SHORTEST_PIECE = 1e-9;   // metres
         constexpr double NEGLIGIBLE = 1e-9;       // metres, of a change of speed
+
+        /** What Vehicle::validate() asks for but the least limits: what is used of a car's may be less. */
+        void check(const Vehicle &vehicle)
+        {
+            const Require require("vehicle " + inQuotes(vehicle.name));
+            require.positive("max_speed", vehicle.maxSpeed, "m/s");
+            require.positive("max_acceleration", vehicle.maxAcceleration, "m/s^2");
+            require.positive("max_steering_rate", vehicle.maxSteeringRate, "rad/s");
+            Vehicle car = vehicle;
+            for (double Vehicle::*limit : {&Vehicle::maxSpeed, &Vehicle::maxAcceleration, &Vehicle::maxSteeringRate})
+                car.*limit = std::max(car.*limit, Vehicle::LEAST_LIMIT);
+            car.validate();
+        }
 
         void check(const PathPiece &piece, std::size_t index, const Vehicle &vehicle)
         {
@@ -120,7 +134,7 @@ namespace parking
     TimedMotion stopAndSteer(const Path &path, const Vehicle &vehicle, std::optional<double> initialSteering,
                              std::optional<double> finalSteering)
     {
-        vehicle.validate();
+        check(vehicle);
         if (!isFinite(path.start))
             throw Error("trajectory: the path does not begin at a finite pose");
         std::vector<Leg> legs;
@@ -152,6 +166,10 @@ namespace parking
         }
         const double last = finalSteering.value_or(steering);
         motion.append(std::abs(last - steering) / vehicle.maxSteeringRate, 0.0, last);
+        if (!(motion.duration() <= LONGEST_MOTION))
+            throw Error("trajectory: the path takes " + formatNumber(std::round(motion.duration())) +
+                        " s with these limits of the car; at most " + formatNumber(LONGEST_MOTION) +
+                        " s are supported");
         return motion;
     }
 }  // namespace parking

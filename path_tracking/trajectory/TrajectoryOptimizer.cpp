@@ -34,6 +34,7 @@ namespace parking
         constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
         constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
+        constexpr double MOST_INTERVALS = 1e4;            // of a motion that is searched for: 8 kB and 0.2 ms each
         constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
         /** Of rounds that begin with a guess. */
         constexpr MotionBarriers FROM_GUESS{5e-3, 2e-5};
@@ -78,11 +79,12 @@ namespace parking
         {
         }
 
-        /** Looks for a motion near one of the paths that costs less than \e limit, and for its path. */
-        std::optional<MotionSolution> run(const std::vector<Path> &paths, double limit)
+        /** Looks for a motion near one of the paths \e which that costs less than \e limit, and for its path. */
+        std::optional<MotionSolution> run(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
+                                          double limit)
         {
             std::vector<Attempt> attempts;
-            for (std::size_t i = 0; i < paths.size(); ++i)
+            for (const std::size_t i : which)
                 attempts.emplace_back(owner_, world_, paths[i], i);
             // What promises to be quick comes first, so that the rest need not be looked at.
             std::stable_sort(attempts.begin(), attempts.end(),
@@ -216,7 +218,7 @@ namespace parking
             else
             {
                 attempt.view.separation.margin *= 0.25;
-                attempt.step *= 0.7;
+                attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MOST_INTERVALS);
                 attempt.outline.emplace(attempt.outlineOf(owner_));
             }
             return std::nullopt;
@@ -347,11 +349,14 @@ namespace parking
         // Within the limits that are asked for, but along the paths, which may need all of the steering angle.
         Vehicle used = body_;
         used.maxSteeringAngle = checker_.vehicle().maxSteeringAngle;
+        std::vector<std::size_t> searched;  // of the paths
         for (std::size_t i = 0; i < paths.size(); ++i)
         {
             TimedMotion motion = stopAndSteer(paths[i], used, options_.initialSteering, options_.finalSteering);
             if (!touchesNothing(checker_, paths[i]))
                 throw Error("trajectory: the path collides");
+            if (motion.duration() <= MOST_INTERVALS * options_.step)
+                searched.push_back(i);
             if (i > 0 && costOf(motion) >= costOf(result.motion))
                 continue;
             result.motion = std::move(motion);
@@ -359,17 +364,19 @@ namespace parking
         }
         if (interrupted && interrupted())
             result.reason = "interrupted";
+        else if (searched.empty())
+            result.reason = "driving takes too long to look for better";
         else
-            improve(paths, interrupted, result);
+            improve(paths, searched, interrupted, result);
         limitJerk(result);
         return result;
     }
 
-    void TrajectoryOptimizer::improve(const std::vector<Path> &paths, const std::function<bool()> &interrupted,
-                                      OptimizedTrajectory &result) const
+    void TrajectoryOptimizer::improve(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
+                                      const std::function<bool()> &interrupted, OptimizedTrajectory &result) const
     {
         Search search(*this, interrupted);
-        auto found = search.run(paths, costOf(result.motion));
+        auto found = search.run(paths, which, costOf(result.motion));
         result.rounds = search.solver().rounds();
         result.iterations = search.solver().iterations();
         // Where even turning the wheels in no time would cost as much nothing was solved, and the solver has no reason.

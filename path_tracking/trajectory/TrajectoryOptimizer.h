@@ -84,7 +84,7 @@ namespace parking
     public:
         /** \brief \param checker is referred to: the world, the car and the margin that holds for everybody
 
-            Throws parking::Error for invalid options and a car whose limits are not positive and finite. */
+            Throws parking::Error for invalid options and a car that is not valid. */
         explicit TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options = {});
 
         /** \brief The options as given. */
@@ -99,8 +99,8 @@ namespace parking
 
             \param interrupted asked about every millisecond; once it says yes the path is driven as it is, unless the
             result is there already; may be empty
-            Throws parking::Error for a path that no car can drive, or that collides, and for a jerk limit that cannot
-        be held. */
+            Throws parking::Error for a path that no car can drive, that collides, or that takes more than
+        LONGEST_MOTION when the car stops to steer, and for a jerk limit that cannot be held. */
         OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
 
         /** \brief The best motion found near any of several paths, from the same pose to the same pose.
@@ -113,8 +113,8 @@ namespace parking
         class Search;
 
         double costOf(const TimedMotion &motion) const;
-        void improve(const std::vector<Path> &paths, const std::function<bool()> &interrupted,
-                     OptimizedTrajectory &result) const;
+        void improve(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
+                     const std::function<bool()> &interrupted, OptimizedTrajectory &result) const;
         void limitJerk(OptimizedTrajectory &result) const;
 
         const FootprintChecker &checker_;

@@ -113,6 +113,26 @@ TEST(Vehicle, MillimetresAreNotMetres)
     EXPECT_NO_THROW(car.validate());
 }
 
+TEST(Vehicle, CarsThatNeverGetThereAreRefusedAndSoAreOtherUnits)
+{
+    for (const auto &[name, limit] : {std::pair{"max_speed", &Vehicle::maxSpeed},
+                                      {"max_acceleration", &Vehicle::maxAcceleration},
+                                      {"max_steering_rate", &Vehicle::maxSteeringRate}})
+    {
+        Vehicle car;
+        for (const double bad : {1e-300, 1e-9, 0.0199, 100.1, 1e300})
+        {
+            car.*limit = bad;
+            expectError([&car = car] { car.validate(); }, {name, "from 0.02 to 100"});
+        }
+        for (const double good : {0.02, 100.0})
+        {
+            car.*limit = good;
+            EXPECT_NO_THROW(car.validate()) << name << " " << good;
+        }
+    }
+}
+
 TEST(Vehicle, CurvatureAndSteeringAreInverse)
 {
     const Vehicle car;
@@ -273,7 +293,11 @@ TEST(VehicleReader, NamesWhatIsWrongInAFile)
     expectError(read("wheelbase: 2.8\n"), {"car.yaml:1", "'front_overhang' is missing"});
     expectError(read(good + "wheel_base: 2.8\n"), {"car.yaml:6", "'wheel_base'", "did you mean 'wheelbase'"});
     expectError(read(good + "max_speed: fast\n"), {"car.yaml:6", "max_speed is 'fast'"});
-    expectError(read(good + "max_speed: -1\n"), {"car.yaml", "max_speed is -1"});
+    expectError(read(good + "max_speed: -1\n"), {"car.yaml:6: ", "max_speed is -1", "from 0.02 to 100"});
+    expectError(read(good + "max_steering_rate: 1e-9\n"), {"car.yaml:6: ", "max_steering_rate is 1e-09"});
+    expectError(read("name: ': width is'\n" + std::string(good).replace(good.find("2.8"), 3, "-2")),
+                {"car.yaml:2: ", "wheelbase is -2"});
+    expectError(read(good + "---\n" + good), {"car.yaml:7: ", "second YAML document"});
     expectError(read(good + "max_speed: .nan\n"), {"car.yaml:6", "max_speed"});
     expectError(read("[1, 2]\n"), {"car.yaml:1", "mapping"});
     expectError([&folder] { readVehicle(folder.path("none.yaml")); }, {"none.yaml", "cannot be opened"});

@@ -284,6 +284,7 @@ TEST_F(MapReader, YamlTroubleIsNamedWithItsLine)
     EXPECT_NO_THROW(readRosMap(folder_.write("map.yaml", good + "frame: world\n")));
     expectYamlError("resolution: 1\norigin: [0, 0, 0]\n", {"map.yaml:1", "'image' is missing"});
     expectYamlError("image: map.img\norigin: [0, 0, 0]\n", {"'resolution' is missing"});
+    expectYamlError("image: map.img\nresolution: 1\n---\norigin: [0, 0, 0]\n", {"map.yaml:4: a second YAML document"});
     expectYamlError("image: map.img\nresolution: 1\n", {"'origin' is missing"});
     expectYamlError("image: map.img\nresolution: 0\norigin: [0, 0, 0]\n",
                     {"map.yaml:2", "resolution is 0", "positive"});

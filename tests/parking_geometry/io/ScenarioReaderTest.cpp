@@ -146,6 +146,8 @@ TEST_F(TpcapReader, SaysWhatIsWrong)
     expectCaseError("0,0,0,1,1,1,-1", {"number 7 is -1", "whole number"});
     expectCaseError("0,0,0,1,1,1,1.5", {"number 7 is 1.5"});
     expectCaseError("0,0,0,1,1,1,1e300", {"number 7"});
+    expectCaseError("0,0,0,1,1,1,4000000000", {"number 7 is 4000000000", "the number of obstacles", "to 1000000000"});
+    expectCaseError("0,0,0,1,1,1,1,4000000000,1", {"number 8 is 4000000000", "obstacle 1", "from 0 to 1000000000"});
     expectCaseError("0,0,0,1,1,1,999999999", {"too few numbers"});
     expectCaseError("0,0,nan,1,1,1,0", {"number 3 is 'nan'", "finite"});
     expectCaseError("0,0,0,inf,1,1,0", {"number 4 is 'inf'"});
@@ -213,7 +215,6 @@ TEST_F(YamlReader, ReadsPolygonsVehicleStartAndGoal)
     EXPECT_EQ(scenario.bounds.min, Eigen::Vector2d(-10, -20));
     EXPECT_EQ(scenario.bounds.max, Eigen::Vector2d(22, 17));
     EXPECT_TRUE(scenario.unknownIsOccupied);
-    EXPECT_FALSE(read(SCENARIO + "unknown_is_occupied: false\n").unknownIsOccupied);
     EXPECT_EQ(read(with(SCENARIO, "name: example\n", "")).name, "example");
     EXPECT_EQ(read(with(SCENARIO, "name: example\n", ""), "other.yml").name, "other");
     EXPECT_EQ(read(with(SCENARIO, "vehicle: vw_golf8\n", "")).vehicle.name, "tpcap");
@@ -246,7 +247,7 @@ TEST_F(YamlReader, ReadsAVehicleGivenByItsFieldsOrAFile)
     expectYamlError(with(SCENARIO, "vehicle: vw_golf8", "vehicle: {wheelbase: 2.5}"),
                     {"example.yaml:3", "front_overhang", "vehicle"});
     expectYamlError(with(SCENARIO, "vehicle: vw_golf8", with(fields, "width: 1.7", "width: 0")),
-                    {"example.yaml", "width is 0"});
+                    {"example.yaml:3: ", "width is 0"});
     expectYamlError(with(SCENARIO, "vw_golf8", "vw_golf9"), {"example.yaml:3", "'vw_golf9'", "'vw_golf8'"});
     expectYamlError(with(SCENARIO, "vw_golf8", "cars/none.yaml"), {"none.yaml", "No such file"});
 }
@@ -280,6 +281,8 @@ TEST_F(YamlReader, ReadsASlot)
     expectYamlError(with(text, "  length: 5\n", "  length: 5\n  entry: sideways\n"),
                     {"example.yaml:9", "'sideways'", "reverse"});
     expectYamlError(text + "goal: [1, 2, 3]\n", {"both goal and slot"});
+    expectYamlError(with(text, "length: 5", "length: 1e9"), {"example.yaml:6", "length is 1000000000", "up to 1000"});
+    expectYamlError(with(text, "width: 2.5", "width: 1001"), {"example.yaml:6", "width is 1001", "up to 1000"});
 }
 
 TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
@@ -298,7 +301,14 @@ TEST_F(YamlReader, NamesLineAndKeyOfWhatIsWrong)
     expectYamlError(with(SCENARIO, ", [13, 27]]", "]"), {"example.yaml:7", "polygon 1 has 2 corners", "at least 3"});
     expectYamlError(with(SCENARIO, "[13, 27]", "[13]"), {"example.yaml:7", "a corner of polygon 1 has 1 entries"});
     expectYamlError(with(SCENARIO, "    - [22, 12]\n", "    - 22\n"), {"example.yaml:10", "polygon 2"});
-    expectYamlError(with(SCENARIO, "[13, 27]", "[13, 2e8]"), {"obstacle 1", "m from the start"});
+    expectYamlError(with(SCENARIO, "[13, 27]", "[13, 2e8]"), {"example.yaml:7: ", "obstacle 1", "m from the start"});
+    expectYamlError(with(SCENARIO, "[22, 12]", "[22, 2e8]"), {"example.yaml:8: ", "obstacle 2", "m from the start"});
+    expectYamlError(with(SCENARIO, "[15.5, 20, -0.25]", "[15.5, 2e8, 0]"), {"example.yaml:5: the goal lies"});
+    expectYamlError(with(SCENARIO, "[10, 20, 0.5]", "[10, 2e12, 0]"), {"example.yaml:4: the start lies"});
+    const std::string crossing = "    - [22, 12]\n    - [20, 12]\n    - [25, 9]\n";
+    expectYamlError(with(SCENARIO, "    - [22, 12]\n", crossing), {"example.yaml:8: ", "polygon 2 crosses itself"});
+    expectYamlError(with(with(SCENARIO, "    - [22, 12]\n", crossing), "polygons:\n", "map:\n polygons:\n"),
+                    {"example.yaml:9: ", "polygon 2 crosses itself"});
     expectYamlError("start: [0, 0, 0]\ngoal: [1, 0, 0]\npolygons: 3\n", {"example.yaml:3", "list of polygons"});
     expectYamlError("start: [0, 0, 0]\ngoal: [1, 0, 0]\n", {"neither map nor polygons"});
     expectYamlError(SCENARIO + "map: x.yaml\n", {"both map and polygons"});
@@ -323,6 +333,7 @@ TEST_F(YamlReader, NamesTheLineOfAKeyThatWasLeftBlank)
     expectYamlError(with(SCENARIO, "vehicle: vw_golf8", "vehicle:"), {"example.yaml:3: vehicle is nothing"});
     expectYamlError(SCENARIO + "unknown_is_occupied:\n\n", {"example.yaml:11: unknown_is_occupied is nothing"});
     expectYamlError("start: [1, 1, 0]\nmap:\ngoal: [2, 1, 0]\n", {"example.yaml:2: map is nothing"});
+    expectYamlError(SCENARIO + "  -\n", {"example.yaml:", "polygon 3 must be a list"});
     const std::string slot = with(SCENARIO, "goal: [15.5, 20, -0.25]\n", "slot:\n");
     expectYamlError(slot, {"example.yaml:5: slot holds nothing", "must be a mapping"});
     for (const std::string key : {"pose", "kind", "length"})
@@ -414,7 +425,7 @@ TEST_F(YamlReader, PutsAMapIntoTheFrameOfTheStart)
     EXPECT_NO_THROW(read(with(text, "4000000004, 102", "4000000010, 105")));
     for (const std::string outside :
          {"4000000010.5, 102", "3999999999.5, 102", "4000000004, 99.5", "4000000004, 105.5"})
-        expectYamlError(with(text, "4000000004, 102", outside), {"start outside the map"});
+        expectYamlError(with(text, "4000000004, 102", outside), {"example.yaml:1: start outside the map"});
 }
 
 TEST_F(YamlReader, ATurnedMapIsBoundedByItsBox)

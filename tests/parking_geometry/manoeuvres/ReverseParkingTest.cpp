@@ -310,8 +310,8 @@ TEST(ReverseParking, NonsenseIsAnError)
     slot.length = 4.0;
     expectError([&] { ReverseParking(car).plan(slot); }, {"slot", "length", "68.9 cm"});
     slot.length = -1.0;
-    expectError([&] { ReverseParking(car).plan(slot); }, {"slot", "length", "positive"});
-    expectError([&] { ReverseParking(car).planAll(slot); }, {"slot", "length", "positive"});
+    expectError([&] { ReverseParking(car).plan(slot); }, {"slot", "length is -1", "above 0"});
+    expectError([&] { ReverseParking(car).planAll(slot); }, {"slot", "length is -1", "above 0"});
     Vehicle bad;
     bad.wheelbase = 0.0;
     expectError([&] { ReverseParking parking(bad); }, {"wheelbase"});

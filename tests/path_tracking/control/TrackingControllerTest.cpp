@@ -365,8 +365,11 @@ namespace parking::test
             EXPECT_THROW(TrackingController(std::shared_ptr<const TimedReference>(), Vehicle()), Error);
             EXPECT_THROW(TrackingController(Path{}, Vehicle()), Error);
             Vehicle slow;
-            slow.maxSpeed = 1e-6;  // a valid car that no timed path suits
-            EXPECT_THROW(TrackingController(path, slow), Error);
+            slow.maxSpeed = Vehicle::LEAST_LIMIT;
+            EXPECT_NO_THROW(TrackingController(path, slow));
+            TrackingParameters hesitant;
+            hesitant.speedShare = 0.4;  // of a valid car: no timed path suits that
+            EXPECT_THROW(TrackingController(path, slow, hesitant), Error);
         }
     }  // namespace
 }  // namespace parking::test

@@ -2,6 +2,7 @@
 #include "path_tracking/simulation/ClosedLoop.h"
 #include "path_tracking/trajectory/StopAndSteer.h"
 #include "path_tracking/trajectory/TrajectoryOptimizer.h"
+#include "tests/parking_geometry/ExpectError.h"
 #include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,19 @@ namespace parking::test
                 EXPECT_LE(result.evaluation.maxPositionError, 0.01);
                 EXPECT_NEAR(result.trajectory.back().steering, 0.0, 1e-3);
             }
+        }
+
+        TEST(MotionDrive, WhatTakesTooLongIsRefused)
+        {
+            const TimedMotion motion{{}, {{0.0, 0.0, 0.0}, {2.0, 1.0, 0.0}, {1e9, 1.0, 0.0}, {1e9 + 2.0, 0.0, 0.0}}};
+            parking_test::expectError([&motion] { follow(motion); }, {"it takes 1000000002 s", "at most 20000 s"});
+            Vehicle slow;
+            slow.maxSpeed = Vehicle::LEAST_LIMIT;
+            parking_test::expectError(
+                [&slow] {
+                    ClosedLoop(slow).drive({{}, {{0.0, 1e5}}});
+                },
+                {"the path takes", "at most 20000 s"});
         }
 
         TEST(MotionDrive, EveryCommandObeysTheLimits)

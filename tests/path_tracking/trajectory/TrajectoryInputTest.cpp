@@ -138,6 +138,37 @@ namespace parking
             expectWords(refusal([&checker] { TrajectoryOptimizer(checker).optimizeBest({}); }), {"no path"});
         }
 
+        TEST(TrajectoryInput, WhatTakesTooLongIsRefusedOrDrivenAsItIs)
+        {
+            Vehicle slow;
+            slow.maxSpeed = slow.maxAcceleration = slow.maxSteeringRate = Vehicle::LEAST_LIMIT;
+            const auto along = [](double metres)
+            {
+                return Path{{-200.0, 0.0, 0.0}, {{0.0, metres}}};
+            };
+            const double longest = slow.maxSpeed * LONGEST_MOTION - 1.0;
+            EXPECT_LE(stopAndSteer(along(longest), slow, 0.0, 0.0).duration(), LONGEST_MOTION);
+            expectWords(refusal([&] { stopAndSteer(along(longest + 2.0), slow, 0.0, 0.0); }),
+                        {"the path takes 20051 s", "at most 20000 s"});
+            const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-300.0, -300.0}, {300.0, 300.0}}), slow);
+            expectWords(refusal([&] { TrajectoryOptimizer(checker).optimize(along(longest + 2.0)); }),
+                        {"the path takes 20051 s", "at most 20000 s"});
+            // Shares of what a car can do may be less than a car must be able to.
+            TrajectoryOptions options;
+            options.speedShare = 0.5;
+            const OptimizedTrajectory half = TrajectoryOptimizer(checker, options).optimize(along(5.0));
+            EXPECT_NEAR(half.motion.duration(), 500.5, 1.0);
+            options.speedShare = 1e-300;
+            expectWords(refusal([&] { TrajectoryOptimizer(checker, options).optimize(along(5.0)); }),
+                        {"the path takes", "at most 20000 s"});
+            // Nothing is searched for where that would take thousands of intervals.
+            const Path bent{{-200.0, 0.0, 0.0}, {{0.0, 40.0}, {0.1, 3.0}, {0.0, 60.0}}};
+            const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize(bent);
+            EXPECT_TRUE(found.fallback);
+            EXPECT_EQ(found.iterations, 0U);
+            expectWords(found.reason, {"too long"});
+        }
+
         TEST(TrajectoryInput, APathThatCollidesIsRefused)
         {
             const FootprintChecker checker = checkerOf({box(8.0, 4.0, 1.0, 1.0, 0.0)});
