@@ -1,5 +1,7 @@
 #include "benchmarks/comparison/BenchmarkConfig.h"
 
+#include "benchmarks/comparison/ConfigChecks.h"
+#include "benchmarks/comparison/ConfigLines.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -36,52 +38,6 @@ namespace parking
                                                       "save_paths", "seed",      "simplify",  "track",
                                                       "trajectory", "clock"};
         const std::vector<std::string> SAMPLERS{"uniform", "gaussian", "obstacle_based", "bridge_test"};
-
-        /** Sections and keys are followed by their lines in the order of the file; boost tells no lines. */
-        class Lines
-        {
-        public:
-            explicit Lines(const std::string &file, const std::string &text) : file_(file)
-            {
-                std::istringstream stream(text);
-                std::string line;
-                std::string section;
-                for (std::size_t number = 1; std::getline(stream, line); ++number)
-                {
-                    const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
-                    if (content.empty())
-                        continue;
-                    if (content.front() == '[')
-                    {
-                        section = std::string(content);
-                        const std::vector<std::string> known{"[problem]", "[benchmark]", "[planner]"};
-                        if (std::find(known.begin(), known.end(), section) == known.end())
-                            throw Error(where(number) + unknownName("section", section, known));
-                    }
-                    else if (content.find('=') == std::string_view::npos)
-                        throw Error(where(number) + "expected 'key = value' or '[section]', not " + inQuotes(content));
-                    else if (section.empty())
-                        throw Error(where(number) + "the key " + inQuotes(content) +
-                                    " is in no section; expected [problem], [benchmark] or [planner] before it");
-                    else
-                        numbers_.push_back(number);
-                }
-            }
-
-            std::string at(std::size_t option) const
-            {
-                return option < numbers_.size() ? where(numbers_[option]) : file_ + ": ";
-            }
-
-        private:
-            std::string where(std::size_t number) const
-            {
-                return file_ + ":" + std::to_string(number) + ": ";
-            }
-
-            std::string file_;
-            std::vector<std::size_t> numbers_;
-        };
 
         double finiteNumber(const std::string &name, const std::string &text)
         {
@@ -185,9 +141,11 @@ namespace parking
                             " does not");
         }
 
-        /** One line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the latest one. */
+        /** One line of [planner], that of the option \e index: `rrt=` adds an instance, `rrt.range=1` sets a parameter
+            of the latest one. */
         void setPlannerOption(BenchmarkConfig &config, const ProblemOptions &base, const PlannerRegistry &registry,
-                              const std::string &key, const std::string &value)
+                              const std::string &key, const std::string &value, const ConfigLines &lines,
+                              std::size_t index)
         {
             const std::size_t dot = key.find('.');
             const PlannerEntry &entry = registry.find(key.substr(0, dot));
@@ -196,7 +154,7 @@ namespace parking
                 if (!value.empty())
                     throw Error("nothing may follow '" + key + "=', which adds a planner; a parameter is set by '" +
                                 key + ".parameter=value'");
-                config.planners.push_back({entry.name, entry.name, {}, base, {}});
+                config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", lines.at(index)}}});
                 config.planners.back().name = uniqueName(config, entry.name, config.planners.size() - 1);
                 return;
             }
@@ -205,6 +163,7 @@ namespace parking
                 throw Error("'" + key + "' sets a parameter of a planner that is not the last one added; put '" +
                             key.substr(0, dot) + "=' before it");
             PlannerSpec &spec = config.planners.back();
+            lines.noteOnce(spec.lines, parameter, key, index);
             if (parameter == "name")
             {
                 checkName(value);
@@ -304,6 +263,16 @@ namespace parking
                sampler == other.sampler;
     }
 
+    std::string BenchmarkConfig::lineOf(const PlannerSpec &planner, const std::vector<std::string> &keys) const
+    {
+        for (const auto *lines : {&planner.lines, &problemLines})
+            for (const std::string &key : keys)
+                if (const auto line = lines->find(key); line != lines->end())
+                    return line->second;
+        const auto added = planner.lines.find("");
+        return added == planner.lines.end() ? file + ": " : added->second;
+    }
+
     void setProblemOption(ProblemOptions &options, const std::string &key, const std::string &value)
     {
         const auto part = [&](std::optional<Pose> &pose)
@@ -400,7 +369,7 @@ namespace parking
     BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry)
     {
         const std::string text = readFile(file, CONFIG_LIMIT);
-        const Lines lines(file, text);
+        const ConfigLines lines(file, text);
         po::options_description none;
         po::basic_parsed_options<char> parsed(&none);
         try
@@ -415,6 +384,7 @@ namespace parking
         BenchmarkConfig config;
         config.file = file;
         ProblemOptions base;
+        std::map<std::string, std::string> benchmarkLines;
         const std::string folder = fs::path(file).parent_path().string();
         // Planners last, whatever the order of the sections: they start from the problem of all.
         for (const bool planners : {false, true})
@@ -436,11 +406,17 @@ namespace parking
                             config.scenarioLines.emplace(each, lines.at(i));
                     }
                     else if (section == "problem")
+                    {
                         setProblemOption(base, key, value);
+                        lines.noteOnce(config.problemLines, "problem." + key, key, i);
+                    }
                     else if (section == "benchmark")
+                    {
                         setBenchmarkOption(config, key, value);
+                        lines.noteOnce(benchmarkLines, key, key, i);
+                    }
                     else
-                        setPlannerOption(config, base, registry, key, value);
+                        setPlannerOption(config, base, registry, key, value, lines, i);
                 }
                 catch (const Error &error)
                 {
@@ -449,10 +425,7 @@ namespace parking
             }
         if (config.planners.empty())
             throw Error(file + ": no planner; [planner] must add at least one, for example 'improved_astar='");
-        for (const PlannerSpec &spec : config.planners)
-            for (const std::optional<Pose> &pose : {spec.problem.start, spec.problem.goal})
-                if (pose && !isFinite(*pose))
-                    throw Error(file + ": start and goal must be given with all of x, y and theta");
+        requireFittingSettings(config);
         return config;
     }
 }  // namespace parking

@@ -37,6 +37,8 @@ namespace parking
         PlannerSettings settings;       ///< set on every instance, after those of the registry
         ProblemOptions problem;         ///< that of the comparison, with what is set for this planner alone
         std::vector<std::string> only;  ///< patterns of the names of the scenarios that it is run on; empty: all
+        /** "FILE:LINE: " of each of its keys, without the planner's name before them; "" for where it is added. */
+        std::map<std::string, std::string> lines{};
     };
 
     /** \brief Which paths are written to files of their own. */
@@ -64,6 +66,8 @@ namespace parking
         bool track{false};                  ///< drive each path with the controller
         bool trajectory{false};             ///< optimise each path in time
         std::vector<PlannerSpec> planners;  ///< in the order of the file
+        std::map<std::string, std::string>
+            problemLines{};  ///< "FILE:LINE: " of the keys of [problem], as "problem.KEY"
 
         /** \brief "FILE:LINE: " where a scenario is named, with which messages about it begin; empty when it is not. */
         std::string lineOf(const std::string &scenario) const
@@ -71,13 +75,17 @@ namespace parking
             const auto line = scenarioLines.find(scenario);
             return line == scenarioLines.end() ? "" : line->second;
         }
+
+        /** \brief "FILE:LINE: " of the first of these keys that is set, those of the planner alone before those of all;
+            of where the planner is added when none of them is. */
+        std::string lineOf(const PlannerSpec &planner, const std::vector<std::string> &keys) const;
     };
 
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].
 
         Throws parking::Error naming file and line: for a section, key or planner that is not known with the nearest
-        known one, for a value out of range with what would be right. Parameters of planners are checked when the
-        planner is made. */
+        known one, for a value out of range with what would be right, for a key that is given twice, and for settings
+        that do not go together. Parameters of planners are checked when the planner is made. */
     BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry);
 
     /** \brief Keeps only the planners of these names. Throws parking::Error for one that \e config has not. */

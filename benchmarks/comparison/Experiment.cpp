@@ -1,6 +1,7 @@
 #include "benchmarks/comparison/Experiment.h"
 
 #include "benchmarks/formats/ScenarioFormat.h"
+#include "benchmarks/planners/SettingError.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <set>
@@ -106,6 +108,25 @@ namespace parking
             return readAnyScenario(file, {options.vehicle, options.start, options.goal});
         }
 
+        Scenario readFor(const BenchmarkConfig &config, const std::string &file, const ProblemOptions &options)
+        {
+            try
+            {
+                return readWithOptions(file, options);
+            }
+            catch (const Error &error)
+            {
+                throw Error(config.lineOf(file) + error.what());
+            }
+        }
+
+        /** What experiments with this scenario are called, and `only` calls it. */
+        std::string nameOf(const BenchmarkConfig &config, const std::string &file)
+        {
+            const ProblemOptions &common = config.planners.front().problem;
+            return word(common.name.empty() ? readFor(config, file, common).name : common.name);
+        }
+
         void setBounds(const Problem &problem, const ProblemOptions &options)
         {
             auto *space = problem.spaceInformation()->getStateSpace()->as<ob::SE2StateSpace>();
@@ -120,8 +141,16 @@ namespace parking
             limit(bounds.low[1], options.minY, offset.y(), true);
             limit(bounds.high[0], options.maxX, offset.x(), false);
             limit(bounds.high[1], options.maxY, offset.y(), false);
-            if (!(bounds.low[0] < bounds.high[0] && bounds.low[1] < bounds.high[1]))
-                throw Error("volume leaves nothing of the scenario's world");
+            for (const unsigned axis : {0U, 1U})
+                if (!(bounds.low[axis] < bounds.high[axis]))
+                {
+                    const std::string name(1, "xy"[axis]);
+                    const Box &world = problem.scenario().bounds;
+                    throw SettingError({"problem.volume.min." + name, "problem.volume.max." + name},
+                                       "the volume leaves nothing of the scenario's world, in which " + name +
+                                           " is between " + formatNumber(world.min[axis] + offset[axis]) + " and " +
+                                           formatNumber(world.max[axis] + offset[axis]));
+                }
             space->setBounds(bounds);
         }
 
@@ -140,12 +169,17 @@ namespace parking
                                                   { return std::make_shared<ob::BridgeTestValidStateSampler>(each); });
         }
 
+        bool matches(const std::string &pattern, const std::string &scenario)
+        {
+            return fnmatch(pattern.c_str(), scenario.c_str(), 0) == 0;
+        }
+
         /** Is the planner run on the scenario of this name? Notes which of its patterns were of use. */
         bool isWanted(const PlannerSpec &spec, const std::string &scenario, std::set<std::string> &used)
         {
             bool wanted = spec.only.empty();
             for (const std::string &pattern : spec.only)
-                if (fnmatch(pattern.c_str(), scenario.c_str(), 0) == 0)
+                if (matches(pattern, scenario))
                 {
                     used.insert(pattern);
                     wanted = true;
@@ -183,11 +217,60 @@ namespace parking
             problem->spaceInformation()->setup();
             return problem;
         }
+        catch (const SettingError &error)
+        {
+            throw SettingError(error.settings(), scenarioFile + ": " + error.what());
+        }
         catch (const Error &error)
         {
             const std::string text = error.what();
             throw Error(text.find(scenarioFile) == std::string::npos ? scenarioFile + ": " + text : text);
         }
+    }
+
+    std::vector<std::string> leaveOutPlannersOf(const std::vector<std::string> &replaced, BenchmarkConfig &config)
+    {
+        const auto isBound = [](const PlannerSpec &spec)
+        {
+            return !spec.only.empty();
+        };
+        if (std::none_of(config.planners.begin(), config.planners.end(), isBound))
+            return {};  // and no file has to be read for its name
+        std::vector<std::string> before, now;
+        for (const std::string &file : replaced)
+            try
+            {
+                before.push_back(nameOf(config, file));
+            }
+            catch (const Error &)
+            {
+                before.push_back(word(std::filesystem::path(file).stem().string()));  // gone, but no matter
+            }
+        for (const std::string &file : config.scenarios)
+            now.push_back(nameOf(config, file));
+        const auto names = [](const std::string &pattern, const std::vector<std::string> &scenarios)
+        {
+            return std::any_of(scenarios.begin(), scenarios.end(),
+                               [&pattern](const std::string &each) { return matches(pattern, each); });
+        };
+        std::vector<PlannerSpec> kept;
+        std::vector<std::string> out;
+        for (PlannerSpec spec : config.planners)
+        {
+            const auto isOfThose = [&](const std::string &pattern)
+            {
+                return names(pattern, before) && !names(pattern, now);
+            };
+            spec.only.erase(std::remove_if(spec.only.begin(), spec.only.end(), isOfThose), spec.only.end());
+            if (spec.only.empty() && isBound(config.planners[kept.size() + out.size()]))
+                out.push_back(spec.name);
+            else
+                kept.push_back(std::move(spec));
+        }
+        if (kept.empty())
+            return {};  // nobody is left: planExperiments() says what is wrong
+        config.planners = std::move(kept);
+        return out;
     }
 
     std::vector<Experiment> planExperiments(const BenchmarkConfig &config)
@@ -199,22 +282,12 @@ namespace parking
         std::set<std::string> used;
         for (const std::string &file : config.scenarios)
         {
-            const auto read = [&](const ProblemOptions &options)
-            {
-                try
-                {
-                    return readWithOptions(file, options);
-                }
-                catch (const Error &error)
-                {
-                    throw Error(config.lineOf(file) + error.what());
-                }
-            };
             const ProblemOptions &common = config.planners.front().problem;
             if (!common.name.empty() && config.scenarios.size() > 1)
-                throw Error(config.file + ": 'name' in [problem] is for a single scenario, and there are " +
+                throw Error(config.lineOf(config.planners.front(), {"problem.name"}) +
+                            "'name' in [problem] is for a single scenario, and there are " +
                             std::to_string(config.scenarios.size()));
-            const std::string base = word(common.name.empty() ? read(common).name : common.name);
+            const std::string base = nameOf(config, file);
             scenarios.push_back(base);
             std::vector<Experiment> variants;
             for (std::size_t i = 0; i < config.planners.size(); ++i)
@@ -234,7 +307,7 @@ namespace parking
                 for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
                     name = wanted + "_" + std::to_string(number);
                 names.push_back(name);
-                const Scenario scenario = read(options);
+                const Scenario scenario = readFor(config, file, options);
                 variants.push_back({name, file, options, {i}, digestOf(scenario), scenario.files});
             }
             experiments.insert(experiments.end(), variants.begin(), variants.end());
@@ -242,7 +315,7 @@ namespace parking
         for (const PlannerSpec &spec : config.planners)
             for (const std::string &pattern : spec.only)
                 if (used.count(pattern) == 0)
-                    throw Error(config.file + ": planner " + spec.name + ": " +
+                    throw Error(config.lineOf(spec, {"only"}) + "planner " + spec.name + ": " +
                                 unknownName("scenario in 'only'", pattern, scenarios));
         return experiments;
     }

@@ -34,6 +34,13 @@ namespace parking
         std::size_t run{0};         ///< number of the run, from 0
     };
 
+    /** \brief For a configuration whose scenarios were replaced by others: leaves out the planners whose `only` names
+        \e replaced scenarios and none of those that there are now, and what names such in the `only` of others. What
+        names neither stays, for planExperiments() to refuse; so does all when nobody would be left.
+
+        \return the names of those left out. Throws parking::Error for a scenario that cannot be read. */
+    std::vector<std::string> leaveOutPlannersOf(const std::vector<std::string> &replaced, BenchmarkConfig &config);
+
     /** \brief The experiments of a comparison. Planners whose problem differs from others' (overrides in the .cfg) meet
         in experiments of their own, named after scenario and setting.
 

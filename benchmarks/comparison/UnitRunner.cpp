@@ -5,6 +5,7 @@
 #include "benchmarks/metrics/DriveMetrics.h"
 #include "benchmarks/metrics/PathMetrics.h"
 #include "benchmarks/metrics/PeakMemory.h"
+#include "benchmarks/planners/SettingError.h"
 #include "benchmarks/problems/PathDrive.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "benchmarks/system/QuietChildren.h"
@@ -256,30 +257,38 @@ namespace parking
     {
         const PlannerSpec &spec = config_.planners[planner];
         const PlannerEntry &entry = registry_.find(spec.planner);
-        const auto refuse = [&](const std::string &why)
+        const auto refuse = [&](const std::vector<std::string> &settings, const std::string &why)
         {
-            throw Error(config_.file + ": planner " + spec.name + " on " + experiments_[experiment].name + ": " +
-                        oneLine(why));
+            throw Error(config_.lineOf(spec, settings) + "planner " + spec.name + " on " +
+                        experiments_[experiment].name + ": " + oneLine(why));
         };
         try
         {
             problem(experiment);
         }
+        catch (const SettingError &error)
+        {
+            refuse(error.settings(), error.what());
+        }
         catch (const Error &error)
         {
-            refuse(error.what());
+            refuse({}, error.what());
         }
         const Problem &world = problem(experiment);
-        std::string refusal;
+        std::string refusal;  // the setting, empty when nobody knows which, a line end, and why
         const auto prepare = [&](const std::function<void()> & /*halfDone*/) -> std::string
         {
             try
             {
                 world.prepare(entry, spec.settings);
             }
+            catch (const SettingError &error)
+            {
+                return error.settings().front() + "\n" + error.what();
+            }
             catch (const Error &error)
             {
-                return error.what();
+                return std::string("\n") + error.what();
             }
             return "";
         };
@@ -296,7 +305,7 @@ namespace parking
             // Whatever else happens in there is an outcome of the runs.
         }
         if (!refusal.empty())
-            refuse(refusal);
+            refuse({refusal.substr(0, refusal.find('\n'))}, refusal.substr(refusal.find('\n') + 1));
     }
 
     std::string UnitRunner::setupText(std::size_t experiment)

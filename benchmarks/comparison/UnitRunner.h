@@ -34,7 +34,7 @@ namespace parking
                    const PlannerRegistry &registry, Isolation isolation, const std::atomic<bool> &stop);
 
         /** \brief Makes every planner on every experiment once, so that bad settings are found before hours of work.
-            Throws parking::Error naming the planner and the experiment. */
+            Throws parking::Error naming the line of the configuration, the planner and the experiment. */
         void checkSettings();
 
         /** \brief What the planner finds, or that it does not, or what happens to it, is in the record: an exception,

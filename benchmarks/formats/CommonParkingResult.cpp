@@ -4,7 +4,6 @@
 
 #include "benchmarks/formats/MatFile.h"
 #include "benchmarks/formats/ResultFormat.h"
-#include "parking_geometry/Error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +105,6 @@ namespace parking
 
         void writeTrajectory(const StoredResult &result, const std::string &file)
         {
-            if (result.trajectory.empty())
-                throw Error(file + ": the result has no trajectory; plan with --trajectory or --track");
             std::vector<std::vector<double>> columns(8);
             double yaw = result.trajectory.front().yaw;
             for (const TrajectoryPoint &point : result.trajectory)
@@ -211,12 +208,16 @@ namespace parking
 
     ResultFormat commonParkingPath()
     {
-        return {"commonparking-path", ".mat", "path for CommonParking's EvaluateResult, with its exact arcs", writePath,
+        return {"commonparking-path",
+                ".mat",
+                "path for CommonParking's EvaluateResult, with its exact arcs",
+                false,
+                writePath,
                 check};
     }
 
     ResultFormat commonParkingTrajectory()
     {
-        return {"commonparking-trajectory", ".mat", "trajectory for the same", writeTrajectory, check};
+        return {"commonparking-trajectory", ".mat", "trajectory for the same", true, writeTrajectory, check};
     }
 }  // namespace parking

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -304,5 +305,18 @@ namespace parking
             names.emplace_back(format.name);
         }
         throw Error(unknownName("format of results", name, names));
+    }
+
+    const ResultFormat &resultFormatForName(const std::string &file)
+    {
+        const std::string extension = std::filesystem::path(file).extension().string();
+        std::string names;
+        for (const ResultFormat &format : resultFormats())
+        {
+            if (format.extension == extension)
+                return format;
+            names += (names.empty() ? "" : ", ") + std::string(format.name) + " (" + format.extension + ")";
+        }
+        throw Error(inQuotes(file) + ": the name says no format of results; name one with --to: " + names);
     }
 }  // namespace parking

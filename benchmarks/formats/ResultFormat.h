@@ -43,8 +43,8 @@ namespace parking
         const char *name;       ///< one word, for --to
         const char *extension;  ///< ".mat"
         const char *text;       ///< one line for --help
-        /** \brief Writes \e file whole or not at all. Throws parking::Error; also when the result lacks what the format
-            needs. */
+        bool isTrajectory;      ///< is it for results with a trajectory only?
+        /** \brief Writes \e file whole or not at all. Throws parking::Error. */
         void (*write)(const StoredResult &result, const std::string &file);
         /** \brief What is wrong with a written file by the rules of those who read it; empty when nothing is. */
         std::string (*check)(const StoredResult &result, const std::string &file);
@@ -55,6 +55,10 @@ namespace parking
 
     /** \brief The format of this name. Throws parking::Error with the nearest one for any other. */
     const ResultFormat &resultFormat(const std::string &name);
+
+    /** \brief The first format with the extension of this file name. Throws parking::Error with all formats for any
+        other. */
+    const ResultFormat &resultFormatForName(const std::string &file);
 
     /** \brief CommonParking's path. */
     ResultFormat commonParkingPath();

@@ -2,7 +2,6 @@
 
 #include "benchmarks/formats/ResultFormat.h"
 
-#include "parking_geometry/Error.h"
 #include "parking_geometry/text/ReadFile.h"
 
 namespace parking
@@ -11,8 +10,6 @@ namespace parking
     {
         void write(const StoredResult &result, const std::string &file)
         {
-            if (result.trajectory.empty())
-                throw Error(file + ": the result has no trajectory; plan with --trajectory or --track");
             writeCsv(result.trajectory, file);
         }
 
@@ -28,6 +25,11 @@ namespace parking
 
     ResultFormat tpcapTrajectory()
     {
-        return {"tpcap-trajectory", ".csv", "trajectory as t, x, y, yaw, v, a, steering, steering_rate", write, check};
+        return {"tpcap-trajectory",
+                ".csv",
+                "trajectory as t, x, y, yaw, v, a, steering, steering_rate",
+                true,
+                write,
+                check};
     }
 }  // namespace parking

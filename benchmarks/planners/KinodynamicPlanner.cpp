@@ -105,8 +105,6 @@ namespace parking
         const CurveSpace space(*si_->getStateSpace());
         if (space.kind() != SpaceKind::ReedsShepp)
             throw ompl::Exception(getName(), "plans in a Reeds-Shepp space only");
-        if (!(goalReach_ > 0.0 && step_ > 0.0))
-            throw ompl::Exception(getName(), "goal_reach and step must be positive");
         pis_.restart();
         auto problem = std::make_shared<ob::ProblemDefinition>(controls_);
         while (const ob::State *start = pis_.nextStart())

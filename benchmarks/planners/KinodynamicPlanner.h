@@ -1,5 +1,7 @@
 #pragma once
 
+#include "benchmarks/planners/ParameterRange.h"
+
 #include <ompl/base/Planner.h>
 #include <ompl/control/SpaceInformation.h>
 
@@ -36,9 +38,11 @@ namespace parking
         /** \brief The graph of the other planner. */
         void getPlannerData(ompl::base::PlannerData &data) const override;
 
-        /** \brief Metres that the curve to the goal is long at most. */
+        /** \brief Metres that the curve to the goal is long at most, from 0.01 to 1000; throws ompl::Exception for
+            others. */
         void setGoalReach(double metres)
         {
+            ParameterRange{0.01, 1000.0}.require(getName(), "goal_reach", metres);
             goalReach_ = metres;
         }
         /** \brief See setGoalReach(). */
@@ -47,9 +51,11 @@ namespace parking
             return goalReach_;
         }
 
-        /** \brief Metres of a step of a control; a control lasts for one to ten of them. */
+        /** \brief Metres of a step of a control, from 0.01 to 10; a control lasts for one to ten of them. Throws
+            ompl::Exception for others. */
         void setStep(double metres)
         {
+            ParameterRange{0.01, 10.0}.require(getName(), "step", metres);
             step_ = metres;
         }
         /** \brief See setStep(). */

@@ -2,6 +2,7 @@
 
 #include "benchmarks/planners/KinodynamicPlanner.h"
 #include "benchmarks/planners/ReedsSheppPlanner.h"
+#include "benchmarks/planners/SettingError.h"
 #include "benchmarks/planners/SolveRecord.h"
 #include "benchmarks/planners/TextbookHybridAStar.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
@@ -158,7 +159,8 @@ namespace parking
             return value;
         }
 
-        void applySetting(ompl::base::Planner &planner, const std::string &name, const std::string &value)
+        /** Throws Error. */
+        void setChecked(ompl::base::Planner &planner, const std::string &name, const std::string &value)
         {
             ompl::base::ParamSet &parameters = planner.params();
             if (!parameters.hasParam(name))
@@ -184,6 +186,18 @@ namespace parking
             catch (const ompl::Exception &error)
             {
                 throw Error(wanted + ": " + oneLine(error.what()));
+            }
+        }
+
+        void applySetting(ompl::base::Planner &planner, const std::string &name, const std::string &value)
+        {
+            try
+            {
+                setChecked(planner, name, value);
+            }
+            catch (const Error &error)
+            {
+                throw SettingError({name}, error.what());
             }
         }
     }  // namespace

@@ -65,7 +65,7 @@ namespace parking
     /** \brief Sets parameters of a planner, `parameter_set` first, the others in their order.
 
         Words stand for numbers where a parameter is a switch: true, yes and on for 1, false, no and off for 0.
-        Throws parking::Error naming the parameter and the value: with the nearest and all known names for one that is
+        Throws SettingError naming the parameter and the value: with the nearest and all known names for one that is
         not known, with what the planner says for a value out of range. */
     void applySettings(ompl::base::Planner &planner, const PlannerSettings &settings);
 }  // namespace parking

@@ -248,12 +248,18 @@ namespace parking
     };
 
     template <class Value>
-    void TextbookHybridAStar::declare(const std::string &name, Value Parameters::*member, const std::string &range)
+    void TextbookHybridAStar::declare(const std::string &name, Value Parameters::*member, const ParameterRange &range,
+                                      const std::string &suggestion)
     {
         params_.declareParam<Value>(
-            name, [this, member](Value value) { parameters_.*member = value; },
+            name,
+            [this, name, member, range](Value value)
+            {
+                range.require(getName(), name, static_cast<double>(value));
+                parameters_.*member = value;
+            },
             [this, member] { return parameters_.*member; });
-        params_.getParam(name)->setRangeSuggestion(range);
+        params_.getParam(name)->setRangeSuggestion(suggestion);
     }
 
     TextbookHybridAStar::TextbookHybridAStar(const ob::SpaceInformationPtr &si)
@@ -261,16 +267,16 @@ namespace parking
     {
         specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
         specs_.directed = true;
-        declare("xy_resolution", &Parameters::xyResolution, "0.05:0.05:1.");
-        declare("heading_bins", &Parameters::headingBins, "16:8:360");
-        declare("steering_angles", &Parameters::steeringAngles, "3:2:11");
-        declare("motion_length", &Parameters::motionLength, "0.1:0.1:2.");
-        declare("reverse_penalty", &Parameters::reversePenalty, "0.:0.5:5.");
-        declare("gear_change_penalty", &Parameters::gearChangePenalty, "0.:0.5:10.");
-        declare("steering_penalty", &Parameters::steeringPenalty, "0.:0.1:2.");
-        declare("expansion_interval", &Parameters::expansionInterval, "1:1:100");
-        declare("heuristic_weight", &Parameters::heuristicWeight, "0.:0.1:5.");
-        declare("obstacle_heuristic", &Parameters::obstacleHeuristic, "0,1");
+        declare("xy_resolution", &Parameters::xyResolution, {0.01, 10.0}, "0.05:0.05:1.");
+        declare("heading_bins", &Parameters::headingBins, {1.0, 4000.0}, "16:8:360");
+        declare("steering_angles", &Parameters::steeringAngles, {2.0, 1000.0}, "3:2:11");
+        declare("motion_length", &Parameters::motionLength, {0.01, 100.0}, "0.1:0.1:2.");
+        declare("reverse_penalty", &Parameters::reversePenalty, {0.0, 1000.0}, "0.:0.5:5.");
+        declare("gear_change_penalty", &Parameters::gearChangePenalty, {0.0, 1000.0}, "0.:0.5:10.");
+        declare("steering_penalty", &Parameters::steeringPenalty, {0.0, 1000.0}, "0.:0.1:2.");
+        declare("expansion_interval", &Parameters::expansionInterval, {1.0, 1e6}, "1:1:100");
+        declare("heuristic_weight", &Parameters::heuristicWeight, {0.0, 1000.0}, "0.:0.1:5.");
+        declare("obstacle_heuristic", &Parameters::obstacleHeuristic, {0.0, 1.0}, "0,1");
     }
 
     ob::PlannerStatus TextbookHybridAStar::solve(const ob::PlannerTerminationCondition &ptc)
@@ -279,9 +285,6 @@ namespace parking
         const Parameters &p = parameters_;
         if (CurveSpace(*si_->getStateSpace()).kind() != SpaceKind::ReedsShepp)
             throw ompl::Exception(getName(), "plans in a Reeds-Shepp space only");
-        if (!(p.xyResolution >= 0.01 && p.motionLength >= 0.01 && p.headingBins >= 1 && p.headingBins <= 4000 &&
-              p.steeringAngles >= 2 && p.expansionInterval >= 1))
-            throw ompl::Exception(getName(), "a parameter is out of its range");
         pis_.restart();
         const ob::State *start = pis_.nextStart();
         if (start == nullptr)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "benchmarks/planners/ParameterRange.h"
+
 #include <ompl/base/Planner.h>
 
 namespace parking
@@ -38,8 +40,10 @@ namespace parking
 
         class Search;
 
+        /** \e suggestion in OMPL's form: the usual values, which are fewer than the possible ones. */
         template <class Value>
-        void declare(const std::string &name, Value Parameters::*member, const std::string &range);
+        void declare(const std::string &name, Value Parameters::*member, const ParameterRange &range,
+                     const std::string &suggestion);
 
         Parameters parameters_;
     };

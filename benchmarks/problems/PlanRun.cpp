@@ -172,6 +172,9 @@ namespace parking
         const bool exact = run.status == PlanStatus::Exact;
         if (!exact && prepared.measured != nullptr)
             run.reason = prepared.measured->whyNothing();
+        // A planner that comes near to a goal where the car cannot stand knows that it cannot, and not why.
+        if (const std::string why = run.status == PlanStatus::Approximate ? problem.whyUnsolvable() : ""; !why.empty())
+            run.reason += (run.reason.empty() ? "" : ": ") + why;
         if (exact)
             run.suboptimalityBound = boundOf(*prepared.planner);
         if (!exact && run.status != PlanStatus::Approximate)

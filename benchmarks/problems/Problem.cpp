@@ -107,19 +107,24 @@ namespace parking
         throw Error(unknownName("footprint", name, {"rectangle", "circle"}));
     }
 
+    void checkSettings(const ProblemSettings &settings)
+    {
+        if (!(std::isfinite(settings.circleRadius) && settings.circleRadius >= 0.0))
+            throw Error(
+                "the radius of the circle must be a positive number of metres, or 0 for half of the car's width, "
+                "not " +
+                formatNumber(settings.circleRadius));
+        if (settings.footprint == FootprintKind::Circle && settings.space != SpaceKind::SE2)
+            throw Error("footprint circle goes with space se2 only, not with " + toString(settings.space) +
+                        ": a disc has no heading that a curve could turn");
+    }
+
     Problem::Problem(Scenario scenario, const ProblemSettings &settings)
       : scenario_(std::move(scenario)),
         settings_(settings)
     {
-        if (!(std::isfinite(settings_.circleRadius) && settings_.circleRadius >= 0.0))
-            throw Error(
-                "the radius of the circle must be a positive number of metres, or 0 for half of the car's width, "
-                "not " +
-                formatNumber(settings_.circleRadius));
+        checkSettings(settings_);
         const bool circle = settings_.footprint == FootprintKind::Circle;
-        if (circle && settings_.space != SpaceKind::SE2)
-            throw Error("footprint circle goes with space se2 only, not with " + toString(settings_.space) +
-                        ": a disc has no heading that a curve could turn");
         const auto space = makeSpace(scenario_, settings_.space);
         si_ = std::make_shared<ob::SpaceInformation>(space);
         const auto begin = std::chrono::steady_clock::now();

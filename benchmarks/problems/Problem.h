@@ -42,6 +42,9 @@ namespace parking
     FootprintKind footprintByName(const std::string &name);  ///< of rectangle or circle
     /** @} */
 
+    /** \brief Throws parking::Error for a radius that is none, and for a circle in a space of curves. */
+    void checkSettings(const ProblemSettings &settings);
+
     /** \brief A planner ready to solve a problem, with everything that it changes being its own. */
     struct PreparedPlanner
     {

@@ -93,9 +93,10 @@ namespace parking
         config_.timeLimit = options.timeLimit.value_or(config_.timeLimit);
         config_.runCount = options.runCount.value_or(config_.runCount);
         config_.seed = options.seed.value_or(config_.seed);
+        std::vector<std::string> replaced;
         if (!options.scenarios.empty())
         {
-            config_.scenarios.clear();
+            replaced.swap(config_.scenarios);
             config_.scenarioLines.clear();
             for (const std::string &name : options.scenarios)
             {
@@ -111,8 +112,16 @@ namespace parking
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("reading the scenarios");
+        std::string left;
+        if (!replaced.empty())
+            for (const std::string &name : leaveOutPlannersOf(replaced, config_))
+                left += (left.empty() ? "" : ", ") + name;
         experiments_ = planExperiments(config_);
         protectInputs();
+        step.reset();
+        if (!left.empty())
+            std::cerr << "parking_benchmark: " << config_.file << ": not run, as 'only' names none of the scenarios of "
+                      << "--scenarios: " << left << std::endl;
     }
 
     void Comparison::protectInputs() const
@@ -287,7 +296,12 @@ namespace parking
         }
         std::sort(files.begin(), files.end());
         if (files.empty())
-            throw Error(folder_ + ": holds no runs to merge (runs*.jsonl)");
+        {
+            std::string folders;
+            for (const std::string &input : options_.inputs)
+                folders += (folders.empty() ? "" : ", ") + input;
+            throw Error((folders.empty() ? folder_ : folders) + ": holds no runs to merge (runs*.jsonl)");
+        }
         return files;
     }
 
@@ -382,9 +396,9 @@ namespace parking
 
     ComparisonFiles Comparison::write()
     {
-        if (!options_.inputs.empty())
-            makeFolder(folder_);
         gather();
+        if (!options_.inputs.empty())
+            makeFolder(folder_);  // now that there is something to put into it
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");

@@ -77,6 +77,7 @@ namespace parking
                     {"max_position_error_m", figures.maxPositionError},
                     {"final_position_error_m", figures.finalPositionError},
                     {"final_yaw_error_rad", figures.finalYawError},
+                    {"corner_deviation_m", figures.cornerDeviation},
                     {"min_clearance_m", number(figures.minClearance)},
                     {"mpc_solve_ms",
                      {{"median", MS * figures.solveTime.median},
@@ -152,6 +153,18 @@ namespace parking
         {
             const std::string subject = "trajectory: ";
             return message.compare(0, subject.size(), subject) == 0 ? message.substr(subject.size()) : message;
+        }
+
+        std::string driveSummary(const DriveResult &drive)
+        {
+            const Evaluation &figures = drive.evaluation;
+            std::string text = drive.message + " after " + formatNumber(figures.travelTime, 1) + " s, " +
+                               formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path, " +
+                               counted(figures.collisions, "collision");
+            if (figures.cornerDeviation > 0.0)
+                text += " (no car can drive the path's corners; it leaves the path there by up to " +
+                        formatNumber(figures.cornerDeviation, 2) + " m)";
+            return text;
         }
 
         /** The planned trajectory in the scenario's coordinates; empty without one. */
@@ -312,10 +325,7 @@ namespace parking
         else if (!result.trajectoryError.empty())
             text += "  no trajectory: " + result.trajectoryError + "\n";
         if (result.drive)
-            text += "  driven: " + result.drive->message + " after " +
-                    formatNumber(result.drive->evaluation.travelTime, 1) + " s, " +
-                    formatNumber(100.0 * result.drive->evaluation.finalPositionError, 1) +
-                    " cm from the end of the path, " + counted(result.drive->evaluation.collisions, "collision") + "\n";
+            text += "  driven: " + driveSummary(*result.drive) + "\n";
         else if (!result.driveError.empty())
             text += "  not driven: " + result.driveError + "\n";
         return text;
@@ -397,6 +407,12 @@ namespace parking
         const PlanRun &run = result.first();
         if (!run.path)
             return;
+        if (!result.trajectoryError.empty())
+        {
+            // Along the path would be another drive than was asked for, and often one that no car can drive.
+            result.driveError = "there is no trajectory to drive: " + result.trajectoryError;
+            return;
+        }
         try
         {
             result.drive = result.trajectory ? driveMotion(problem, result.trajectory->trajectory.motion)

@@ -69,7 +69,8 @@ namespace parking
      */
     Trajectory resultTrajectory(const Problem &problem, const PlanResult &result);
 
-    /** \brief Drives the path of the first run in closed loop. What cannot be driven is told in the result. */
+    /** \brief Drives the trajectory of the first run in closed loop, or its path when none was asked for. What cannot
+        be driven is told in the result; so is a trajectory that there should be and is not. */
     void addDrive(const Problem &problem, PlanResult &result);
 
     /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */

@@ -206,14 +206,11 @@ namespace
                       << counted(result.trajectory.size(), "sample") << "\n";
         if (!output)
             return DONE;
-        std::string name = line.text("to").value_or("");
-        if (name.empty())
-            name = fs::path(*output).extension() == ".mat"   ? "commonparking-path"
-                   : fs::path(*output).extension() == ".csv" ? "tpcap-trajectory"
-                                                             : throw Error(inQuotes(*output) +
-                                                                           ": the name says no format of results; name "
-                                                                           "one with --to (see --help)");
-        const ResultFormat &format = resultFormat(name);
+        const std::optional<std::string> to = line.text("to");
+        const ResultFormat &format = to ? resultFormat(*to) : resultFormatForName(*output);
+        if (format.isTrajectory && result.trajectory.empty())
+            throw Error(input + ": the result has no trajectory to write as " + format.name +
+                        "; plan with --trajectory or --track");
         format.write(result, *output);
         if (!line.given("check"))
             return DONE;

@@ -13,11 +13,27 @@ def require_no_input(outputs, inputs):
                 raise ReportError(f'{output}: is the input {file}, which would be lost; name another file to write')
 
 
-def write_whole(file, content):
-    """Raises ReportError when the file cannot be written; what was there before then stays."""
+def require_writable(file):
+    """Raises ReportError unless a file of this name can be written, whether or not there is one."""
+    if not file:
+        raise ReportError('the name of the file to write is empty')
     if os.path.exists(file) and not os.path.isfile(file):
         kind = 'a folder' if os.path.isdir(file) else 'a pipe or a device, which a file would take the place of'
         raise ReportError(f'{file}: cannot be written: is {kind}')
+    folder = os.path.dirname(os.path.abspath(file))
+    if not os.path.isdir(folder):
+        raise ReportError(f'{file}: cannot be written: there is no folder {folder}')
+    try:
+        # What permissions do not tell: root may write everywhere, and yet /proc takes no file.
+        with tempfile.NamedTemporaryFile(dir=folder, prefix='.report-'):
+            pass
+    except OSError as error:
+        raise ReportError(f'{file}: cannot be written: {error.strerror}') from error
+
+
+def write_whole(file, content):
+    """Raises ReportError when the file cannot be written; what was there before then stays."""
+    require_writable(file)
     temporary = None
     try:
         with tempfile.NamedTemporaryFile('w', encoding='utf-8', dir=os.path.dirname(os.path.abspath(file)),

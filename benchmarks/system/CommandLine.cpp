@@ -134,7 +134,7 @@ namespace parking
     {
         const std::optional<std::string> name = text(option);
         if (name && name->empty())
-            throw Error("the name of an output file is empty");
+            throw Error("--" + option + " must name a file to write, and the name it is given is empty");
         return name;
     }
 
@@ -226,7 +226,10 @@ namespace parking
         constexpr int BAD_INPUT = 2;
         try
         {
-            return program({argv + 1, argv + argc});
+            const int status = program({argv + 1, argv + argc});
+            if (!std::cout.flush())
+                throw Error("standard output cannot be written");
+            return status;
         }
         catch (const std::exception &error)
         {

@@ -60,7 +60,7 @@ namespace parking
         /** \brief See wholeNumber(). */
         std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
 
-        /** \brief The name of a file to write. Throws parking::Error for an empty one. */
+        /** \brief The name of a file to write. Throws parking::Error naming the option for an empty one. */
         std::optional<std::string> outputFile(const std::string &option) const;
 
     private:
@@ -92,7 +92,8 @@ namespace parking
     void requireNoInput(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
 
     /** \brief Runs a program on its arguments and returns its status. What it throws becomes one line on standard
-        error that begins with \e name, and status 2: bad input or usage. */
+        error that begins with \e name, and status 2: bad input or usage. So does standard output that cannot be
+        written. */
     int runProgram(const char *name, int argc, char **argv,
                    const std::function<int(const std::vector<std::string> &)> &program);
 }  // namespace parking

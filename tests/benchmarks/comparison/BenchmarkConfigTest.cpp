@@ -124,6 +124,81 @@ rrt=
         expectError([&] { read("[problem]\nscenario = a.yaml\n"); }, {"set.cfg", "no planner"});
     }
 
+    TEST_F(BenchmarkConfigTest, AKeyIsGivenOnce)
+    {
+        const auto expectTwice = [&](const std::string &text, const std::string &key, int first, int second)
+        {
+            SCOPED_TRACE(text);
+            const std::string file = folder_.path("set.cfg") + ":";
+            EXPECT_EQ(errorOf([&] { read(text); }), file + std::to_string(second) + ": '" + key +
+                                                        "' is given twice, first at " + file + std::to_string(first) +
+                                                        "; leave one of them out");
+        };
+        const std::string problem = "[problem]\nscenario = a\n", planner = "[planner]\nrrt=\n";
+        expectTwice(problem + "space = se2\n# x\nspace = se2\n" + planner, "space", 3, 5);
+        expectTwice(problem + "[benchmark]\nrun_count = 1\n" + planner + "[benchmark]\nrun_count = 2\n", "run_count", 4,
+                    8);
+        expectTwice("[benchmark]\ntime_limit = 1\ntime_limit = 1\n" + problem + planner, "time_limit", 2, 3);
+        expectTwice(problem + planner + "rrt.range=1\nRRT.range=2\n", "RRT.range", 5, 6);
+        expectTwice(problem + planner + "rrt.name=a\nrrt.name=b\n", "rrt.name", 5, 6);
+        expectTwice(problem + planner + "rrt.only=a\nrrt.only=b\n", "rrt.only", 5, 6);
+        expectTwice(problem + planner + "rrt.problem.space=se2\nrrt.problem.space=se2\n", "rrt.problem.space", 5, 6);
+        // Scenarios are many, planners have keys of their own, and what is said to all may be said anew to one.
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\nscenario = a\nspace = se2\n[planner]\n"
+            "rrt=\nrrt.range=1\nrrt.problem.space=dubins\nrrt=\nrrt.range=1\n");
+        EXPECT_EQ(config.scenarios.size(), 2U);
+        EXPECT_EQ(config.planners[1].settings, config.planners[0].settings);
+    }
+
+    TEST_F(BenchmarkConfigTest, KnowsTheLinesOfSettings)
+    {
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\nspace = se2\nfootprint = circle\n[planner]\nrrt=\n"
+            "rrt.range=1\nrrt.problem.footprint=rectangle\nprm=\n");
+        const std::string file = folder_.path("set.cfg") + ":";
+        const PlannerSpec &rrt = config.planners[0], &prm = config.planners[1];
+        EXPECT_EQ(config.lineOf(rrt, {"range"}), file + "7: ");
+        EXPECT_EQ(config.lineOf(rrt, {"problem.space", "problem.footprint"}), file + "8: ");  // its own before others'
+        EXPECT_EQ(config.lineOf(prm, {"problem.footprint", "problem.space"}), file + "4: ");
+        EXPECT_EQ(config.lineOf(rrt, {"goal_bias"}), file + "6: ");
+        EXPECT_EQ(config.lineOf(prm, {}), file + "9: ");
+        EXPECT_EQ(config.lineOf(PlannerSpec{}, {"range"}), folder_.path("set.cfg") + ": ");
+    }
+
+    TEST_F(BenchmarkConfigTest, WhatIsSaidOfAProblemGoesTogether)
+    {
+        const auto refuse =
+            [&](const std::string &problem, const std::string &planner, const std::vector<std::string> &parts)
+        {
+            SCOPED_TRACE(problem + planner);
+            expectError([&] { read("[problem]\nscenario = a\n" + problem + "[planner]\nrrt=\n" + planner); }, parts);
+        };
+        refuse("start.x = 1\nstart.theta = 1\n", "", {"set.cfg:3: start ", "x, y and theta", "start.y is missing"});
+        refuse("goal.x = 1\n", "rrt.problem.goal.y=1\n", {"set.cfg:6: goal ", "goal.theta is missing"});
+        refuse("volume.min.y = 3\nvolume.max.y = 3\n", "",
+               {"set.cfg:4: volume.max.y must be greater than volume.min.y, 3"});
+        refuse("volume.max.x = 3\n", "rrt.problem.volume.min.x=4\n", {"set.cfg:6: volume.max.x must be", "4, not 3"});
+        refuse("footprint = circle\n", "", {"set.cfg:3: footprint circle", "space se2"});
+        refuse("", "rrt.problem.footprint=circle\n", {"set.cfg:5: footprint circle", "not with reeds_shepp"});
+        refuse("space = se2\nfootprint = circle\n", "rrt.problem.space=dubins\n", {"set.cfg:7: footprint", "dubins"});
+        const std::vector<std::string> ignored{"circle_radius is the circle's", "rectangle", "footprint = circle"};
+        for (const std::string &each : ignored)
+        {
+            refuse("circle_radius = 1\n", "", {"set.cfg:3: ", each});
+            refuse("space = se2\n", "rrt.problem.circle_radius=1\n", {"set.cfg:6: ", each});
+            refuse("space = se2\nfootprint = circle\n",
+                   "rrt.problem.footprint=rectangle\nrrt.problem.circle_radius=1\n", {"set.cfg:8: ", each});
+        }
+        // Of use to one planner at least.
+        read(
+            "[problem]\nscenario = a\ncircle_radius = 1\nspace = "
+            "se2\n[planner]\nprm=\nrrt=\nrrt.problem.footprint=circle\n");
+        read(
+            "[problem]\nscenario = a\ncircle_radius = 1\nspace = se2\nfootprint = circle\n[planner]\nprm=\nrrt=\n"
+            "rrt.problem.footprint=rectangle\n");
+    }
+
     TEST_F(BenchmarkConfigTest, FoldersAndPatternsStandForTheirScenariosInNaturalOrder)
     {
         folder_.write("cases/case10.csv", "1");

@@ -1,6 +1,7 @@
 // How a comparison is cut into experiments, runs and shards, and what tells comparisons apart.
 
 #include "benchmarks/comparison/Experiment.h"
+#include "benchmarks/planners/SettingError.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
@@ -10,6 +11,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace
 {
@@ -61,6 +63,47 @@ namespace
         EXPECT_EQ(experiments[3].name, "b_se2_circle");
         EXPECT_EQ(experiments[3].planners, (std::vector<std::size_t>{1, 2}));
         expectError([&] { planExperiments(config("prm=\nprm.only=d*\n")); }, {"planner PRM", "'d*'"});
+    }
+
+    TEST_F(ExperimentTest, WithOtherScenariosWhoIsRunOnTheFormerOnlyIsLeftOut)
+    {
+        const auto replaced = [this](const std::string &planners)
+        {
+            BenchmarkConfig set = config(planners, "scenario = a.yaml\nscenario = gone.yaml\n");
+            const std::vector<std::string> before =
+                std::exchange(set.scenarios, {folder_.path("b.yaml"), folder_.path("c.yaml")});
+            const std::vector<std::string> out = leaveOutPlannersOf(before, set);
+            return std::make_pair(set, out);
+        };
+        const auto [set, out] =
+            replaced("prm=\nrrt=\nrrt.only=a\nsbl=\nsbl.only=a, b\nest=\nest.only=go*\nbiest=\nbiest.only=*\n");
+        EXPECT_EQ(out, (std::vector<std::string>{"RRT", "EST"}));
+        ASSERT_EQ(set.planners.size(), 3U);
+        EXPECT_EQ(set.planners[1].only, (std::vector<std::string>{"b"}));
+        const std::vector<Experiment> experiments = planExperiments(set);
+        ASSERT_EQ(experiments.size(), 2U);
+        EXPECT_EQ(experiments[0].planners, (std::vector<std::size_t>{0, 1, 2}));
+        EXPECT_EQ(experiments[1].planners, (std::vector<std::size_t>{0, 2}));
+        // What names no scenario at all is wrong as ever, and so is a comparison of nobody.
+        expectError([&] { planExperiments(replaced("prm=\nrrt=\nrrt.only=d\n").first); },
+                    {"set.cfg:9: planner RRT", "'d'", "b, c"});
+        expectError([&] { planExperiments(replaced("prm=\nprm.only=a\n").first); }, {"set.cfg:8: planner PRM", "'a'"});
+        EXPECT_TRUE(replaced("prm=\n").second.empty());
+    }
+
+    TEST_F(ExperimentTest, AVolumeWithNothingInItIsNamed)
+    {
+        const BenchmarkConfig set = config("prm=\nprm.problem.volume.min.y=1e6\n", "scenario = a.yaml\n");
+        try
+        {
+            planExperiments(set).front().load();
+            ADD_FAILURE() << "it was loaded";
+        }
+        catch (const SettingError &error)
+        {
+            EXPECT_EQ(set.lineOf(set.planners.front(), error.settings()), folder_.path("set.cfg") + ":7: ");
+            EXPECT_NE(std::string(error.what()).find("in which y is between "), std::string::npos) << error.what();
+        }
     }
 
     TEST_F(ExperimentTest, ScenariosOfTheSameNameAreToldApart)

@@ -109,6 +109,41 @@ namespace
         expectError([&] { set("reeds_shepp", "range", "1"); }, {"no parameters"});
     }
 
+    TEST(PlannerSettings, PlannersOfTheProjectRefuseWhatIsOutOfRangeWhenItIsSet)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        struct Range
+        {
+            const char *planner, *name, *least, *most, *below, *above;
+        };
+        for (const Range &each :
+             std::vector<Range>{{"textbook_hybrid_astar", "xy_resolution", "0.01", "10", "0", "10.1"},
+                                {"textbook_hybrid_astar", "heading_bins", "1", "4000", "0", "4001"},
+                                {"textbook_hybrid_astar", "steering_angles", "2", "1000", "1", "1001"},
+                                {"textbook_hybrid_astar", "motion_length", "0.01", "100", "-0.5", "101"},
+                                {"textbook_hybrid_astar", "reverse_penalty", "0", "1000", "-0.1", "1001"},
+                                {"textbook_hybrid_astar", "gear_change_penalty", "0", "1000", "-0.1", "1001"},
+                                {"textbook_hybrid_astar", "steering_penalty", "0", "1000", "-0.1", "1001"},
+                                {"textbook_hybrid_astar", "expansion_interval", "1", "1000000", "0", "1000001"},
+                                {"textbook_hybrid_astar", "heuristic_weight", "0", "1000", "-0.1", "1001"},
+                                {"control_RRT", "step", "0.01", "10", "0", "10.1"},
+                                {"control_SST", "goal_reach", "0.01", "1000", "0", "1001"}})
+        {
+            SCOPED_TRACE(std::string(each.planner) + " " + each.name);
+            const PlannerEntry &entry = registry.find(each.planner);
+            for (const char *value : {each.least, each.most})
+                EXPECT_NO_THROW(problem->prepare(entry, {{each.name, value}}));
+            for (const char *value : {each.below, each.above})
+                expectError(
+                    [&] {
+                        problem->prepare(entry, {{each.name, value}});
+                    },
+                    {each.planner, std::string(each.name) + " must be between " + each.least + " and " + each.most +
+                                       ", not " + value});
+        }
+    }
+
     TEST(PlannerSettings, AParameterSetComesFirst)
     {
         const std::unique_ptr<Problem> problem = openField();

@@ -38,15 +38,28 @@ class Configuration(InputTest):
 
     def test_planners_and_parameters(self):
         self.refused(planner='rrtstr=', parts=['set.cfg:10:', "did you mean 'RRTstar'", 'reeds_shepp'])
-        self.refused(planner='RRTstar=\nRRTstar.rnge=1', parts=["did you mean 'range'", 'goal_bias'])
-        self.refused(planner='RRTstar=\nRRTstar.range=far', parts=['range', 'far'])
+        self.refused(planner='RRTstar=\nRRTstar.rnge=1', parts=['set.cfg:11:', "did you mean 'range'", 'goal_bias'])
+        self.refused(planner='improved_astar.foo=1', parts=['set.cfg:10: planner improved_astar on angled45: ', "'foo'"])
+        self.refused(planner='improved_astar.anytime=maybe', parts=['set.cfg:10:', 'anytime', "'maybe'"])
+        self.refused(planner='# none\nimproved_astar.heading_bins=7', parts=['set.cfg:11:', 'heading_bins must be between'])
+        self.refused(planner='textbook_hybrid_astar=\ntextbook_hybrid_astar.heading_bins=0',
+                     parts=['set.cfg:11:', 'textbook_hybrid_astar', 'heading_bins must be between 1 and 4000, not 0'])
+        self.refused_benchmark('set.cfg', '--isolate', parts=['set.cfg:11:', 'heading_bins must be between'])
+        self.refused(planner='control_RRT=\ncontrol_RRT.step=0', parts=['set.cfg:11:', 'step must be between 0.01 and 10, not 0'])
+        self.refused(planner='improved_astar.motion_model=grid8', parts=['set.cfg:9: planner', 'SE2'])  # where it is added
+        self.refused(planner='RRTstar=\nRRTstar.range=far', parts=['set.cfg:11:', 'range', 'far'])
         self.refused(planner='PRM=3', parts=['set.cfg:10:', 'PRM='])
         self.refused(planner='RRTstar.range=1', parts=['set.cfg:10:', 'RRTstar='])
         self.refused(planner='PRM=\nPRM.name=improved_astar', parts=['set.cfg:11:', 'already'])
         self.refused(planner='PRM=\nPRM.name=../x', parts=['set.cfg:11:', '../x'])
-        self.refused(planner='PRM=\nPRM.only=angled', parts=["did you mean 'angled45'"])
+        self.refused(planner='PRM=\nPRM.only=angled', parts=['set.cfg:11:', "did you mean 'angled45'"])
         self.refused(planner='PRM=\nPRM.only=', parts=['set.cfg:11:', 'only'])
         self.refused(planner='PRM=\nPRM.problem.scenario=x', parts=['set.cfg:11:', 'only'])
+
+    def test_keys_that_are_given_twice(self):
+        self.refused(benchmark='run_count = 3', parts=["set.cfg:7: 'run_count' is given twice, first at set.cfg:6"])
+        self.refused(planner='improved_astar.anytime=1\nimproved_astar.anytime=0',
+                     parts=["set.cfg:11: 'improved_astar.anytime' is given twice, first at set.cfg:10"])
 
     def test_values(self):
         for key in ('time_limit', 'mem_limit'):
@@ -63,11 +76,14 @@ class Configuration(InputTest):
         self.refused(problem='scenario =', parts=['set.cfg:3:', 'name of a scenario is empty'])
         self.refused(problem='scenario = gone.yaml', parts=['set.cfg:3:', 'gone.yaml', 'No such file'])
         self.refused(problem='space = se3', parts=["did you mean 'se2'"])
-        self.refused(problem='footprint = circle', parts=['se2'])
+        self.refused(problem='footprint = circle', parts=['set.cfg:3:', 'se2'])
+        self.refused(planner='improved_astar.problem.footprint=circle', parts=['set.cfg:10:', 'se2'])
+        self.refused(problem='circle_radius = 1', parts=['set.cfg:3:', 'rectangle', 'footprint = circle'])
         self.refused(problem='circle_radius = -1', parts=['circle_radius'])
         self.refused(problem='start.x = nan', parts=['start.x'])
-        self.refused(problem='start.x = 1', parts=['theta'])
-        self.refused(problem='volume.min.x = 1e9', parts=['volume'])
+        self.refused(problem='start.x = 1', parts=['set.cfg:3:', 'theta', 'start.y is missing'])
+        self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'in which x is between'])
+        self.refused(problem='volume.min.x = 3\nvolume.max.x = 2', parts=['set.cfg:4: volume.max.x must be greater'])
         self.refused(problem='objective = clearance', parts=['length'])
         self.refused(problem='sampler = best', parts=['gaussian'])
 
@@ -165,7 +181,26 @@ class Options(InputTest):
                 self.refused_benchmark('set.cfg', *arguments, parts=[part])
 
 
+class OtherScenarios(InputTest):
+    def test_who_is_run_on_the_former_ones_only_is_left_out_and_named(self):
+        self.write('set.cfg', CONFIG % ('', '', 'PRM=\nPRM.only=angled45\nRRT=\nRRT.only=angled45, tight*\n'))
+        arguments = ['set.cfg', '--runs', 1, '--time', 5, '--quiet', '--output', 'out', '--scenarios', bundled('perpendicular')]
+        done = self.benchmark(*arguments, '--planner', 'improved_astar', '--planner', 'PRM')
+        self.assertIn("set.cfg: not run, as 'only' names none of the scenarios of --scenarios: PRM\n", done.stderr)
+        with self.subTest('a name that neither has'):
+            self.refused_benchmark(*arguments, '--planner', 'RRT', parts=['set.cfg:13: planner RRT', 'tight*', 'perpendicular'])
+        with self.subTest('nobody is left'):
+            self.refused_benchmark(*arguments, '--planner', 'PRM', parts=['set.cfg:11: planner PRM', 'angled45', 'perpendicular'])
+
+
 class Output(InputTest):
+    def test_no_folder_is_made_for_runs_that_are_not_there(self):
+        os.mkdir(self.path('empty'))
+        self.write('set.cfg', CONFIG % ('', '', ''))
+        for source, part in (('nosuch', 'nosuch'), ('empty', 'empty: holds no runs')):
+            self.refused_benchmark('set.cfg', '--merge', '--from', source, '--output', 'new', parts=[part])
+            self.assertFalse(os.path.exists(self.path('new')))
+
     def test_inputs_are_not_written_over(self):
         case = '0,0,0,5,5,0,1,4,2,2,3,2,3,3,2,3\n'
         for name in ('summary.csv', 'pairs.csv', 'paths/case.csv', 'pictures/drawn.svg'):

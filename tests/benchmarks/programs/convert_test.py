@@ -411,7 +411,12 @@ class ResultsTest(ConvertTest):
             self.assertIn(option + ' changes a problem', self.refused('result.json', 'out.csv', option, value))
         del result['planned_trajectory']
         self.write('plain.json', json.dumps(result))
-        self.assertIn('--trajectory', self.refused('plain.json', 'out.csv'))
+        for name, extra in (('out.csv', []), ('out.csv', ['--to', 'tpcap-trajectory']),
+                            ('out.mat', ['--to', 'commonparking-trajectory'])):
+            self.assertIn('plain.json: the result has no trajectory', self.refused('plain.json', name, *extra))
+            self.assertIn('plan with --trajectory or --track', self.refused('plain.json', name, *extra))
+        self.assertIn('--to: commonparking-path (.mat), commonparking-trajectory (.mat), tpcap-trajectory (.csv)',
+                      self.refused('plain.json', 'out.txt'))
         result['path'] = []
         self.write('plain.json', json.dumps(result))
         self.assertIn('no path', self.refused('plain.json', 'out.mat'))

@@ -167,6 +167,7 @@ class Output(ProgramTest):
             for name in ('nowhere/out', 'file/out', '/', ''):
                 with self.subTest(option=option, name=name):
                     self.refused_plan(bundled('angled45'), option, name)
+            self.refused_plan(bundled('angled45'), option, '', parts=[f'{option} must name a file'])
             self.refused_plan(bundled('angled45'), option, '/dev/full', parts=['No space left'])
         self.assertEqual(os.listdir(self.folder), ['file'])
 
@@ -216,8 +217,8 @@ class Output(ProgramTest):
 
     def test_standard_output_that_is_full(self):
         with open('/dev/full', 'w') as full:
-            for extra in ([], ['--json', '-']):
-                done = subprocess.run([PLAN, bundled('angled45')] + extra, stdout=full, stderr=subprocess.PIPE,
+            for arguments in ([bundled('angled45')], [bundled('angled45'), '--json', '-'], ['--help']):
+                done = subprocess.run([PLAN] + arguments, stdout=full, stderr=subprocess.PIPE,
                                       text=True, timeout=60, check=False)
                 self.assertEqual(done.returncode, 2)
                 self.assertIn('standard output', done.stderr)

@@ -107,6 +107,8 @@ class Bundled(ProgramTest):
         self.assertAlmostEqual(result['goal_distance_m'], distance, delta=1e-6)
         start = result['start']
         self.assertLess(distance, 0.5 * math.hypot(start['x'] - goal['x'], start['y'] - goal['y']))
+        self.assertEqual(result['reason'],
+                         'no goal is valid: the car is in collision at the goal 0, -3.8883, 1.570796327')
 
     def test_grid_models_plan_for_a_disc_in_the_plane(self):
         for model in ('grid8', 'grid16'):

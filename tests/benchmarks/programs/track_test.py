@@ -62,6 +62,31 @@ class TrackTest(ProgramTest):
         self.assertIn('<!DOCTYPE html>', page)
         self.assertIn('perpendicular', page)
 
+    def test_without_the_trajectory_that_was_asked_for_nothing_is_driven(self):
+        # Not its path, either: that was not asked for, and here no car can drive it.
+        on_the_spot = [bundled('parallel'), '--space', 'se2', '--planner', 'RRTConnect', '--time-limit', '5']
+        both = on_the_spot + ['--trajectory', '--track', '--svg', 'a.svg']
+        why = 'there is no trajectory to drive: piece 3 of the path turns on the spot; no car can'
+        result = self.planned(*both)
+        self.assertEqual(result['tracking'], {'arrived': False, 'message': why})
+        self.assertEqual((result['trajectory'], result['planned_trajectory']), ([], []))
+        self.assertIn('turns on the spot', result['trajectory_optimization']['message'])
+        self.assertIn('car along the path', self.read('a.svg'))
+        self.assertNotIn('driven in', self.read('a.svg'))
+        done = self.plan(*both, '--html', 'a.html', status=4)
+        self.assertIn(f'  not driven: {why}\n', done.stdout)
+        self.assertEqual(done.stderr, f'parking_plan: a.html is not written: not driven: {why}\n')
+        self.assertFalse(os.path.exists(self.path('a.html')))
+
+    def test_who_cuts_corners_says_so(self):
+        grid = [bundled('parallel'), '--track', '--set', 'parameter_set=basic_astar']
+        deviation = self.planned(*grid)['tracking']['corner_deviation_m']
+        self.assertGreater(deviation, 0.0)
+        self.assertIn(f"(no car can drive the path's corners; it leaves the path there by up to {deviation:.2f} m)",
+                      self.plan(*grid).stdout)
+        self.assertEqual(self.planned(bundled('parallel'), '--track')['tracking']['corner_deviation_m'], 0.0)
+        self.assertNotIn('corners', self.plan(bundled('parallel'), '--track').stdout)
+
     def test_without_a_drive_there_is_no_page(self):
         self.refused_plan(bundled('perpendicular'), '--html', 'a.html', parts=['--track'])
         self.refused_plan(bundled('perpendicular'), '--track', '--html', 'no/folder/a.html', parts=['no/folder'])

@@ -6,7 +6,10 @@ import argparse
 import json
 import os
 import random
+import shutil
 import sys
+import tempfile
+import unittest
 
 REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', '..', 'benchmarks', 'report')
 MAKE_REPORT = os.path.join(REPORT, 'make_report')
@@ -34,6 +37,17 @@ def record(problem, planner, run, outcome, first=None, length=None, progress=Non
         made['path'] = {'exact': outcome != 'approximate', 'start': [0.0, 0.0, 0.0],
                         'pieces': [[0.0, 2.0], [0.2, -3.0], [0.1], [0.0, -0.5, 0.2]]}
     return made
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a folder of its own, gone afterwards."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
 
 
 def write(folder, records, header=None, name='runs.jsonl'):

@@ -9,7 +9,6 @@ import sqlite3
 import statistics
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -71,14 +70,7 @@ class Page(html.parser.HTMLParser):
             self.cell.append(data)
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class Folder(made_results.FolderTest):
     def page(self, *arguments):
         done = make_report(self.folder, *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
