@@ -159,7 +159,13 @@ namespace ompl::geometric
         query_->stateEnvironment = std::make_unique<parking::StateSpaceEnvironment>(
             si_, std::min(CHECK_STEP * radius, si_->getStateSpace()->getLongestValidSegmentLength()),
             query_->stateSpacing(), circle == nullptr);
-        query_->stateEnvironment->setEnding([this](std::vector<Pose> &poses) { endAtGoal(poses); });
+        query_->stateEnvironment->setEnding(
+            [this](std::vector<Pose> &poses)
+            {
+                // Parts of paths are asked for, too, which end elsewhere.
+                if (isAtGoal(poses.back()))
+                    endAtGoal(poses);
+            });
         query_->footprintEnvironment.reset();
 
         parking::search::CarInSpace &car = query_->car;

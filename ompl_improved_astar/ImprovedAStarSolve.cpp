@@ -28,6 +28,14 @@ namespace ompl::geometric
 
         /** Metres and radians. */
         constexpr double SAME_POSE = 1e-12;
+        /** Turning radii: what ends nearer to a goal ends there, but for rounding. */
+        constexpr double AT_GOAL = 1e-3;
+
+        /** Metres and radians in one sum. */
+        double deviation(const Pose &a, const Pose &b)
+        {
+            return parking::positionDistance(a, b) + std::abs(parking::wrapAngle(a.yaw - b.yaw));
+        }
     }  // namespace
 
     Path ImprovedAStar::smoothed(const Path &path, const ob::PlannerTerminationCondition &ptc) const
@@ -187,16 +195,19 @@ namespace ompl::geometric
         return difference;
     }
 
+    bool ImprovedAStar::isAtGoal(const Pose &pose) const
+    {
+        return std::any_of(query_->goals.begin(), query_->goals.end(),
+                           [&](const Pose &goal) { return deviation(goal, pose) < AT_GOAL * query_->turningRadius(); });
+    }
+
     void ImprovedAStar::endAtGoal(std::vector<Pose> &poses) const
     {
         // The exact goal; the path ends there up to rounding.
         const Pose end = poses.back();
-        const auto off = [&end](const Pose &goal)
-        {
-            return positionDistance(goal, end) + std::abs(parking::wrapAngle(goal.yaw - end.yaw));
-        };
-        const Pose goal = *std::min_element(query_->goals.begin(), query_->goals.end(),
-                                            [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });
+        const Pose goal =
+            *std::min_element(query_->goals.begin(), query_->goals.end(),
+                              [&end](const Pose &a, const Pose &b) { return deviation(a, end) < deviation(b, end); });
         if (poses.size() == 1)
             poses.push_back(end);
         // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but OMPL

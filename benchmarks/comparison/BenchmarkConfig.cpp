@@ -162,6 +162,8 @@ namespace parking
             if (config.planners.empty() || config.planners.back().planner != entry.name)
                 throw Error("'" + key + "' sets a parameter of a planner that is not the last one added; put '" +
                             key.substr(0, dot) + "=' before it");
+            if (parameter.empty())
+                throw Error("'" + key + "' names no parameter; one is set by '" + entry.name + ".parameter=value'");
             PlannerSpec &spec = config.planners.back();
             lines.noteOnce(spec.lines, parameter, key, index);
             if (parameter == "name")

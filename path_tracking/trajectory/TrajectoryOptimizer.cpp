@@ -365,7 +365,8 @@ namespace parking
         if (interrupted && interrupted())
             result.reason = "interrupted";
         else if (searched.empty())
-            result.reason = "driving takes too long to look for better";
+            result.reason =
+                "driving takes more than " + formatNumber(MOST_INTERVALS) + " steps, too long to look for better";
         else
             improve(paths, searched, interrupted, result);
         limitJerk(result);

@@ -157,13 +157,14 @@ const Formats = (() => {
       if (!isNumber(value[name])) fail(file, 0, `slot: ${name} must be a number`);
       return value[name];
     };
+    if (value.angle !== undefined && value.kind !== 'angled') fail(file, 0, `slot: angle is given for a slot of the kind ${short(value.kind)}; only angled slots have one`);
     return { kind: choice('kind', KINDS), pose: numbers(file, 'slot: pose', value.pose, 3), length: number('length'), width: number('width'),
       entry: choice('entry', ENTRIES, 'reverse'), angle: number('angle', Math.PI / 4), side: choice('side', SIDES, 'either'),
       depth: value.depth === undefined ? null : number('depth'), lateral_offset: number('lateral_offset', 0) };
   }
 
   function polygons(file, list) {
-    if (list === null) return [];
+    if (list === null) fail(file, 0, 'polygons is nothing; write [] for none');
     if (!Array.isArray(list)) fail(file, 0, 'polygons must be a list of polygons, each a list of [x, y]');
     return list.map((polygon, index) => {
       if (!Array.isArray(polygon) || polygon.length < 3) fail(file, 0, `polygon ${index + 1} must be a list of at least 3 corners [x, y]`);
@@ -181,6 +182,7 @@ const Formats = (() => {
     const keys = ['name', 'map', 'polygons', 'vehicle', 'start', 'goal', 'slot', 'unknown_is_occupied'];
     for (const key of Object.keys(yaml)) if (!keys.includes(key)) fail(file, 0, `unknown key '${short(key)}'; known: ${keys.join(', ')}`);
     if ((yaml.map === undefined) === (yaml.polygons === undefined)) fail(file, 0, yaml.map === undefined ? 'neither map nor polygons is given; one of them must be' : 'both map and polygons are given; give one of them');
+    if (yaml.polygons !== undefined && yaml.unknown_is_occupied !== undefined) fail(file, 0, 'unknown_is_occupied is given for a world of polygons; only cells of a map are unknown');
     if ((yaml.goal === undefined) === (yaml.slot === undefined)) fail(file, 0, yaml.goal === undefined ? 'neither goal nor slot is given; one of them must be' : 'both goal and slot are given; give one of them');
     const scene = { name: String(yaml.name || nameOf(file)), vehicle: vehicle(file, yaml.vehicle, known), start: numbers(file, 'start', yaml.start, 3),
       goals: yaml.goal === undefined ? [] : [numbers(file, 'goal', yaml.goal, 3)], slot: yaml.slot === undefined ? null : slot(file, yaml.slot || {}),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -222,6 +223,32 @@ namespace
         planner.setProblemDefinition(pdef);
         for (int call = 0; call < 2; ++call)
             EXPECT_THROW(planner.solve(ob::timedPlannerTerminationCondition(0.5)), ompl::Exception);
+    }
+
+    TEST_F(PlannerSpaces, PartsArePlannedAnewWhereTheMotionValidatorHasTheLastWord)
+    {
+        // The part ends where boxes are in the way to the goal.
+        const Site site{
+            {box(40.52, -8.97, 41.68, -5.11), box(30.09, -17.63, 32.37, -13.80), box(41.76, -8.16, 44.07, -3.92),
+             box(49.92, -11.56, 54.59, -7.80), box(30.74, -5.58, 35.25, -3.64), box(13.07, -19.71, 16.81, -16.04),
+             box(32.17, -7.31, 36.11, -6.29), box(11.40, -1.31, 14.31, 1.04), box(27.00, -11.64, 28.34, -10.34),
+             box(20.03, -9.18, 24.13, -5.40), box(11.57, 4.98, 15.74, 8.69), box(51.07, -15.74, 53.72, -12.46),
+             box(47.83, -2.45, 51.35, 1.68), box(23.97, -4.52, 27.81, -2.51)},
+            {{-10.0, -29.71}, {70.0, 18.69}}};
+        const parking::FootprintChecker checker(site.set(), parking::Vehicle());
+        const auto leastClearanceIn = [&](Space kind)
+        {
+            PlanningProblem problem(kind, site);
+            problem.set("preferred_clearance", 0.3);
+            problem.from({0.0, 0.0, 0.01});
+            problem.to({{60.0, -8.27, 0.76}});
+            EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            double least = 1e9;
+            for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.05))
+                least = std::min(least, checker.clearance(state.pose));
+            return least;
+        };
+        EXPECT_NEAR(leastClearanceIn(Space::SE2), leastClearanceIn(Space::ReedsShepp), 0.01);
     }
 
     TEST_F(PlannerSpaces, FarFromTheOriginWhatIsCalledExactIsFree)

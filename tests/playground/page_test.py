@@ -272,6 +272,10 @@ class PageTest(unittest.TestCase):
         for name, content, words in (
                 ('a.yaml', 'start: [0, 0]\ngoal: [1, 1, 0]\npolygons: []\n', 'start must be a list of 3 numbers'),
                 ('a.yaml', 'start: [0, 0, 0]\npolygons: []\n', 'neither goal nor slot'),
+                ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 1, 0]\npolygons:\n', 'polygons is nothing'),
+                ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 1, 0]\npolygons: []\nunknown_is_occupied: true\n', 'only cells of a map'),
+                ('a.yaml', 'start: [0, 0, 0]\nslot: {kind: parallel, pose: [1, 1, 0], length: 6, width: 2, angle: 1}\npolygons: []\n',
+                 'only angled slots'),
                 ('a.yaml', 'start: [0, 0, 0]\nstart: [0, 0, 0]\n', 'given twice'),
                 ('a.yaml', 'start: [0, 0, 0\n', 'a bracket is not closed'),
                 ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 0, 0]\nmap: other.yaml\n', 'is not here'),

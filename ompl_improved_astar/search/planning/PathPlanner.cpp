@@ -83,7 +83,7 @@ namespace parking::search
 
     double PathPlanner::closenessShare(const Path &path, double cost) const
     {
-        return (cost - costWithoutCloseness(search_.cost(), path)) / cost;
+        return cost > 0.0 ? (cost - costWithoutCloseness(search_.cost(), path)) / cost : 0.0;
     }
 
     bool PathPlanner::passesClosely(const Path &path, double cost)
@@ -184,15 +184,12 @@ namespace parking::search
         if (parameters_.shorten && !isBare)
             relaxFirst(best, cost, cost / expected);
         if (parameters_.shorten && search_.cost().prefersClearance())
-            findRoom(best, cost);
+            findRoom(best, cost, OtherWay::Allowed);
         take(best, cost);
-        if (parameters_.shorten && !goodEnough_ && !search_.isFull() && passesClosely(best, cost) &&
-            searchAnew(NEVER, 1) && search_.cost().prefersClearance())
+        if (parameters_.shorten && !goodEnough_ && !search_.isFull() && passesClosely(best, cost))
         {
-            best = bestPath_;
-            cost = bestCost_;
-            findRoom(best, cost);
-            take(best, cost);
+            restarts_.setMaxMemory(memoryLeft());
+            searchAnew(NEVER, 1, Room::Sought);
         }
     }
 
@@ -217,7 +214,7 @@ namespace parking::search
             goOn(tuning.secondAfterthought);
     }
 
-    bool PathPlanner::searchAnew(std::uint64_t expansions, std::uint64_t searches)
+    bool PathPlanner::searchAnew(std::uint64_t expansions, std::uint64_t searches, Room room)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         const double factor = parameters_.shorten ? tuning.dearerToBeShortened : 1.0;
@@ -232,6 +229,8 @@ namespace parking::search
                 shortenTwice(path, cost);
             if (parameters_.shorten && cost < factor * bestCost_)
                 relaxAndShorten(path, cost);
+            if (room == Room::Sought && search_.cost().prefersClearance() && cost < factor * bestCost_)
+                findRoom(path, cost, OtherWay::Excluded);
             progress = take(path, cost) || progress;
         }
         return progress;
@@ -283,7 +282,7 @@ namespace parking::search
                 searching = outcome != SearchOutcome::Exhausted;
             }
             if (!goodEnough_ && !isTimeUp())
-                progress = searchAnew(tuning.expansionsPerRound, tuning.restartsPerRound) || progress;
+                progress = searchAnew(tuning.expansionsPerRound, tuning.restartsPerRound, Room::AsItIs) || progress;
             if (isShortestPossible(bestPath_, bestCost_) || (!searching && !progress && round_ > tuning.leastRounds))
                 return Outcome::Solved;
         }

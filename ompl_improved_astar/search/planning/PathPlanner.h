@@ -137,6 +137,20 @@ namespace parking::search
             return most - std::min(most, search_.memory());
         }
 
+        /** May a path give way to quite another one for the sake of room? */
+        enum class OtherWay
+        {
+            Allowed,
+            Excluded
+        };
+
+        /** Is what a search finds led past obstacles, too? */
+        enum class Room
+        {
+            Sought,
+            AsItIs
+        };
+
         Outcome goOnSolving();
         bool take(const Path &path, double cost);
         /** Does \e path still cost less than the best one where both are looked at more closely? Not if there is no
@@ -170,8 +184,9 @@ namespace parking::search
         bool takeForRoom(const Path &other, double most, Path &path, double &cost);
         /** Leads the path past what it comes too near to. Does it keep what is preferred then? */
         bool widen(Path &path, double &cost);
-        /** The same; then plans parts anew that still come too near to something. */
-        void findRoom(Path &best, double &cost);
+        /** The same; then looks for another way, where it may, and plans parts anew that still come too near to
+            something. */
+        void findRoom(Path &best, double &cost, OtherWay otherWay);
         /** Looks for another way that keeps what is preferred, if the path passes closely. Is it cheaper? */
         bool findWayWithRoom(Path &path, double &cost);
         /** Is much of what a path costs for being near to obstacles, and not only where it begins and ends? */
@@ -182,7 +197,7 @@ namespace parking::search
         double expectedLength();
         bool isShortestPossible(const Path &path, double cost);
         /** Looks for something cheaper by searches that begin anew, by no more of either than so many. */
-        bool searchAnew(std::uint64_t expansions, std::uint64_t searches);
+        bool searchAnew(std::uint64_t expansions, std::uint64_t searches, Room room);
         Outcome improve();
 
         MotionEnvironment *environment_{nullptr};

@@ -203,7 +203,7 @@ namespace parking::search
         return true;
     }
 
-    void PathPlanner::findRoom(Path &best, double &cost)
+    void PathPlanner::findRoom(Path &best, double &cost, OtherWay otherWay)
     {
         const SearchTuning &tuning = parameters_.search.tuning;
         const double clearance = search_.cost().preferredClearance, radius = parameters_.search.turningRadius;
@@ -211,7 +211,10 @@ namespace parking::search
         {
             return closeParts(*environment_, best, 0.0, clearance, radius, stop_);
         };
-        bool hasRoom = isTimeUp() || widen(best, cost) || (findWayWithRoom(best, cost) && widen(best, cost));
+        bool hasRoom = isTimeUp() || widen(best, cost);
+        if (!hasRoom && otherWay == OtherWay::Allowed && findWayWithRoom(best, cost))
+            hasRoom = isTimeUp() || widen(best, cost);
+        const std::uint64_t before = replanner_.expanded();
         std::vector<ClosePart> parts;
         if (!hasRoom)
             parts = closePartsOfBest();
@@ -224,10 +227,10 @@ namespace parking::search
                 return;
             // All parts share what the effort for the path is worth, but each is worth a little.
             const double unspent = tuning.shareForRoom * static_cast<double>(search_.expanded()) -
-                                   static_cast<double>(replanner_.expanded());
+                                   static_cast<double>(replanner_.expanded() - before);
             const auto most = static_cast<std::uint64_t>(std::clamp(unspent, tuning.leastForRoom, tuning.mostForRoom));
             const std::optional<Path> replanned = replanner_.replan(best, *part, {most, memoryLeft()}, stop_);
-            const double before = cost;
+            const double costBefore = cost;
             if (!replanned || !takeForRoom(*replanned, cost, best, cost))
             {
                 left = part->end;
@@ -235,8 +238,8 @@ namespace parking::search
             }
             Path wider = best;
             double costOfWider = cost;
-            hasRoom = widen(wider, costOfWider) && costOfWider < before;
-            if (costOfWider < before)
+            hasRoom = widen(wider, costOfWider) && costOfWider < costBefore;
+            if (costOfWider < costBefore)
             {
                 best = std::move(wider);
                 cost = costOfWider;

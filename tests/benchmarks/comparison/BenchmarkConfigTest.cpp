@@ -118,6 +118,7 @@ rrt=
                     {"set.cfg:4:", "did you mean 'scenario'"});
         expectError([&] { read("[planner]\nprm=\n[benchmark]\nrun_count = 0\n"); }, {"set.cfg:4:", "run_count"});
         expectError([&] { read("[planner]\nprm=\nrrt.range=3\n"); }, {"set.cfg:3:", "rrt="});
+        expectError([&] { read("[planner]\nrrt=\nrrt.=3\n"); }, {"set.cfg:3:", "names no parameter"});
         expectError([&] { read("[problem]\nscenario = a\nvehicle = x\n[planner]\nprm=\n"); }, {"set.cfg:3:", "'x'"});
         expectError([&] { read("[problem]\nscenario =\n[planner]\nprm=\n"); }, {"set.cfg:2:", "empty"});
         expectError([&] { read("scenario = a\n"); }, {"set.cfg:1:", "no section"});
