@@ -10,8 +10,7 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr std::uint64_t NEVER = std::uint64_t{1} << 62;  // expansions
-    }                                                            // namespace
+    }  // namespace
 
     void PathPlanner::begin(MotionEnvironment &environment, const PathPlannerParameters &parameters)
     {
@@ -189,7 +188,7 @@ namespace parking::search
         if (parameters_.shorten && !goodEnough_ && !search_.isFull() && passesClosely(best, cost))
         {
             restarts_.setMaxMemory(memoryLeft());
-            searchAnew(NEVER, 1, Room::Sought);
+            searchAnew(ENDLESS, 1, Room::Sought);
         }
     }
 

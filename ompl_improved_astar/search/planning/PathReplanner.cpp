@@ -12,16 +12,12 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr std::uint64_t NEVER = std::uint64_t{1} << 62;  // expansions
-    }                                                            // namespace
+    }  // namespace
 
     void PathReplanner::begin(MotionEnvironment &environment, const SearchParameters &parameters)
     {
         environment_ = &environment;
-        parameters_ = parameters;
-        parameters_.eagerObstacles = false;
-        // A way is known: that there is none need not be proven.
-        parameters_.tuning.enclosureAfter = NEVER;
+        parameters_ = besideKnownWay(parameters);
         side_.forget();
         connections_ = 0;
     }

@@ -11,8 +11,6 @@ namespace parking::search
             unreasonable effectiveness of quasirandom sequences", 2018). */
         constexpr double STEPS[3]{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
 
-        constexpr std::uint64_t NEVER = std::uint64_t{1} << 62;  // expansions
-
         double fraction(std::uint64_t number, std::size_t dimension)
         {
             return std::fmod(0.5 + STEPS[dimension] * static_cast<double>(number), 1.0);
@@ -37,11 +35,8 @@ namespace parking::search
     bool Restarts::beginNext(const StopFunction &stop, double mostCost)
     {
         const SearchTuning &tuning = parameters_.tuning;
-        SearchParameters parameters = parameters_;
-        parameters.eagerObstacles = false;
-        // A way is known: that there is none need not be proven.
-        parameters.tuning.enclosureAfter = NEVER;
-        // Nor need another be found at any cost.
+        SearchParameters parameters = besideKnownWay(parameters_);
+        // Nor need another way be found at any cost.
         parameters.tuning.greedyDetours = false;
         const std::uint64_t number = searches_ + 1;
         const double longer = between(1.0 - tuning.otherMotions, 1.0 + tuning.otherMotions, fraction(number, 0));

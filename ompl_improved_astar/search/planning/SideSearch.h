@@ -9,6 +9,18 @@
 
 namespace parking::search
 {
+    /** \brief More expansions than there ever are. */
+    constexpr std::uint64_t ENDLESS = std::uint64_t{1} << 62;
+
+    /** \brief The same parameters for a search beside a way that is known: that there is none need not be proven, nor
+        are all obstacles loaded beforehand. */
+    inline SearchParameters besideKnownWay(SearchParameters parameters)
+    {
+        parameters.eagerObstacles = false;
+        parameters.tuning.enclosureAfter = ENDLESS;
+        return parameters;
+    }
+
     /** \brief A search beside that for the first path, which may begin anew again and again in one query.
 
         Counts what all of them did. It takes memory from the first time on that one begins, and keeps it from query to
