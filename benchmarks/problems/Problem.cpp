@@ -1,5 +1,6 @@
 #include "benchmarks/problems/Problem.h"
 
+#include "benchmarks/planners/SettingError.h"
 #include "benchmarks/problems/CircleMotionValidator.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/Error.h"
@@ -52,6 +53,23 @@ namespace parking
             }
             space->setBounds(bounds);
             return space;
+        }
+
+        constexpr const char *TURNING_RADIUS = "turning_radius";
+
+        /** Throws SettingError for a turning radius that this project's planner would not look at. */
+        void requireUsedRadius(const ob::Planner &planner, const PlannerSettings &settings, const Problem &problem)
+        {
+            if (!problem.isDrivable() || dynamic_cast<const ompl::geometric::ImprovedAStar *>(&planner) == nullptr)
+                return;
+            const std::string ofCar = formatNumber(problem.scenario().vehicle.minTurningRadius());
+            for (const auto &[name, value] : settings)
+                if (name == TURNING_RADIUS && value != ofCar)
+                    throw SettingError({name}, "parameter turning_radius of " + planner.getName() +
+                                                   " counts in space se2 only: in space " +
+                                                   toString(problem.settings().space) + " the car turns within " +
+                                                   ofCar +
+                                                   " m, by the wheelbase and max_steering_angle of its vehicle");
         }
 
         PlannerSettings allSettings(const PlannerEntry &entry, const PlannerSettings &settings)
@@ -218,8 +236,9 @@ namespace parking
             throw Error("planner " + entry.name + ": its allocator returned nothing");
         prepared.planner->setName(entry.name);
         prepared.measured = dynamic_cast<MeasuredPlanner *>(prepared.planner.get());
-        if (prepared.planner->params().hasParam("turning_radius"))
-            applySettings(*prepared.planner, {{"turning_radius", formatNumber(scenario_.vehicle.minTurningRadius())}});
+        if (prepared.planner->params().hasParam(TURNING_RADIUS))
+            applySettings(*prepared.planner, {{TURNING_RADIUS, formatNumber(scenario_.vehicle.minTurningRadius())}});
+        requireUsedRadius(*prepared.planner, settings, *this);
         applySettings(*prepared.planner, allSettings(entry, settings));
         if (entry.optimizing && prepared.measured != nullptr)
         {

@@ -138,8 +138,8 @@ namespace parking
             would use up all of its time. The parameter `turning_radius`, where a planner has it, is set to the car's
             unless \e settings do; then the entry's and the user's settings are applied and the planner is set up.
 
-            Throws parking::Error for settings that are unknown or out of range, and for a planner that refuses the
-            space. */
+            Throws parking::Error for settings that are unknown, out of range or without effect in the space, and for a
+            planner that refuses the space. */
         PreparedPlanner prepare(const PlannerEntry &entry, const PlannerSettings &settings) const;
 
         /** \brief States and motions' poses checked since the last call of resetCounts(). */

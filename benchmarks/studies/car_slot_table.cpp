@@ -219,11 +219,18 @@ namespace
 int main(int argc, char **argv)
 {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    const bool check = arguments.size() == 2 && arguments[0] == "--check";
-    if (!check && (arguments.size() != 1 || arguments[0][0] == '-'))
+    const char *const usage =
+        "usage: car_slot_table FILE           write the table\n"
+        "       car_slot_table --check FILE   exit 1 when FILE is not what would be written\n";
+    if (arguments.size() == 1 && arguments[0] == "--help")
     {
-        std::cerr << "usage: car_slot_table FILE           write the table\n"
-                     "       car_slot_table --check FILE   exit 1 when FILE is not what would be written\n";
+        std::cout << usage;
+        return std::cout.flush() ? 0 : 2;
+    }
+    const bool check = arguments.size() == 2 && arguments[0] == "--check";
+    if (!check && (arguments.size() != 1 || arguments[0].empty() || arguments[0][0] == '-'))
+    {
+        std::cerr << usage;
         return 2;
     }
     try

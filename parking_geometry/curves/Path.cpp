@@ -191,15 +191,17 @@ namespace parking
     std::vector<Stretch> Path::stretches() const
     {
         std::vector<Stretch> result;
-        std::size_t begin = 0;  // of what goes with the next piece that drives
+        std::size_t first = 0;  // of what goes with the next piece that drives
+        double driven = 0.0;
         for (std::size_t i = 0; i < pieces.size(); ++i)
         {
             const int direction = pieces[i].direction();
             if (direction == 0)
                 continue;
             if (result.empty() || result.back().direction != direction)
-                result.push_back({begin, i + 1, direction});
-            result.back().last = begin = i + 1;
+                result.push_back({first, i + 1, direction, driven});
+            result.back().last = first = i + 1;
+            driven += pieces[i].driven();
         }
         if (!result.empty())
             result.back().last = pieces.size();

@@ -108,6 +108,7 @@ namespace parking
         std::size_t first{0};  ///< index of its first piece in Path::pieces
         std::size_t last{0};   ///< index of the piece behind its last one
         int direction{1};      ///< 1 forwards, -1 in reverse
+        double begin{0.0};     ///< metres driven along the path before it: behind the first stretch, where a cusp is
     };
 
     /** \brief A path in exact form: where it starts, and its pieces in the order in which they are driven.

@@ -34,6 +34,11 @@ namespace parking::python
         {
             Question question;
             question.parameters = parametersFrom(parameters);
+            // The default may be given: the parameters of another plan have it.
+            if (question.parameters.turningRadius != PlannerParameters().turningRadius)
+                throw Error(
+                    "turning_radius would change nothing: the car turns as its vehicle says, by wheelbase and "
+                    "max_steering_angle");
             question.parameters.anytime = flagFrom(anytime, "anytime");
             question.limits.expansions = countFrom(maxExpansions, "max_expansions");
             question.limits.time = numberFrom(timeLimit, "time_limit");

@@ -72,6 +72,8 @@ WRONG = [
     (lambda: ia.plan(world(), motion_model='bike'), "'bike'"),
     (lambda: ia.plan(world(), bidirectional='yes'), "bidirectional must be True or False, not 'yes'"),
     (lambda: ia.plan(world(), parameter_set='best'), "'best'"),
+    (lambda: ia.plan(world(), turning_radius=7), 'turning_radius would change nothing'),
+    (lambda: ia.plan_batch([world()], turning_radius=7), 'by wheelbase and max_steering_angle'),
     (lambda: ia.plan_batch(world()), 'scenarios must be a list of Scenario'),
     (lambda: ia.plan_batch([world(), 2]), 'scenarios[1] must be a Scenario, not 2'),
     (lambda: ia.plan_batch([world()], threads=-1), 'threads must be a whole number'),
@@ -114,6 +116,11 @@ def test_bad_pictures_are_refused():
     for values, expected in (({'footprints': 'all'}, 'footprints must be a number'), ({'axes': 3}, "axes must be matplotlib's")):
         with pytest.raises(ia.Error, match=expected):
             result.plot(**values)
+
+
+def test_the_parameters_of_a_plan_can_be_given_to_another():
+    result = ia.plan(world(), heading_bins=36)
+    assert ia.plan(world(), **result.parameters).parameters == result.parameters
 
 
 def test_numbers_of_numpy_are_numbers():

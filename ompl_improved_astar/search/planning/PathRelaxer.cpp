@@ -34,14 +34,9 @@ namespace parking::search
         std::vector<double> cuspsOf(const Path &path)
         {
             std::vector<double> cusps;
-            double driven = 0.0;
             for (const Stretch &stretch : path.stretches())
-            {
                 if (stretch.first > 0)
-                    cusps.push_back(driven);
-                for (std::size_t k = stretch.first; k < stretch.last; ++k)
-                    driven += path.pieces[k].driven();
-            }
+                    cusps.push_back(stretch.begin);
             return cusps;
         }
     }  // namespace

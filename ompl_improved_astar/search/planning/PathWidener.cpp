@@ -50,26 +50,12 @@ namespace parking::search
             return all;
         }
 
-        /** Where a car changes its direction. */
-        struct Cusp
+        /** What begins with the first cusp of a path about so many metres along it. */
+        std::optional<Stretch> behindCuspAt(const Path &path, double place)
         {
-            Pose pose;
-            double back;  ///< 1 if it goes on forwards from there, else -1
-        };
-
-        /** The first cusp of a path about so many metres along it. */
-        std::optional<Cusp> cuspAt(const Path &path, double place)
-        {
-            double driven = 0.0;
-            Pose pose = path.start;
-            for (std::size_t i = 0; i + 1 < path.pieces.size() && driven < place + AT_CUSP; ++i)
-            {
-                const double length = path.pieces[i].length, next = path.pieces[i + 1].length;
-                driven += path.pieces[i].driven();
-                pose = advance(pose, path.pieces[i]);
-                if (length * next < 0.0 && std::abs(driven - place) <= AT_CUSP)
-                    return Cusp{pose, next > 0.0 ? 1.0 : -1.0};
-            }
+            for (const Stretch &stretch : path.stretches())
+                if (stretch.first > 0 && std::abs(stretch.begin - place) <= AT_CUSP)
+                    return stretch;
             return std::nullopt;
         }
     }  // namespace
@@ -100,8 +86,8 @@ namespace parking::search
         };
         static const std::vector<Change> backwards = changesBackwards(), sidewards = changesSidewards();
         const Path &path = priced_.path;
-        if (const std::optional<Cusp> cusp = cuspAt(path, part.nearest);
-            cusp && !add(cusp->pose, backwards, cusp->back))
+        if (const std::optional<Stretch> behind = behindCuspAt(path, part.nearest);
+            behind && !add(path.at(behind->begin), backwards, behind->direction))
             return {};
         return add(path.at(part.nearest), sidewards, 1.0) ? result : std::vector<Pose>();
     }

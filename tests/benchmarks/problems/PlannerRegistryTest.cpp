@@ -86,6 +86,29 @@ namespace
         EXPECT_NEAR(radius, problem->scenario().vehicle.minTurningRadius(), 1e-4);
     }
 
+    TEST(PlannerSettings, ATurningRadiusThatWouldBeIgnoredIsRefused)
+    {
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        const Scenario scenario = openField()->scenario();
+        const auto prepareIn = [&](SpaceKind space, const char *planner)
+        {
+            ProblemSettings settings;
+            settings.space = space;
+            const Problem problem(scenario, settings);
+            return problem.prepare(registry.find(planner), {{"turning_radius", "7"}})
+                .planner->params()
+                .getParam("turning_radius")
+                ->getValue();
+        };
+        EXPECT_EQ(prepareIn(SpaceKind::SE2, "improved_astar"), "7");
+        for (const char *planner : {"improved_astar", "hybrid_astar"})
+        {
+            expectError([&] { prepareIn(SpaceKind::ReedsShepp, planner); },
+                        {"turning_radius", planner, "se2", "reeds_shepp", "max_steering_angle"});
+            expectError([&] { prepareIn(SpaceKind::Dubins, planner); }, {"turning_radius", "dubins"});
+        }
+    }
+
     TEST(PlannerSettings, TextsMustBeOfTheParametersType)
     {
         const std::unique_ptr<Problem> problem = openField();

@@ -190,6 +190,7 @@ TEST(Path, StretchesCoverThePathAndAlternate)
                 ASSERT_NE(path.pieces[p].direction(), -stretch.direction);
                 turns += path.pieces[p].turn != 0.0;
             }
+            ASSERT_NEAR(stretch.begin, length, 1e-12);
             length += path.part(stretch.first, stretch.last).length();
         }
         EXPECT_NEAR(length, path.length(), 1e-12);
