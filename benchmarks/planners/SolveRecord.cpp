@@ -6,6 +6,7 @@
 
 #include <ompl/geometric/PathGeometric.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -20,7 +21,8 @@ namespace parking
 
         std::atomic<bool> countsProcessorTime{false};
 
-        constexpr double LOOK = 0.05;  // seconds between two questions to the kernel
+        constexpr double LOOK = 0.05;    // seconds between two questions to the kernel whether a thread sleeps,
+        constexpr double LONGEST = 1.0;  // and at most so many between two looks at the clock
 
         /** Seconds in which this thread could have run and had no processor; infinite where the kernel does not tell.
          */
@@ -54,6 +56,7 @@ namespace parking
         steadyBegin_ = lastLook_ = std::chrono::steady_clock::now();
         queuedBefore_ = countsProcessorTime ? queuedTime() : 0.0;
         begin_ = Clock::now();
+        nextLook_ = steadyBegin_;
     }
 
     void SolveRecord::end()
@@ -106,6 +109,22 @@ namespace parking
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         return improvements_;
+    }
+
+    bool SolveRecord::isOver(double seconds)
+    {
+        using std::chrono::duration;
+        using std::chrono::steady_clock;
+        const steady_clock::time_point now = steady_clock::now();
+        if (now < nextLook_.load(std::memory_order_relaxed))
+            return false;
+        static const double processors = std::max(1U, std::thread::hardware_concurrency());
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const double left = seconds - duration<double>(Clock::now() - begin_).count();
+        const double pace = countsProcessorTime.load(std::memory_order_relaxed) ? processors : 1.0;
+        nextLook_ =
+            now + std::chrono::duration_cast<steady_clock::duration>(duration<double>(std::min(left / pace, LONGEST)));
+        return left <= 0.0;
     }
 
     bool SolveRecord::sleptLongerThan(double seconds)

@@ -69,6 +69,12 @@ namespace parking
         /** \brief All that were noted, in order of time, each of a lower cost than the one before. */
         std::vector<Improvement> improvements() const;
 
+        /** \brief Whether \e seconds of the clock have passed since begin().
+
+            A planner asks this after every expansion or sample, and the kernel's answer to what a process has computed
+            takes longer than many of these: it is asked again only once all processors together may have got there. */
+        bool isOver(double seconds);
+
         /** \brief Whether the thread that called begin() has slept for longer than \e seconds since, while no thread of
             this process computed: by processor time, a planner that waits would not come to its limit.
 
@@ -84,6 +90,7 @@ namespace parking
         double cpuBegin_{0.0};
         std::thread::id thread_;  // that called begin()
         std::chrono::steady_clock::time_point steadyBegin_, lastLook_;
+        std::atomic<std::chrono::steady_clock::time_point> nextLook_;  // at the clock; never over before
         double queuedBefore_{0.0};  // seconds in which it waited for a processor before begin()
         double wallTime_{0.0};
         double cpuTime_{0.0};
@@ -200,17 +207,14 @@ namespace parking
             failure(); TIMEOUT when it speaks of an approximate solution and there is none. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
         {
-            const auto limit = std::chrono::duration<double>(timeLimit_);
             record_->begin();
             if (failure_.kind != PlannerFailure::Kind::None)
                 return ompl::base::PlannerStatus::CRASH;  // in clear()
-            const SolveRecord::Clock::time_point begin = SolveRecord::Clock::now();
             wasStopped_ = false;
             const ompl::base::PlannerTerminationCondition timeUp(
                 [&]
                 {
-                    const bool stop = SolveRecord::Clock::now() - begin >= limit || ptc() ||
-                                      record_->sleptLongerThan(limit.count()) ||
+                    const bool stop = record_->isOver(timeLimit_) || ptc() || record_->sleptLongerThan(timeLimit_) ||
                                       (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
                     if (stop)
                         wasStopped_ = true;

@@ -8,6 +8,9 @@
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
+#include <thread>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace
@@ -212,6 +215,47 @@ namespace
         prepared.planner->solve(ompl::base::plannerNonTerminatingCondition());  // or it never comes back
         SolveRecord::Clock::countProcessorTime(false);
         EXPECT_TRUE(prepared.measured->wasStopped());
+    }
+
+    /** Lets threads compute until \e record says that a limit is over, and says which processor time they had. */
+    double timeUntilOver(double seconds, unsigned threads, bool processorTime)
+    {
+        SolveRecord record;
+        SolveRecord::Clock::countProcessorTime(processorTime);
+        record.begin();
+        std::vector<std::thread> workers;
+        for (unsigned k = 0; k < threads; ++k)
+            workers.emplace_back(
+                [&]
+                {
+                    while (!record.isOver(seconds))
+                    {
+                    }
+                });
+        for (std::thread &each : workers)
+            each.join();
+        record.end();
+        SolveRecord::Clock::countProcessorTime(false);
+        EXPECT_GE(record.wallTime(), seconds);
+        return record.cpuTime();
+    }
+
+    TEST(SolveRecord, IsOverWhenTheProcessorTimeIsUpHoweverManyThreadsUseIt)
+    {
+        constexpr double LIMIT = 0.3;
+        for (const unsigned threads : {1U, 2U, 7U})
+        {
+            const double used = timeUntilOver(LIMIT, threads, true);
+            EXPECT_GE(used, LIMIT) << threads;
+            // Whoever looked only after as much of the wall clock would come to twice the limit on two processors.
+            EXPECT_LT(used, 1.4 * LIMIT) << threads;
+        }
+    }
+
+    TEST(SolveRecord, IsOverWhenTheWallClockSaysSo)
+    {
+        for (const unsigned threads : {1U, 2U})
+            timeUntilOver(0.05, threads, false);
     }
 
     /** Speaks of an approximate solution, and has none. */
