@@ -86,7 +86,9 @@ namespace parking::search
         switch (exhaustion)
         {
             case Exhaustion::WalledIn:
-                return "obstacles are in the way: not even a disc of " + formatNumber(car.inscribedRadius) +
+                // Rounded up: what holds for a disc holds for every larger one.
+                return "obstacles are in the way: not even a disc with a radius of " +
+                       formatNumber(std::ceil(1e3 * car.inscribedRadius) / 1e3) +
                        " m, which is smaller than the car, gets from the start to the goal";
             case Exhaustion::Enclosed:
                 return "obstacles are in the way: even if it could move sideways and turn on the spot, the car would "
