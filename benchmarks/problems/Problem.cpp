@@ -62,14 +62,18 @@ namespace parking
         {
             if (!problem.isDrivable() || dynamic_cast<const ompl::geometric::ImprovedAStar *>(&planner) == nullptr)
                 return;
-            const std::string ofCar = formatNumber(problem.scenario().vehicle.minTurningRadius());
+            const double ofCar = problem.scenario().vehicle.minTurningRadius();
             for (const auto &[name, value] : settings)
-                if (name == TURNING_RADIUS && value != ofCar)
+            {
+                // The car's own, as results tell it, may be given.
+                double radius = 0.0;
+                if (name == TURNING_RADIUS && parseNumber(value, radius) && std::abs(radius - ofCar) > 1e-4 * ofCar)
                     throw SettingError({name}, "parameter turning_radius of " + planner.getName() +
                                                    " counts in space se2 only: in space " +
                                                    toString(problem.settings().space) + " the car turns within " +
-                                                   ofCar +
+                                                   formatNumber(ofCar, 3) +
                                                    " m, by the wheelbase and max_steering_angle of its vehicle");
+            }
         }
 
         PlannerSettings allSettings(const PlannerEntry &entry, const PlannerSettings &settings)

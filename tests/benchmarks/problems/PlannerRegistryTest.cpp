@@ -93,12 +93,12 @@ namespace
     {
         const PlannerRegistry registry = PlannerRegistry::builtIn();
         const Scenario scenario = openField()->scenario();
-        const auto prepareIn = [&](SpaceKind space, const char *planner)
+        const auto prepareIn = [&](SpaceKind space, const char *planner, const std::string &radius = "7")
         {
             ProblemSettings settings;
             settings.space = space;
             const Problem problem(scenario, settings);
-            return problem.prepare(registry.find(planner), {{"turning_radius", "7"}})
+            return problem.prepare(registry.find(planner), {{"turning_radius", radius}})
                 .planner->params()
                 .getParam("turning_radius")
                 ->getValue();
@@ -109,6 +109,10 @@ namespace
             expectError([&] { prepareIn(SpaceKind::ReedsShepp, planner); },
                         {"turning_radius", planner, "se2", "reeds_shepp", "max_steering_angle"});
             expectError([&] { prepareIn(SpaceKind::Dubins, planner); }, {"turning_radius", "dubins"});
+            expectError([&] { prepareIn(SpaceKind::ReedsShepp, planner, "wide"); }, {"'wide'", "usual values"});
+            // What a result says of the car's own.
+            const std::string own = std::to_string(scenario.vehicle.minTurningRadius());
+            EXPECT_NO_THROW(prepareIn(SpaceKind::ReedsShepp, planner, own)) << own;
         }
     }
 
