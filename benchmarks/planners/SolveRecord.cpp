@@ -21,8 +21,7 @@ namespace parking
 
         std::atomic<bool> countsProcessorTime{false};
 
-        constexpr double LOOK = 0.05;    // seconds between two questions to the kernel whether a thread sleeps,
-        constexpr double LONGEST = 1.0;  // and at most so many between two looks at the clock
+        constexpr double LOOK = 0.05;  // seconds between two looks at the clock, at most
 
         /** Seconds in which this thread could have run and had no processor; infinite where the kernel does not tell.
          */
@@ -53,7 +52,7 @@ namespace parking
         wallTime_ = cpuTime_ = 0.0;
         cpuBegin_ = processorTime();
         thread_ = std::this_thread::get_id();
-        steadyBegin_ = lastLook_ = std::chrono::steady_clock::now();
+        steadyBegin_ = std::chrono::steady_clock::now();
         queuedBefore_ = countsProcessorTime ? queuedTime() : 0.0;
         begin_ = Clock::now();
         nextLook_ = steadyBegin_;
@@ -119,25 +118,20 @@ namespace parking
         if (now < nextLook_.load(std::memory_order_relaxed))
             return false;
         static const double processors = std::max(1U, std::thread::hardware_concurrency());
+        const bool byProcessorTime = countsProcessorTime.load(std::memory_order_relaxed);
         const std::lock_guard<std::mutex> lock(mutex_);
         const double left = seconds - duration<double>(Clock::now() - begin_).count();
-        const double pace = countsProcessorTime.load(std::memory_order_relaxed) ? processors : 1.0;
-        nextLook_ =
-            now + std::chrono::duration_cast<steady_clock::duration>(duration<double>(std::min(left / pace, LONGEST)));
-        return left <= 0.0;
+        const duration<double> pause(std::min(byProcessorTime ? left / processors : left, LOOK));
+        nextLook_ = now + std::chrono::duration_cast<steady_clock::duration>(pause);
+        return left <= 0.0 || (byProcessorTime && hasSleptLongerThan(seconds));
     }
 
-    bool SolveRecord::sleptLongerThan(double seconds)
+    bool SolveRecord::hasSleptLongerThan(double seconds) const
     {
-        if (!countsProcessorTime.load(std::memory_order_relaxed))
+        if (std::this_thread::get_id() != thread_)
             return false;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        const auto now = std::chrono::steady_clock::now();
-        if (std::this_thread::get_id() != thread_ || std::chrono::duration<double>(now - lastLook_).count() < LOOK)
-            return false;
-        lastLook_ = now;
         const double awake = processorTime() - cpuBegin_;
-        const double passed = std::chrono::duration<double>(now - steadyBegin_).count();
+        const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - steadyBegin_).count();
         return passed - awake > seconds && passed - awake - (queuedTime() - queuedBefore_) > seconds;
     }
 

@@ -71,25 +71,25 @@ namespace parking
 
         /** \brief Whether \e seconds of the clock have passed since begin().
 
+            By processor time also whether the thread that called begin() has slept for longer than that, while no
+           thread of this process computed: a planner that waits would not come to its limit. Time in which it had to
+           wait for a processor does not count. That is not seen from other threads, nor where the kernel does not tell
+            (/proc/thread-self/schedstat).
+
             A planner asks this after every expansion or sample, and the kernel's answer to what a process has computed
-            takes longer than many of these: it is asked again only once all processors together may have got there. */
+            takes longer than many of these: it is asked again only once all processors together may have got there, or
+            after 50 ms. */
         bool isOver(double seconds);
-
-        /** \brief Whether the thread that called begin() has slept for longer than \e seconds since, while no thread of
-            this process computed: by processor time, a planner that waits would not come to its limit.
-
-            Time in which it had to wait for a processor does not count. False by the wall clock, from other threads,
-            and where the kernel does not tell (/proc/thread-self/schedstat). Looks at most every 50 ms. */
-        bool sleptLongerThan(double seconds);
 
     private:
         void add(double time, double cost);
+        bool hasSleptLongerThan(double seconds) const;
 
         mutable std::mutex mutex_;
         Clock::time_point begin_;
         double cpuBegin_{0.0};
         std::thread::id thread_;  // that called begin()
-        std::chrono::steady_clock::time_point steadyBegin_, lastLook_;
+        std::chrono::steady_clock::time_point steadyBegin_;
         std::atomic<std::chrono::steady_clock::time_point> nextLook_;  // at the clock; never over before
         double queuedBefore_{0.0};  // seconds in which it waited for a processor before begin()
         double wallTime_{0.0};
@@ -214,7 +214,7 @@ namespace parking
             const ompl::base::PlannerTerminationCondition timeUp(
                 [&]
                 {
-                    const bool stop = record_->isOver(timeLimit_) || ptc() || record_->sleptLongerThan(timeLimit_) ||
+                    const bool stop = record_->isOver(timeLimit_) || ptc() ||
                                       (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
                     if (stop)
                         wasStopped_ = true;

@@ -17,8 +17,10 @@ namespace parking
         double steering{0.0};  ///< radians
     };
 
-    /** \brief Seconds that a motion or a reference to be driven lasts at most. What takes longer is refused, for it
-       would fill the memory with samples: 50 km at TPCAP's speed, 400 m of the slowest car. */
+    /** \brief Seconds that a motion or a reference to be driven lasts at most.
+
+        What takes longer is refused, for it would fill the memory with samples: 50 km at TPCAP's speed, 400 m of the
+        slowest car. */
     constexpr double LONGEST_MOTION = 2e4;
 
     /** \brief A motion in exact form: where it starts, and its speed and steering angle over time, both linear between
