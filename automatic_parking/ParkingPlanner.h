@@ -3,7 +3,7 @@
 #include "automatic_parking/ParkingStatus.h"
 #include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/PlanningParameters.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/SearchContext.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/manoeuvres/ReverseParking.h"

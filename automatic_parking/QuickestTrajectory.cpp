@@ -88,7 +88,7 @@ namespace parking
             search::PlanRequest request = requestFor(HASTY, checker, bounds, path, options, interrupted);
             request.maxExpansions =
                 static_cast<std::uint64_t>(std::min(MOST, LEAST + PER_SQUARE_METRE * length * length));
-            request.car.mostCusps = static_cast<std::uint8_t>(std::min<std::size_t>(fewest - 1, search::ANY_CUSPS - 1));
+            request.car.maxCusps = static_cast<std::uint8_t>(std::min<std::size_t>(fewest - 1, search::ANY_CUSPS - 1));
             request.parameters.detours = false;
             search::PlanResult result = search::plan(environment, request);
             if (result.outcome != search::PlanOutcome::Solved || result.path.cusps() >= fewest)

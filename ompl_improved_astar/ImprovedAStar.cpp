@@ -195,7 +195,7 @@ namespace ompl::geometric
         car.forwardOnly = query_->space->kind() == parking::SpaceKind::Dubins;
         try
         {
-            query_->planner.begin(*environment, parking::search::plannerParameters(parameters_, car));
+            query_->planner.begin(*environment, parameters_, car);
         }
         catch (const parking::Error &error)
         {

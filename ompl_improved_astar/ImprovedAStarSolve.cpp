@@ -86,7 +86,7 @@ namespace ompl::geometric
         const Path path = smoothed(found, ptc);
         const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
         const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
-        const double closeness = query_->planner.closenessOfBest();
+        const double closeness = query_->planner.proximityOfBest();
         const ob::Cost cost = costOf(path, *geometric, closeness);
         if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
                                                : cost.value() < query_->bestCost.value()))

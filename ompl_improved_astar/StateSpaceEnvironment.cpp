@@ -14,7 +14,7 @@ namespace parking
 {
     namespace
     {
-        constexpr std::uint64_t STATES_BETWEEN_STOPS = 8;
+        constexpr std::uint64_t QUESTIONS_BETWEEN_STOPS = 8;
         // A single arc is the shortest curve between its ends as long as it turns by much less than half a circle.
         constexpr double RADIANS_PER_STATE = 0.8;
         // Of the lines that straightened() mends.
@@ -108,46 +108,42 @@ namespace parking
     {
     }
 
+    bool StateSpaceEnvironment::isTimeUp()
+    {
+        if (questions_++ % QUESTIONS_BETWEEN_STOPS == 0)
+            interrupted_ = interrupted_ || (stop_ && stop_());
+        return interrupted_;
+    }
+
     bool StateSpaceEnvironment::isFree(const Pose &pose)
     {
+        if (isTimeUp())
+            return false;
         ++checkedStates_;
         setPose(state_.get(), pose);
         return si_->satisfiesBounds(state_.get()) && si_->isValid(state_.get());
     }
 
-    bool StateSpaceEnvironment::isPassable(const Pose &pose)
+    bool StateSpaceEnvironment::keeps(const Pose &pose, double clearance)
     {
-        return !(checkedStates_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()) && isFree(pose);
-    }
-
-    double StateSpaceEnvironment::clearance(const Pose &pose)
-    {
-        // Once the time is up nobody is asked any more, and nothing is known.
-        if (!clearanceKnown_ || interrupted_ || (++clearances_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()))
-            return 0.0;
+        if (!clearanceKnown_ || isTimeUp())
+            return false;
         setPose(state_.get(), pose);
-        return std::max(0.0, si_->getStateValidityChecker()->clearance(state_.get()));
+        return si_->getStateValidityChecker()->clearance(state_.get()) >= clearance;
     }
 
-    bool StateSpaceEnvironment::knowsClearance() const
+    void StateSpaceEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                                            double *lengths)
     {
-        return clearanceKnown_;
-    }
-
-    bool StateSpaceEnvironment::isTimeUp()
-    {
-        interrupted_ = interrupted_ || (stop_ && stop_());
-        return interrupted_;
-    }
-
-    double StateSpaceEnvironment::freeLength(const Pose &from, double curvature, double length)
-    {
-        const double whole = std::abs(length), pieces = std::max(1.0, std::ceil(whole / step_));
-        for (double i = 1.0; i <= pieces; i += 1.0)
-            if ((checkedStates_ % STATES_BETWEEN_STOPS == 0 && isTimeUp()) ||
-                !isFree(advance(from, curvature, length * i / pieces)))
-                return whole * (i - 1.0) / pieces;
-        return whole;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const double whole = std::abs(arcs[i].length), parts = std::max(1.0, std::ceil(whole / step_));
+            double free = 0.0;
+            while (free < parts && clearance <= 0.0 &&
+                   isFree(advance(from, arcs[i].curvature, arcs[i].length * (free + 1.0) / parts)))
+                free += 1.0;
+            lengths[i] = free < parts ? whole * free / parts : whole;
+        }
     }
 
     double StateSpaceEnvironment::roomAt(double /*x*/, double /*y*/)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/Box.h"
 #include "parking_geometry/curves/Path.h"
 #include "state_validity/ompl/CurveSpace.h"
@@ -67,10 +67,14 @@ namespace parking
         }
 
         bool isFree(const Pose &pose) override;
-        bool isPassable(const Pose &pose) override;
-        double clearance(const Pose &pose) override;
-        bool knowsClearance() const override;
-        double freeLength(const Pose &from, double curvature, double length) override;
+        /** Nothing is proven to keep a clearance. */
+        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                         double *lengths) override;
+        bool keeps(const Pose &pose, double clearance) override;
+        bool knowsClearance() const override
+        {
+            return clearanceKnown_;
+        }
         Box bounds() const override
         {
             return bounds_;
@@ -107,8 +111,7 @@ namespace parking
         search::StopFunction stop_;
         std::function<void(std::vector<Pose> &)> ending_;
         bool interrupted_{false};
-        std::uint64_t checkedStates_{0};
-        std::uint64_t clearances_{0};  // asked for
+        std::uint64_t checkedStates_{0}, questions_{0};
         ompl::base::ScopedState<> state_, other_;
     };
 

@@ -15,23 +15,34 @@ namespace parking
         return bounds_.contains(pose.x, pose.y) && checker_.isFree(pose.x, pose.y);
     }
 
-    double CircleEnvironment::clearance(const Pose &pose)
+    double CircleEnvironment::clearance(const Pose &pose) const
     {
         return bounds_.contains(pose.x, pose.y) ? checker_.clearance(pose.x, pose.y) : 0.0;
     }
 
-    double CircleEnvironment::freeLength(const Pose &from, double curvature, double length)
+    bool CircleEnvironment::keeps(const Pose &pose, double clearance)
     {
-        const double whole = std::abs(length);
-        for (double driven = 0.0; driven < whole;)
+        return this->clearance(pose) >= clearance;
+    }
+
+    void CircleEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                                        double *lengths)
+    {
+        for (std::size_t i = 0; i < count; ++i)
         {
-            const Pose pose = advance(from, curvature, std::copysign(driven, length));
-            const double kept = clearance(pose);
-            if (kept < TOLERANCE)
-                return driven;
-            driven += kept;
+            const double whole = std::abs(arcs[i].length);
+            double driven = 0.0;
+            while (driven < whole)
+            {
+                const double kept =
+                    this->clearance(advance(from, arcs[i].curvature, std::copysign(driven, arcs[i].length)));
+                if (kept < clearance + TOLERANCE)
+                    break;
+                driven += kept - clearance;
+            }
+            const bool isWhole = driven >= whole && isFree(advance(from, arcs[i].curvature, arcs[i].length));
+            lengths[i] = isWhole ? whole : driven < whole ? driven : 0.0;
         }
-        return isFree(advance(from, curvature, length)) ? whole : 0.0;
     }
 
     double CircleEnvironment::roomAt(double x, double y)

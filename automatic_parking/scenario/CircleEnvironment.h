@@ -4,6 +4,8 @@
 #include "parking_geometry/Box.h"
 #include "state_validity/CircleChecker.h"
 
+#include <cstddef>
+
 namespace parking
 {
     /** \brief The world of the search for the paper's circle, which has no heading: what the grid models are meant
@@ -18,8 +20,9 @@ namespace parking
         }
 
         bool isFree(const Pose &pose) override;
-        double clearance(const Pose &pose) override;
-        double freeLength(const Pose &from, double curvature, double length) override;
+        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                         double *lengths) override;
+        bool keeps(const Pose &pose, double clearance) override;
         Box bounds() const override
         {
             return bounds_;
@@ -32,6 +35,8 @@ namespace parking
         }
 
     private:
+        double clearance(const Pose &pose) const;
+
         const CircleChecker &checker_;
         Box bounds_;
     };

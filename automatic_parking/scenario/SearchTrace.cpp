@@ -35,7 +35,7 @@ namespace parking
         const search::PlanRequest request = planner.request(parameters);
         const std::unique_ptr<search::MotionEnvironment> environment = planner.environment(parameters);
         search::PathPlanner path;
-        path.begin(*environment, search::plannerParameters(parameters, request.car));
+        path.begin(*environment, parameters, request.car);
         SearchTrace trace;
         bool anyStart = false, anyGoal = false;
         for (const Pose &pose : request.starts)
@@ -60,7 +60,7 @@ namespace parking
             step.expanded = path.statistics().expanded;
             step.start = static_cast<std::uint32_t>(start.nodes().size());
             step.goal = static_cast<std::uint32_t>(goal.nodes().size());
-            step.solved = path.hasSolution() || path.search().hasSolution();
+            step.solved = path.hasSolution() || !path.search().bestPath().pieces.empty();
             if (trace.steps.empty() || trace.steps.back().expanded != step.expanded)
                 trace.steps.push_back(step);
             else

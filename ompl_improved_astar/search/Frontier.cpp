@@ -1,31 +1,36 @@
 #include "ompl_improved_astar/search/Frontier.h"
 
+#include "ompl_improved_astar/search/Tuning.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parking::search
 {
-    void Frontier::begin(const std::string &openList, std::size_t levels, double turnsRatio)
+    namespace
+    {
+        constexpr std::size_t GROWING = 3;  // an array that grows is there twice, once of double the size
+    }
+
+    void Frontier::begin(const std::string &openList, std::size_t levels)
     {
         if (openListName_ != openList)
             queues_.clear();
         openListName_ = openList;
         levels_ = levels;
-        turnsRatio_ = turnsRatio;
-        queueCount_ = 0;
-        doneByFormerQueues_ = {};
-        queueTurn_ = 0;
-        extraTurns_ = 0;
+        queueCount_ = queueTurn_ = 0;
         turns_ = 0;
+        for (Queue &queue : queues_)
+            for (const std::unique_ptr<OpenList> &list : queue.open)
+                list->clear();
         setQueues(1);
         nodes_.clear();
         cells_.clear();
         roots_.clear();
         bestClosed = NO_NODE;
         bestClosedCost = 0.0;
-        rootMobility = std::numeric_limits<double>::infinity();
         expansionsWhenExhausted = 0;
-        aim.reset();
     }
 
     NodeIndex Frontier::addRoot(const Pose &pose)
@@ -33,10 +38,8 @@ namespace parking::search
         Node root;
         root.pose = pose;
         root.farthest = true;
-        const auto index = static_cast<NodeIndex>(nodes_.size());
-        nodes_.push_back(root);
-        roots_.push_back(index);
-        return index;
+        roots_.push_back(append(root));
+        return roots_.back();
     }
 
     std::vector<Pose> Frontier::rootPoses() const
@@ -50,43 +53,34 @@ namespace parking::search
     NodeIndex Frontier::place(const Node &node, NodeIndex index, std::uint64_t cell)
     {
         if (index == NO_NODE)
-        {
-            index = static_cast<NodeIndex>(nodes_.size());
-            nodes_.push_back(node);
-        }
+            index = append(node);
         else
             nodes_[index] = node;
         cells_.set(keyOf(cell, node.level), index);
         return index;
     }
 
-    void Frontier::clear(Queue &queue)
+    bool Frontier::rekey(const std::function<bool(OpenList::Entry &)> &key, const StopFunction &stop)
     {
-        queue.open.resize(levels_);
-        for (std::unique_ptr<OpenList> &list : queue.open)
-            if (list)
-                list->clear();
-            else
-                list = search::openLists().make(openListName_);
-        queue.turns.assign(levels_, 0);
-        queue.nearest = std::numeric_limits<double>::infinity();
+        return std::all_of(queues_.front().open.begin(), queues_.front().open.end(),
+                           [&](const std::unique_ptr<OpenList> &list) { return list->rekey(key, stop); });
     }
 
     OpenList::Work Frontier::work() const
     {
-        OpenList::Work sum = doneByFormerQueues_;
-        for (std::size_t queue = 0; queue < std::min(queueCount_, queues_.size()); ++queue)
-            for (const std::unique_ptr<OpenList> &list : queues_[queue].open)
-                sum += list->work();
+        OpenList::Work sum;
+        for (const Queue &queue : queues_)
+            for (const std::unique_ptr<OpenList> &list : queue.open)
+            {
+                sum.operations += list->work().operations;
+                sum.comparisons += list->work().comparisons;
+            }
         return sum;
     }
 
     std::size_t Frontier::bytes() const
     {
-        // An array that grows is there twice, once of double the size.
-        constexpr std::size_t GROWING = 3;
-        std::size_t bytes =
-            cells_.bytes() + crowds.bytes() + exploration.bytes() + GROWING * nodes_.size() * sizeof(Node);
+        std::size_t bytes = cells_.bytes() + density.bytes() + GROWING * nodes_.size() * sizeof(Node);
         for (std::size_t queue = 0; queue < queueCount_; ++queue)
             for (const std::unique_ptr<OpenList> &list : queues_[queue].open)
                 bytes += GROWING * list->size() * sizeof(OpenList::Entry);
@@ -98,10 +92,17 @@ namespace parking::search
         if (queues_.size() < count)
             queues_.resize(count);
         for (; queueCount_ < count; ++queueCount_)
-            clear(queues_[queueCount_]);
-        for (; queueCount_ > count; --queueCount_)
-            for (const std::unique_ptr<OpenList> &list : queues_[queueCount_ - 1].open)
-                doneByFormerQueues_ += list->work();
+        {
+            Queue &queue = queues_[queueCount_];
+            queue.open.resize(levels_);
+            queue.turns.assign(levels_, 0);
+            for (std::unique_ptr<OpenList> &list : queue.open)
+                if (!list)
+                    list = openLists().make(openListName_);
+                else
+                    list->clear();
+        }
+        queueCount_ = count;
     }
 
     bool Frontier::Queue::isEmpty() const
@@ -110,23 +111,8 @@ namespace parking::search
                            [](const std::unique_ptr<OpenList> &list) { return list->empty(); });
     }
 
-    void Frontier::noteEstimate(std::size_t queue, double estimate, std::uint64_t extraTurns)
-    {
-        constexpr double NEARER = 0.01;  // metres: by less is no progress
-        double &nearest = queues_[queue].nearest;
-        if (extraTurns_ > 0)
-            --extraTurns_;
-        if (estimate >= nearest - NEARER)
-            return;
-        nearest = estimate;
-        extraTurns_ = extraTurns;
-    }
-
     std::size_t Frontier::chooseQueue()
     {
-        if (extraTurns_ > 0 && queueTurn_ < queueCount_ && !queues_[queueTurn_].isEmpty())
-            return queueTurn_;
-        extraTurns_ = 0;
         do
             queueTurn_ = (queueTurn_ + 1) % queueCount_;
         while (queues_[queueTurn_].isEmpty());
@@ -138,7 +124,7 @@ namespace parking::search
         const Queue &chosen = queues_[queue];
         std::size_t best = 0;
         double fewest = std::numeric_limits<double>::infinity(), ratio = 1.0;
-        for (std::size_t level = 0; level < chosen.open.size(); ++level, ratio *= turnsRatio_)
+        for (std::size_t level = 0; level < chosen.open.size(); ++level, ratio *= tuning::LEVEL_TURN_RATIO)
         {
             const double turns = static_cast<double>(chosen.turns[level]) * ratio;
             if (!chosen.open[level]->empty() && turns < fewest)

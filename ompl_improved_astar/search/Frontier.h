@@ -1,27 +1,25 @@
 #pragma once
 
-#include "ompl_improved_astar/search/Exploration.h"
 #include "ompl_improved_astar/search/Node.h"
+#include "ompl_improved_astar/search/OpenList.h"
 #include "ompl_improved_astar/search/containers/CellTable.h"
-#include "ompl_improved_astar/search/containers/Crowds.h"
-#include "ompl_improved_astar/search/openlists/OpenList.h"
+#include "ompl_improved_astar/search/containers/ExpansionDensity.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace parking::search
 {
-    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and what is open: a
+    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and its open nodes: a
         queue, with a list for each level of resolution.
 
-        A side that is stuck gets further queues, which order the open nodes by other estimates (see SearchDetours.cpp)
-       and take turns with the first one. Every open node is in the first queue, whatever the others hold. */
+        A side that is stuck gets further queues, which order the open nodes by other estimates and take turns with the
+        first one. Every open node is in the first queue, whatever the others hold. */
     class Frontier
     {
     public:
@@ -32,10 +30,8 @@ namespace parking::search
         Frontier(const Frontier &) = delete;
         Frontier &operator=(const Frontier &) = delete;
 
-        /** \brief Forgets everything; memory is kept.
-
-            \param turnsRatio each finer level gets so many times fewer turns */
-        void begin(const std::string &openList, std::size_t levels, double turnsRatio);
+        /** \brief Forgets everything; memory is kept. */
+        void begin(const std::string &openList, std::size_t levels);
 
         /** \brief The end of the problem that it grows from. */
         Side side() const
@@ -79,7 +75,7 @@ namespace parking::search
             return cells_.find(keyOf(cell, level));
         }
 
-        /** \brief Puts a node into a cell, as a new one or in the place of \e index. */
+        /** \brief Puts a node into a cell of its level, as a new one or in the place of \e index. */
         NodeIndex place(const Node &node, NodeIndex index, std::uint64_t cell);
 
         /** \brief Adds a node that holds no cell. */
@@ -101,7 +97,10 @@ namespace parking::search
             return queues_[queue].open[level]->pop();
         }
 
-        /** \brief Nothing is open on any level. */
+        /** \brief Sorts all lists of the first queue again; see OpenList::rekey(). */
+        bool rekey(const std::function<bool(OpenList::Entry &)> &key, const StopFunction &stop);
+
+        /** \brief Is nothing open on any level? */
         bool isExhausted() const
         {
             return queues_.front().isEmpty();
@@ -113,19 +112,8 @@ namespace parking::search
             return queueCount_;
         }
 
-        /** \brief What the lists of all queues have done since begin(). */
-        OpenList::Work work() const;
-
-        /** \brief Bytes of nodes, cells and open entries at the most, while their arrays grow. */
-        std::size_t bytes() const;
-
-        /** \brief From now on so many queues take turns; those that are new are empty. */
+        /** \brief From now on that many queues take turns; those that are new are empty. */
         void setQueues(std::size_t count);
-
-        /** \brief Notes what is estimated of the node that a queue has its turn with. A queue that comes nearer than it
-            ever was gets the next \e extraTurns turns, too (compare "boosting" of the preferred lists in S. Richter and
-            M. Westphal, "The LAMA planner", 2010): past what held the search up, it need not wait for the others. */
-        void noteEstimate(std::size_t queue, double estimate, std::uint64_t extraTurns);
 
         /** \brief The queue whose turn it is among those that are not empty; something must be open. */
         std::size_t chooseQueue();
@@ -146,17 +134,11 @@ namespace parking::search
             return turns_;
         }
 
-        /** \brief All that is open, with stale entries among it: the lists of the first queue, one for each level. */
-        const std::vector<std::unique_ptr<OpenList>> &openLists() const
-        {
-            return queues_.front().open;
-        }
+        /** \brief What the lists of all queues have done since begin(). */
+        OpenList::Work work() const;
 
-        /** \brief The same, to be changed. */
-        std::vector<std::unique_ptr<OpenList>> &openLists()
-        {
-            return queues_.front().open;
-        }
+        /** \brief Bytes of nodes, cells and open entries at the most, while their arrays grow. */
+        std::size_t bytes() const;
 
         /** \brief Adds the pieces between a node and its root, as the car drives them on the goal's side. */
         void appendToRoot(NodeIndex index, Path &path) const;
@@ -169,42 +151,31 @@ namespace parking::search
 
         NodeIndex bestClosed{NO_NODE};  ///< the closed node that the other side is joined with, or aims at
         double bestClosedCost{0.0};     ///< by which it is the best
-        double rootMobility{std::numeric_limits<double>::infinity()};  ///< metres, of the most confined root looked at
         std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
-        Exploration exploration;  ///< of what is open, while the search is stuck; whoever explores begins it
-        Crowds crowds;            ///< of the nodes expanded until there was a solution; whoever counts begins them
-        std::optional<Pose> aim;  ///< what its estimates count to, when it is not the other side's roots
+        ExpansionDensity density;                  ///< of the nodes expanded until there was a solution
 
     private:
-        static std::uint64_t keyOf(std::uint64_t cell, std::size_t level)
-        {
-            return (static_cast<std::uint64_t>(level + 1) << 61) | cell;
-        }
-
         /** Open nodes in one order: a list for each level. */
         struct Queue
         {
             std::vector<std::unique_ptr<OpenList>> open;
             std::vector<std::uint64_t> turns;
-            double nearest{std::numeric_limits<double>::infinity()};  // of the estimates noted
 
             bool isEmpty() const;
         };
 
-        void clear(Queue &queue);
+        static std::uint64_t keyOf(std::uint64_t cell, std::size_t level)
+        {
+            return (static_cast<std::uint64_t>(level + 1) << 61) | cell;
+        }
 
         Side side_;
         std::vector<Node> nodes_;
         CellTable cells_;
         std::vector<Queue> queues_;
-        std::size_t queueCount_{1};
-        OpenList::Work doneByFormerQueues_;
-        std::size_t queueTurn_{0};
+        std::size_t queueCount_{1}, queueTurn_{0}, levels_{1};
         std::uint64_t turns_{0};
-        std::uint64_t extraTurns_{0};  // that this queue still has
-        std::size_t levels_{1};
         std::string openListName_;
-        double turnsRatio_{1.0};
         std::vector<NodeIndex> roots_;
     };
 }  // namespace parking::search

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "ompl_improved_astar/search/MotionEnvironment.h"
 #include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/Registry.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/SearchContext.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,34 +23,21 @@ namespace parking::search
         double clear{-1.0};    ///< metres at its beginning known to keep the preferred clearance; negative: unknown
     };
 
-    /** \brief What a model says about a node that is expanded. */
-    struct Expansion
-    {
-        std::vector<Successor> successors;  ///< in the order in which they are tried
-        double mobility{0.0};               ///< metres of the longest free motion, when it is known
-    };
-
     /** \brief What is peculiar to a model, for the search to go by. */
     struct ModelTraits
     {
         /** Resolutions, each finer than the one before, that take turns (see Search). */
         std::size_t levels{1};
-        /** Metres of cost that make up for a coarser or finer cell: a motion's reach. Compares the freedom of roots. */
-        double reach{0.0};
-        /** Nodes are joined with the other side's roots and its best closed node; otherwise with the node in the same
-            cell only, before they are expanded. */
-        bool joinsAfar{false};
+        /** Nodes are joined by curves with the other side's roots and its best closed node, and motions are priced by
+            their clearance; otherwise nodes are joined with the one in the same cell, before they are expanded. */
+        bool drivesCurves{false};
         /** What one side has seen completely, the other cannot reach: its cells leave nothing out. */
-        bool complete{false};
+        bool isComplete{false};
         /** Estimates count to the other side's closed node of least cost (paper, "Bidirectional Search"). */
         bool aims{false};
-        /** isFree() is asked motion by motion and may be slow: the clock is looked at in between. */
-        bool asksMotionByMotion{false};
-        /** Its motions are priced by CostModel::preferredClearance. */
-        bool prefersClearance{false};
         /** Its heading jumps: a space of curves cannot follow its paths. */
         bool turnsOnTheSpot{false};
-        /** One expansion in so many goes to the side whose roots are less confined. */
+        /** One expansion in that many goes to the side whose roots are less confined. */
         std::uint64_t otherSidePeriod{2};
     };
 
@@ -63,8 +50,8 @@ namespace parking::search
     public:
         virtual ~MotionModel() = default;
 
-        /** \brief Begins a query. The environment and the parameters outlive it. */
-        virtual void begin(MotionEnvironment &environment, const SearchParameters &parameters) = 0;
+        /** \brief Begins a query. */
+        virtual void begin(const SearchContext &context) = 0;
 
         /** \brief Before begin() only what does not depend on parameters is right. */
         virtual ModelTraits traits() const = 0;
@@ -72,7 +59,7 @@ namespace parking::search
         /** \brief The name of the heuristic that suits the model. */
         virtual std::string heuristic() const = 0;
 
-        /** \brief Told of every root before it is searched from. */
+        /** \brief Receives every root before it is searched from. */
         virtual void addRoot(Side /*side*/, const Pose & /*pose*/)
         {
         }
@@ -82,26 +69,26 @@ namespace parking::search
             \param level 0 is the coarsest */
         virtual std::uint64_t cell(const Pose &pose, std::size_t level) const = 0;
 
-        /** \brief How much cheaper, in metres, a node must be than the expanded one in its cell to be kept beside it;
-            infinite: none is. */
-        virtual double worthKeeping(std::size_t /*level*/) const
-        {
-            return std::numeric_limits<double>::infinity();
-        }
-
         /** \brief How far the car can move from a root, in metres summed over directions: little in a slot. */
         virtual double mobility(const Pose & /*root*/)
         {
             return 0.0;
         }
 
-        /** \brief The motions from a node. What is known to collide may be left out.
+        /** \brief Mobility in metres by which the goal may exceed the start and still count as the confined end. */
+        virtual double mobilitySlack() const
+        {
+            return 0.0;
+        }
+
+        /** \brief Appends the motions from a node in the order in which they are tried. What is known to collide may be
+            left out.
 
             \param index number of the node on its side
             \param level whose step is wanted
-            \param first the node has not been expanded on a coarser level */
-        virtual void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
-                            Expansion &expansion) = 0;
+            \param isFirst the node has not been expanded on a coarser level */
+        virtual void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool isFirst,
+                            std::vector<Successor> &successors) = 0;
 
         /** \brief Is the motion free? Asked only of those that would become a node. */
         virtual bool isFree(Side /*side*/, const Node & /*from*/, const Successor & /*successor*/)
@@ -109,25 +96,24 @@ namespace parking::search
             return true;
         }
 
-        /** \brief Told of ways that join two nodes: what to drive in between, and what the whole path would cost. Says
-            whether the way is taken. */
+        /** \brief Receives the pieces between two nodes and the cost of the whole path. Returns whether they are taken. */
         using Offer = std::function<bool(const PathPiece *pieces, std::size_t count, double cost)>;
 
-        /** \brief Offers free ways between a node of the start's side and one of the goal's, the cheapest first, until
-            one is taken.
+        /** \brief Offers free connections between a node of the start's side and one of the goal's, the cheapest first,
+            until one is taken.
 
             \param sweptFrom the side near which a collision is more likely
-            \param bound ways that make the whole path cost as much are of no use
+            \param bound whole paths that cost as much are not wanted
             \return whether one was taken */
         virtual bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                           const Offer &offer) = 0;
 
-        /** \brief Moves from a node by the shortest motion that leads, or would lead, to a pose without regard to
-            obstacles, and ends where that does not surely keep the preferred clearance any more, or if none is
-            preferred where it is not free.
+        /** \brief Moves from a node by the shortest motion that would lead to a pose without regard to obstacles, and
+            ends where that does not surely keep the preferred clearance any more, or if none is preferred where it
+            collides.
 
-            \param motions the way, one motion after the other, from the root outwards; overwritten. None when nothing
-            of it can be driven, and for a model that cannot go where it is told to. */
+            \param motions one after the other, from the root outwards; overwritten. None for a model that cannot go
+            where it is told to */
         virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/,
                                  std::vector<Successor> &motions)
         {
@@ -137,12 +123,6 @@ namespace parking::search
         /** \brief Length of the shortest motion between two poses without regard to obstacles: a lower bound of the
             cost of any path that the model can drive. */
         virtual double distance(const Pose &from, const Pose &to) const = 0;
-
-        /** \brief A lower bound of distance() that takes no time to tell; what it rules out is not looked at closer. */
-        virtual double leastDistance(const Pose & /*from*/, const Pose & /*to*/) const
-        {
-            return 0.0;
-        }
 
         /** \brief The curves by which parts of a path may be replaced; nullptr for a model whose paths stay as they
             are. */

@@ -132,23 +132,22 @@ namespace parking
         return isSweepFree(at, at);
     }
 
-    double DiscWorld::clearance(const Pose & /*pose*/)
+    void DiscWorld::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance, double *lengths)
     {
-        return 0.0;  // not known; no grid model asks
-    }
-
-    double DiscWorld::freeLength(const Pose &from, double curvature, double length)
-    {
-        const double parts = std::max(1.0, std::ceil(std::abs(curvature * length) / RADIANS_PER_CHORD));
-        Pose pose = from;
-        for (double part = 1.0; part <= parts; part += 1.0)
+        for (std::size_t i = 0; i < count; ++i)
         {
-            const Pose next = advance(from, curvature, length * part / parts);
-            if (!isMotionFree(pose, next))
-                return std::abs(length) * (part - 1.0) / parts;
-            pose = next;
+            const auto &[curvature, length] = arcs[i];
+            const double parts = std::max(1.0, std::ceil(std::abs(curvature * length) / RADIANS_PER_CHORD));
+            double done = 0.0;
+            for (Pose pose = from; done < parts && clearance <= 0.0; done += 1.0)
+            {
+                const Pose next = advance(from, curvature, length * (done + 1.0) / parts);
+                if (!isMotionFree(pose, next))
+                    break;
+                pose = next;
+            }
+            lengths[i] = std::abs(length) * done / parts;
         }
-        return std::abs(length);
     }
 
     double DiscWorld::roomAt(double /*x*/, double /*y*/)

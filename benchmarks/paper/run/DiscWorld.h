@@ -50,8 +50,13 @@ namespace parking
         DiscWorld(const ObstacleSet &obstacles, const Box &bounds, double radius, double ahead, DiscLookup lookup);
 
         bool isFree(const Pose &pose) override;
-        double clearance(const Pose &pose) override;
-        double freeLength(const Pose &from, double curvature, double length) override;
+        /** Nothing is known with a clearance. */
+        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                         double *lengths) override;
+        bool knowsClearance() const override
+        {
+            return false;
+        }
         Box bounds() const override
         {
             return bounds_;

@@ -1,6 +1,6 @@
 #include "ompl_improved_astar/search/models/CarModel.h"
 
-#include "ompl_improved_astar/search/models/CurveCheck.h"
+#include "ompl_improved_astar/search/Tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,46 +8,25 @@
 
 namespace parking::search
 {
-    namespace
+    void CarModel::begin(const SearchContext &context)
     {
-        /** Changes of direction of the whole path by way of a curve. */
-        unsigned int cuspsThrough(const Node &fromStart, const ReedsSheppCurve &curve, const Node &fromGoal)
-        {
-            unsigned int cusps = fromStart.cusps + fromGoal.cusps;
-            double last = fromStart.motion.length;
-            const auto drive = [&](double length)
-            {
-                if (length == 0.0)
-                    return;
-                cusps += last * length < 0.0 ? 1 : 0;
-                last = length;
-            };
-            for (std::size_t i = 0; i < curve.count; ++i)
-                drive(curve.pieces[i].length);
-            drive(-fromGoal.motion.length);  // the car will drive it the other way
-            return cusps;
-        }
-    }  // namespace
-
-    void CarModel::begin(MotionEnvironment &environment, const SearchParameters &parameters)
-    {
-        environment_ = &environment;
-        parameters_ = &parameters;
-        const SearchTuning &tuning = parameters.tuning;
-        const double radius = parameters.turningRadius;
-        curves_ = ReedsShepp(radius, parameters.forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
-        reach_ = tuning.reach * radius;
-        shortest_ = tuning.shortestMotion * radius;
-        // Cells are in proportion to the steps: so wide for a step of a third of the radius.
-        const double cell = parameters.xyResolution > 0.0 ? parameters.xyResolution : tuning.cell * radius;
+        context_ = &context;
+        const double radius = context.car.turningRadius;
+        curves_ = ReedsShepp(radius, context.car.forwardOnly ? CurveFamily::Dubins : CurveFamily::ReedsShepp);
+        freeCurves_ = std::make_unique<FreeCurves>(context.environment, curves_, context.cost);
+        maxMotion_ = tuning::MAX_MOTION * radius;
+        minMotion_ = tuning::MIN_MOTION * radius;
+        // Cells are in proportion to the steps: that wide for a step of a third of the radius.
+        const PlannerParameters &parameters = context.parameters;
+        const double cell = parameters.xyResolution > 0.0 ? parameters.xyResolution : tuning::CELL_SIDE * radius;
         for (std::size_t level = 0; level < LEVELS; ++level)
         {
-            steps_[level] = tuning.coarsestStep * radius * std::pow(0.5, static_cast<double>(level));
+            steps_[level] = tuning::COARSEST_STEP * radius * std::pow(0.5, static_cast<double>(level));
             const double scale = 3.0 * steps_[level] / radius;
             inverseCell_[level] = 1.0 / (cell * scale);
             headingScale_[level] = std::max(8.0, parameters.headingBins / scale) / (2.0 * PI);
         }
-        for (std::vector<Known> &each : known_)
+        for (std::vector<Reach> &each : reaches_)
             each.clear();
     }
 
@@ -55,10 +34,8 @@ namespace parking::search
     {
         ModelTraits traits;
         traits.levels = LEVELS;
-        traits.reach = reach_;
-        traits.joinsAfar = true;
-        traits.prefersClearance = true;
-        traits.otherSidePeriod = parameters_ != nullptr ? parameters_->tuning.otherSidePeriod : 1;
+        traits.drivesCurves = true;
+        traits.otherSidePeriod = tuning::OTHER_SIDE_PERIOD;
         return traits;
     }
 
@@ -74,120 +51,124 @@ namespace parking::search
                ((static_cast<std::uint64_t>(row) & 0x3fffff) << 17) | (static_cast<std::uint64_t>(heading) & 0x1ffff);
     }
 
-    double CarModel::worthKeeping(std::size_t level) const
-    {
-        return parameters_->tuning.worthKeeping * steps_[level];
-    }
-
     double CarModel::mobility(const Pose &root)
     {
         motions_.clear();
         for (const double steer : {-1.0, 0.0, 1.0})
             for (const double gear : {-1.0, 1.0})
-                motions_.push_back({steer / parameters_->turningRadius, gear * steps_[0]});
+                motions_.push_back({steer / context_->car.turningRadius, gear * steps_[0]});
         free_.resize(motions_.size());
-        environment_->freeLengths(root, motions_.data(), motions_.size(), free_.data());
+        context_->environment.freeLengths(root, motions_.data(), motions_.size(), 0.0, free_.data());
         return std::accumulate(free_.begin(), free_.end(), 0.0);
     }
 
     void CarModel::collectMotions(Side side, const Node &node)
     {
         motions_.clear();
-        const int half = static_cast<int>(parameters_->steeringAngles / 2);
+        const int half = static_cast<int>(context_->parameters.steeringAngles / 2);
         for (int steer = -half; steer <= half; ++steer)
         {
-            const double curvature = steer / (half * parameters_->turningRadius);
+            const double curvature = steer / (half * context_->car.turningRadius);
             for (const double gear : {1.0, -1.0})
             {
                 // Roots of the goal's side are left in the direction opposite to that in which the car arrives.
-                if (parameters_->forwardOnly && gear != (side == Side::Start ? 1.0 : -1.0))
+                if (context_->car.forwardOnly && gear != (side == Side::Start ? 1.0 : -1.0))
                     continue;
                 // Back along the same arc leads nowhere new; on along it does only from where reach ended.
                 if (node.parent != NO_NODE && curvature == node.motion.curvature &&
                     (gear * node.motion.length < 0.0 || !node.farthest))
                     continue;
-                motions_.push_back({curvature, gear * reach_});
+                motions_.push_back({curvature, gear * maxMotion_});
             }
         }
     }
 
     void CarModel::measureMotions(const Pose &from)
     {
+        MotionEnvironment &environment = context_->environment;
         const std::size_t count = motions_.size();
-        free_.resize(count);
+        free_.assign(count, 0.0);
         clear_.assign(count, 0.0);
-        if (!parameters_->cost.prefersClearance())
+        if (context_->cost.prefersClearance())
+            environment.freeLengths(from, motions_.data(), count, context_->cost.preferredClearance, clear_.data());
+        if (std::all_of(clear_.begin(), clear_.end(), [](double clear) { return clear <= 0.0; }))
         {
-            environment_->freeLengths(from, motions_.data(), count, free_.data());
+            environment.freeLengths(from, motions_.data(), count, 0.0, free_.data());
             return;
         }
-        environment_->clearLengths(from, motions_.data(), count, parameters_->cost.preferredClearance, clear_.data());
-        environment_->freeLengthsBeyond(from, motions_.data(), count, clear_.data(), free_.data());
+        // What is clear is free, too: only the rest of it is swept.
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const auto &[curvature, length] = motions_[i];
+            const double rest = std::abs(length) - clear_[i];
+            const Pose at = advance(from, curvature, std::copysign(clear_[i], length));
+            free_[i] = clear_[i];
+            if (rest > 0.0)
+                free_[i] += environment.freeLength(at, {curvature, std::copysign(rest, length)});
+        }
     }
 
-    void CarModel::expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
-                          Expansion &expansion)
+    void CarModel::expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool isFirst,
+                          std::vector<Successor> &successors)
     {
         collectMotions(side, node);
-        const std::size_t count = motions_.size(), slots = 2 * parameters_->steeringAngles;
-        std::vector<Known> &ofNodes = known_[static_cast<std::size_t>(side)];
+        const std::size_t count = motions_.size(), slots = 2 * context_->parameters.steeringAngles;
+        std::vector<Reach> &ofNodes = reaches_[static_cast<std::size_t>(side)];
         if (ofNodes.size() < (index + 1) * slots)
             ofNodes.resize((index + 1) * slots);
         // How far each motion is free is found out once and serves the finer levels, too.
-        Known *const known = &ofNodes[index * slots];
+        Reach *const reaches = &ofNodes[index * slots];
         const double step = steps_[level];
-        const bool priced = parameters_->cost.prefersClearance();
+        const bool isPriced = context_->cost.prefersClearance();
         const auto add = [&](std::size_t i, double length, bool farthest, double clear)
         {
             const Arc &motion = motions_[i];
             const double driven = std::copysign(length, motion.length);
             const Pose pose = advance(node.pose, motion.curvature, driven);
-            expansion.successors.push_back({{0.0, motion.curvature, driven, 0.0},
-                                            {pose.x, pose.y, wrapAngle(pose.yaw)},
-                                            farthest,
-                                            priced ? clear : -1.0});
+            successors.push_back({{0.0, motion.curvature, driven},
+                                  {pose.x, pose.y, wrapAngle(pose.yaw)},
+                                  farthest,
+                                  isPriced ? clear : -1.0});
         };
-        if (!first)
+        if (!isFirst)
         {
             for (std::size_t i = 0; i < count; ++i)
-                if (static_cast<double>(known[i].free) >= step)
-                    add(i, step, false, static_cast<double>(known[i].clear));
+                if (static_cast<double>(reaches[i].free) >= step)
+                    add(i, step, false, static_cast<double>(reaches[i].clear));
             return;
         }
         measureMotions(node.pose);
         for (std::size_t i = 0; i < count; ++i)
         {
             const double free = free_[i];
-            known[i] = {std::nextafter(static_cast<float>(free), 0.0f),
-                        std::nextafter(static_cast<float>(clear_[i]), 0.0f)};
-            expansion.mobility = std::max(expansion.mobility, free);
-            if (free < shortest_)
+            reaches[i] = {std::nextafter(static_cast<float>(free), 0.0f),
+                          std::nextafter(static_cast<float>(clear_[i]), 0.0f)};
+            if (free < minMotion_)
                 continue;
-            add(i, free, free >= reach_, clear_[i]);
+            add(i, free, free >= maxMotion_, clear_[i]);
             if (free > 1.1 * step)
                 add(i, step, false, clear_[i]);
             // As far as it is preferred to go.
-            if (priced && clear_[i] >= shortest_ && clear_[i] < free && std::abs(clear_[i] - step) > 0.1 * step)
+            if (isPriced && clear_[i] >= minMotion_ && clear_[i] < free && std::abs(clear_[i] - step) > 0.1 * step)
                 add(i, clear_[i], false, clear_[i]);
         }
     }
 
+    /** How far a motion surely keeps the preferred clearance (is free, if none is preferred), and the part of it known
+        to be clear, as in Successor. */
     double CarModel::clearLength(const Pose &from, const Arc &motion, double &clear)
     {
-        clear = -1.0;
-        if (!parameters_->cost.prefersClearance())
-            return environment_->freeLength(from, motion.curvature, motion.length);
-        environment_->clearLengths(from, &motion, 1, parameters_->cost.preferredClearance, &clear);
+        MotionEnvironment &environment = context_->environment;
+        const CostModel &cost = context_->cost;
+        clear = cost.prefersClearance() ? environment.freeLength(from, motion, cost.preferredClearance) : -1.0;
         if (clear > 0.0)
             return clear;
         // It is not clear from the beginning, or the environment cannot tell how far.
-        if (!environment_->keeps(from, parameters_->cost.preferredClearance))
+        if (cost.prefersClearance() && !environment.keeps(from, cost.preferredClearance))
             return 0.0;
-        const double free = environment_->freeLength(from, motion.curvature, motion.length);
+        const double free = environment.freeLength(from, motion);
         const PathPiece driven{motion.curvature, std::copysign(free, motion.length)};
-        CostModel preference = parameters_->cost;
-        preference.clearanceWeight = 0.0;
-        return preference.closeness(from, driven, *environment_, clear, 0.0) > 0.0 ? 0.0 : free;
+        return cost.proximity(from, driven, environment, clear, 0.0) > 0.0 ? 0.0 : free;
     }
 
     void CarModel::moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions)
@@ -203,53 +184,34 @@ namespace parking::search
                                                         -curve.pieces[curve.count - 1 - k].length};
             double clear = 0.0;
             const double length = clearLength(pose, piece, clear);
-            const bool isWhole = length >= std::abs(piece.length);
-            if (length >= shortest_)
+            if (length >= minMotion_)
             {
                 const double driven = std::copysign(length, piece.length);
                 const Pose end = advance(pose, piece.curvature, driven);
                 pose = {end.x, end.y, wrapAngle(end.yaw)};
-                motions.push_back({{0.0, piece.curvature, driven, 0.0}, pose, true, clear});
+                motions.push_back({{0.0, piece.curvature, driven}, pose, true, clear});
             }
-            if (!isWhole)
+            if (length < std::abs(piece.length))
                 return;
         }
     }
 
     bool CarModel::join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound, const Offer &offer)
     {
-        const double before = fromStart.g + fromGoal.g;
-        if (before >= bound)
-            return false;
-        curves_.candidates(fromStart.pose, fromGoal.pose, candidates_, bound - before);
-        const CostModel &cost = parameters_->cost;
-        order_.clear();
-        for (const ReedsSheppCurve &curve : candidates_)
-        {
-            double sum = before + curveCost(cost, curve);
-            if (curve.count > 0 && fromStart.parent != NO_NODE)
-                sum += cost.join(fromStart.motion.drive(), curve.pieces[0]);
-            if (curve.count > 0 && fromGoal.parent != NO_NODE)
-                sum += cost.join(curve.pieces[curve.count - 1], fromGoal.motion.drive().reversed());
-            if (sum < bound && (parameters_->mostCusps == ANY_CUSPS ||
-                                cuspsThrough(fromStart, curve, fromGoal) <= parameters_->mostCusps))
-                order_.emplace_back(sum, &curve);
-        }
-        const SearchTuning &tuning = parameters_->tuning;
-        if (order_.size() > tuning.mostFarCurves &&
-            positionDistance(fromStart.pose, fromGoal.pose) > tuning.farCurve * parameters_->turningRadius)
-        {
-            std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(tuning.mostFarCurves),
-                              order_.end());
-            order_.resize(tuning.mostFarCurves);
-        }
-        return offerFreeCurves(*environment_, cost, fromStart.pose, fromGoal.pose, order_,
-                               sweptFrom == Side::Start ? CurveEnd::Start : CurveEnd::Goal, bound,
-                               [&](const ReedsSheppCurve &curve, double whole)
-                               {
-                                   pieces_.assign(curve.pieces.begin(),
-                                                  curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
-                                   return offer(pieces_.data(), pieces_.size(), whole);
-                               });
+        const double outside = fromStart.g + fromGoal.g;
+        const PathPiece before = fromStart.motion.drive(), after = fromGoal.motion.drive().reversed();
+        const FreeCurves::Gap gap{fromStart.pose,
+                                  fromGoal.pose,
+                                  fromStart.parent != NO_NODE ? &before : nullptr,
+                                  fromGoal.parent != NO_NODE ? &after : nullptr,
+                                  bound - outside,
+                                  sweptFrom == Side::Start ? FreeCurves::SweepEnd::Start : FreeCurves::SweepEnd::Goal};
+        return freeCurves_->connect(
+            gap,
+            [&](const ReedsSheppCurve &curve, double cost)
+            {
+                pieces_.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
+                return offer(pieces_.data(), pieces_.size(), outside + cost);
+            });
     }
 }  // namespace parking::search

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionModel.h"
-#include "ompl_improved_astar/search/models/CurveCheck.h"
+#include "ompl_improved_astar/search/models/FreeCurves.h"
 
 #include <array>
-#include <utility>
+#include <memory>
 #include <vector>
 
 namespace parking::search
@@ -20,17 +20,20 @@ namespace parking::search
     class CarModel final : public MotionModel
     {
     public:
-        void begin(MotionEnvironment &environment, const SearchParameters &parameters) override;
+        void begin(const SearchContext &context) override;
         ModelTraits traits() const override;
         std::string heuristic() const override
         {
             return "curves";
         }
         std::uint64_t cell(const Pose &pose, std::size_t level) const override;
-        double worthKeeping(std::size_t level) const override;
         double mobility(const Pose &root) override;
-        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
-                    Expansion &expansion) override;
+        double mobilitySlack() const override
+        {
+            return 0.5 * maxMotion_;
+        }
+        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool isFirst,
+                    std::vector<Successor> &successors) override;
         bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                   const Offer &offer) override;
         void moveTowards(Side side, const Pose &from, const Pose &to, std::vector<Successor> &motions) override;
@@ -38,49 +41,37 @@ namespace parking::search
         {
             return curves_.distance(from, to);
         }
-        double leastDistance(const Pose &from, const Pose &to) const override
-        {
-            return leastCurveLength(from, to, curves_.turningRadius());
-        }
         const ReedsShepp *curves() const override
         {
             return &curves_;
         }
-
         std::size_t bytes() const override
         {
             // An array that grows is there twice, once of double the size.
-            return 3 * (known_[0].size() + known_[1].size()) * sizeof(Known);
+            return 3 * (reaches_[0].size() + reaches_[1].size()) * sizeof(Reach);
         }
 
         static constexpr std::size_t LEVELS = 7;  ///< of resolution, each with half the step of the one before
 
     private:
-        /** Metres of a motion, signs left out, rounded down. */
-        struct Known
+        /** Metres of a motion that are free, and at its beginning keep the preferred clearance, rounded down. */
+        struct Reach
         {
             float free, clear;
         };
 
         void collectMotions(Side side, const Node &node);
         void measureMotions(const Pose &from);
-        /** How far a motion surely keeps the preferred clearance (is free, if none is preferred), and the part of it
-            known to be clear, as in Successor. */
         double clearLength(const Pose &from, const Arc &motion, double &clear);
 
-        MotionEnvironment *environment_{nullptr};
-        const SearchParameters *parameters_{nullptr};
+        const SearchContext *context_{nullptr};
         ReedsShepp curves_{1.0};
-        double reach_{0.0};
-        double shortest_{0.0};
-        std::array<double, LEVELS> steps_{};
-        std::array<double, LEVELS> inverseCell_{};
-        std::array<double, LEVELS> headingScale_{};
-        std::array<std::vector<Known>, 2> known_;  // of the motions of each expanded node
-        std::vector<Arc> motions_;                 // of the node that is expanded
-        std::vector<double> free_, clear_;
-        std::vector<ReedsSheppCurve> candidates_;
-        std::vector<PricedCurve> order_;
+        std::unique_ptr<FreeCurves> freeCurves_;
+        double maxMotion_{0.0}, minMotion_{0.0};
+        std::array<double, LEVELS> steps_{}, inverseCell_{}, headingScale_{};
+        std::array<std::vector<Reach>, 2> reaches_;  // of the motions of each expanded node, by side
+        std::vector<Arc> motions_;                   // of the node that is expanded
+        std::vector<double> free_, clear_;           // lengths of these
         std::vector<PathPiece> pieces_;
     };
 }  // namespace parking::search

@@ -19,7 +19,7 @@ namespace parking::search
 
     GridModel::GridModel(std::vector<GridStep> steps) : steps_(std::move(steps))
     {
-        if (steps_.size() > MOST_STEPS)
+        if (steps_.size() > MAX_STEPS)
             throw Error("a grid model has at most 32 steps, not " + std::to_string(steps_.size()));
         for (const GridStep &step : steps_)
         {
@@ -32,18 +32,19 @@ namespace parking::search
         }
     }
 
-    void GridModel::begin(MotionEnvironment &environment, const SearchParameters &parameters)
+    void GridModel::begin(const SearchContext &context)
     {
-        environment_ = &environment;
-        parameters_ = &parameters;
-        resolution_ = parameters.xyResolution > 0.0 ? parameters.xyResolution : RESOLUTION;
-        const Eigen::Vector2d size = parameters.bounds.size() / resolution_;
-        constexpr double MOST = 2.0 * TiledGrid<Cell>::REACH;
+        environment_ = &context.environment;
+        bounds_ = context.car.bounds;
+        isBidirectional_ = context.parameters.bidirectional;
+        resolution_ = context.parameters.xyResolution > 0.0 ? context.parameters.xyResolution : RESOLUTION;
+        const Eigen::Vector2d size = bounds_.size() / resolution_;
+        constexpr double MAX = 2.0 * TiledGrid<Cell>::REACH;
         // Written so that NaN does not pass.
-        if (!(size.maxCoeff() <= MOST))
-            throw Error("a grid has at most " + formatNumber(MOST) + " cells along x and y: for bounds of " +
-                        formatNumber(parameters.bounds.size().maxCoeff()) + " m xy_resolution must be at least " +
-                        formatNumber(parameters.bounds.size().maxCoeff() / MOST) + " m, not " +
+        if (!(size.maxCoeff() <= MAX))
+            throw Error("a grid has at most " + formatNumber(MAX) + " cells along x and y: for bounds of " +
+                        formatNumber(bounds_.size().maxCoeff()) + " m xy_resolution must be at least " +
+                        formatNumber(bounds_.size().maxCoeff() / MAX) + " m, not " +
                         formatNumber(resolution_));
         const auto cellsAlong = [](double length)
         {
@@ -60,25 +61,24 @@ namespace parking::search
     ModelTraits GridModel::traits() const
     {
         ModelTraits traits;
-        traits.complete = true;
-        traits.aims = parameters_ != nullptr && parameters_->bidirectional;
-        traits.asksMotionByMotion = true;
+        traits.isComplete = true;
+        traits.aims = isBidirectional_;
         traits.turnsOnTheSpot = true;
         return traits;
     }
 
     GridModel::Place GridModel::placeOf(const Pose &pose) const
     {
-        const double column = std::floor((pose.x - parameters_->bounds.min.x()) / resolution_);
-        const double row = std::floor((pose.y - parameters_->bounds.min.y()) / resolution_);
+        const double column = std::floor((pose.x - bounds_.min.x()) / resolution_);
+        const double row = std::floor((pose.y - bounds_.min.y()) / resolution_);
         return {static_cast<std::int32_t>(std::clamp(column, 0.0, columns_ - 1.0)),
                 static_cast<std::int32_t>(std::clamp(row, 0.0, rows_ - 1.0))};
     }
 
     Pose GridModel::centre(const Place &place) const
     {
-        return {parameters_->bounds.min.x() + (place.column + 0.5) * resolution_,
-                parameters_->bounds.min.y() + (place.row + 0.5) * resolution_, 0.0};
+        return {bounds_.min.x() + (place.column + 0.5) * resolution_,
+                bounds_.min.y() + (place.row + 0.5) * resolution_, 0.0};
     }
 
     GridModel::Cell &GridModel::cellAt(const Place &place)
@@ -108,9 +108,12 @@ namespace parking::search
     bool GridModel::isCellFree(Cell &cell, const Pose &pose, std::size_t step)
     {
         Occupancy &known = environment_->headingMatters() ? cell.byHeading[step] : cell.occupancy;
-        if (known == Occupancy::Unknown)
-            known = environment_->isFree(pose) ? Occupancy::Free : Occupancy::Blocked;
-        return known == Occupancy::Free;
+        if (known != Occupancy::Unknown)
+            return known == Occupancy::Free;
+        const bool isFree = environment_->isFree(pose);
+        if (!environment_->wasInterrupted())
+            known = isFree ? Occupancy::Free : Occupancy::Blocked;
+        return isFree;
     }
 
     bool GridModel::load(const StopFunction &stop)
@@ -135,8 +138,8 @@ namespace parking::search
         return true;
     }
 
-    void GridModel::expand(Side side, NodeIndex /*index*/, const Node &node, std::size_t /*level*/, bool /*first*/,
-                           Expansion &expansion)
+    void GridModel::expand(Side side, NodeIndex /*index*/, const Node &node, std::size_t /*level*/, bool /*isFirst*/,
+                           std::vector<Successor> &successors)
     {
         const Place from = placeOf(node.pose);
         for (const GridStep &step : steps_)
@@ -155,10 +158,8 @@ namespace parking::search
             // On the goal's side the car comes the other way, and its heading is that with which it leaves.
             to.yaw = side == Side::Start ? std::atan2(dy, dx) : std::atan2(-dy, -dx);
             const double turn = wrapAngle(to.yaw - node.pose.yaw);
-            expansion.successors.push_back(
-                {{std::abs(turn) > SAME_HEADING ? turn : 0.0, 0.0, side == Side::Start ? length : -length, 0.0},
-                 to,
-                 false});
+            successors.push_back(
+                {{std::abs(turn) > SAME_HEADING ? turn : 0.0, 0.0, side == Side::Start ? length : -length}, to});
         }
     }
 

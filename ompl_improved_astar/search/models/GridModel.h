@@ -32,7 +32,7 @@ namespace parking::search
         /** \brief \param steps to the neighbours, at most 32, each with its opposite */
         explicit GridModel(std::vector<GridStep> steps);
 
-        void begin(MotionEnvironment &environment, const SearchParameters &parameters) override;
+        void begin(const SearchContext &context) override;
         ModelTraits traits() const override;
         std::string heuristic() const override
         {
@@ -40,16 +40,12 @@ namespace parking::search
         }
         void addRoot(Side side, const Pose &pose) override;
         std::uint64_t cell(const Pose &pose, std::size_t level) const override;
-        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool first,
-                    Expansion &expansion) override;
+        void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool isFirst,
+                    std::vector<Successor> &successors) override;
         bool isFree(Side side, const Node &from, const Successor &successor) override;
         bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                   const Offer &offer) override;
         double distance(const Pose &from, const Pose &to) const override
-        {
-            return positionDistance(from, to);
-        }
-        double leastDistance(const Pose &from, const Pose &to) const override
         {
             return positionDistance(from, to);
         }
@@ -60,12 +56,12 @@ namespace parking::search
         }
 
     private:
-        static constexpr std::size_t MOST_STEPS = 32;
+        static constexpr std::size_t MAX_STEPS = 32;
 
         struct Cell
         {
             Occupancy occupancy{Occupancy::Unknown};        // whatever the heading
-            std::array<Occupancy, MOST_STEPS> byHeading{};  // by the step that arrives with it
+            std::array<Occupancy, MAX_STEPS> byHeading{};  // by the step that arrives with it
         };
 
         struct Place
@@ -87,7 +83,8 @@ namespace parking::search
         std::vector<GridStep> steps_;
         std::vector<std::size_t> opposite_;  // of each step
         MotionEnvironment *environment_{nullptr};
-        const SearchParameters *parameters_{nullptr};
+        Box bounds_;
+        bool isBidirectional_{true};
         double resolution_{0.5};
         std::int32_t columns_{0}, rows_{0};
         TiledGrid<Cell> cells_;

@@ -5,49 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace parking
 {
     namespace
     {
-        constexpr double CLEARANCE_OF_INTEREST = 10.0;  // metres
         constexpr double RADIANS_AT_A_TIME = 1.0;
         constexpr double A_HAIR = 1e-9;  // metres
-        // Cells of the field, in inscribed radii: from this on their error decides where a disc fits.
-        constexpr double WIDE_CELL = 0.5;
-
-        class CellsOfChecker final : public search::BodyCells
-        {
-        public:
-            CellsOfChecker(const FootprintChecker &checker, double side, int headings)
-              : centreOffset_(checker.vehicle().centreOffset()),
-                cells_(checker, side, headings)
-            {
-            }
-
-            Pose middle(const Pose &rearAxle) const override
-            {
-                return advance(rearAxle, 0.0, centreOffset_);
-            }
-
-            Headings blocked(double x, double y) const override
-            {
-                return cells_.blocked(x, y);
-            }
-
-            Contact contact(const PoseCell &cell) const override
-            {
-                if (cells_.touchThroughout(cell))
-                    return Contact::Everywhere;
-                return cells_.areFreeThroughout(cell) ? Contact::None : Contact::Unknown;
-            }
-
-        private:
-            double centreOffset_;
-            FootprintCells cells_;
-        };
-    }  // namespace
+    }                                    // namespace
 
     FootprintEnvironment::FootprintEnvironment(const FootprintChecker &checker, const Box &bounds, double tolerance,
                                                search::MotionEnvironment *judge)
@@ -62,7 +27,6 @@ namespace parking
         boundsMatter_ = frame.yaw != 0.0 || frame.x + world.min.x() < bounds.min.x() ||
                         frame.y + world.min.y() < bounds.min.y() || frame.x + world.max.x() > bounds.max.x() ||
                         frame.y + world.max.y() > bounds.max.y();
-        hasWideCells_ = checker.field().resolution() >= WIDE_CELL * checker.vehicle().inscribedRadius(checker.margin());
     }
 
     bool FootprintEnvironment::isFree(const Pose &pose)
@@ -70,27 +34,17 @@ namespace parking
         return (!boundsMatter_ || bounds_.contains(pose.x, pose.y)) && checker_.isFree(pose, counts_);
     }
 
-    double FootprintEnvironment::clearance(const Pose &pose)
+    void FootprintEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                                           double *lengths)
     {
-        return checker_.clearance(pose, CLEARANCE_OF_INTEREST, counts_);
-    }
-
-    double FootprintEnvironment::freeLength(const Pose &from, double curvature, double length)
-    {
-        const Arc arc{curvature, length};
-        double free = 0.0;
-        freeLengths(from, &arc, 1, &free);
-        return free;
-    }
-
-    void FootprintEnvironment::freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free)
-    {
-        sweep(checker_.sweepStart(from, tolerance_, counts_), from, arcs, count, free);
-    }
-
-    void FootprintEnvironment::sweep(const FootprintChecker::SweepStart &start, const Pose &from, const Arc *arcs,
-                                     std::size_t count, double *lengths)
-    {
+        std::fill(lengths, lengths + count, 0.0);
+        // A clearance too large to sweep, or too small to prove anything free, is left to sampling.
+        if (clearance > FootprintChecker::MAX_TOLERANCE || (clearance > 0.0 && clearance < tolerance_))
+            return;
+        const FootprintChecker::SweepStart start =
+            checker_.sweepStart(from, clearance > 0.0 ? clearance : tolerance_, counts_);
+        if (start.enlargement < clearance)
+            return;
         for (std::size_t i = 0; i < count; ++i)
         {
             const auto &[curvature, length] = arcs[i];
@@ -100,59 +54,9 @@ namespace parking
         }
     }
 
-    void FootprintEnvironment::freeLengthsBeyond(const Pose &from, const Arc *arcs, std::size_t count,
-                                                 const double *clear, double *free)
-    {
-        std::optional<FootprintChecker::SweepStart> start;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            const auto &[curvature, length] = arcs[i];
-            const double whole = std::abs(length);
-            if (clear[i] >= whole)
-                free[i] = whole;
-            else if (clear[i] > 0.0)
-            {
-                const Pose pose = advance(from, curvature, std::copysign(clear[i], length));
-                const Arc rest{curvature, std::copysign(whole - clear[i], length)};
-                sweep(checker_.clearSweepStart(pose, tolerance_, counts_), pose, &rest, 1, &free[i]);
-                free[i] = free[i] < std::abs(rest.length) ? clear[i] + free[i] : whole;
-            }
-            else
-            {
-                if (!start)
-                    start = checker_.sweepStart(from, tolerance_, counts_);
-                sweep(*start, from, &arcs[i], 1, &free[i]);
-            }
-        }
-    }
-
     bool FootprintEnvironment::keeps(const Pose &pose, double clearance)
     {
         return checker_.keeps(pose, clearance, counts_);
-    }
-
-    std::size_t FootprintEnvironment::countNearer(const Pose &from, const Arc &arc, double first, double apart,
-                                                  std::size_t samples, double clearance, std::size_t most)
-    {
-        return checker_.countNearer(from, arc, {first, apart, samples}, clearance, most, counts_);
-    }
-
-    void FootprintEnvironment::clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
-                                            double *clear)
-    {
-        std::fill(clear, clear + count, 0.0);
-        // Too large to sweep, or too small to prove anything free: the caller samples.
-        if (clearance > FootprintChecker::MAX_TOLERANCE || clearance < tolerance_)
-            return;
-        const FootprintChecker::SweepStart start = checker_.sweepStart(from, clearance, counts_);
-        if (start.enlargement >= clearance)
-            sweep(start, from, arcs, count, clear);
-    }
-
-    Pose FootprintEnvironment::turnedRound(const Pose &pose) const
-    {
-        // The body's middle stays where it is.
-        return MotionEnvironment::turnedRound(advance(pose, 0.0, 2.0 * checker_.vehicle().centreOffset()));
     }
 
     double FootprintEnvironment::lengthInside(const Pose &from, double curvature, double length) const
@@ -199,14 +103,6 @@ namespace parking
 
     double FootprintEnvironment::roomAt(double x, double y)
     {
-        if (hasWideCells_)
-            return closeRoomAt(x, y);
-        const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
-        return checker_.field().upperBound(local.x, local.y);
-    }
-
-    double FootprintEnvironment::closeRoomAt(double x, double y)
-    {
         const Pose local = checker_.obstacles().toLocal({x, y, 0.0});
         return checker_.field().closeUpperBound(local.x, local.y);
     }
@@ -225,9 +121,12 @@ namespace parking
         return moved > tolerance_ && covered > 0.0 && isMotionFree(from, middle) && isMotionFree(middle, to);
     }
 
-    std::unique_ptr<search::BodyCells> FootprintEnvironment::bodyCells(double side, int headings)
+    search::BlockedHeadings FootprintEnvironment::blockedHeadings(double side, int headings)
     {
-        return std::make_unique<CellsOfChecker>(checker_, side, headings);
+        return [cells = FootprintCells(checker_, side, headings)](double x, double y)
+        {
+            return cells.blocked(x, y);
+        };
     }
 
     bool FootprintEnvironment::acceptPath(const Path &path)

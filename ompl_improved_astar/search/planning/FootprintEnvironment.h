@@ -1,11 +1,8 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
 #include "parking_geometry/Box.h"
 #include "state_validity/FootprintChecker.h"
-
-#include <memory>
 
 namespace parking
 {
@@ -23,27 +20,18 @@ namespace parking
                              search::MotionEnvironment *judge = nullptr);
 
         bool isFree(const Pose &pose) override;
-        double clearance(const Pose &pose) override;
-        double freeLength(const Pose &from, double curvature, double length) override;
-        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double *free) override;
+        void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
+                         double *lengths) override;
         bool keeps(const Pose &pose, double clearance) override;
-        void freeLengthsBeyond(const Pose &from, const Arc *arcs, std::size_t count, const double *clear,
-                               double *free) override;
-        std::size_t countNearer(const Pose &from, const Arc &arc, double first, double apart, std::size_t samples,
-                                double clearance, std::size_t most) override;
-        void clearLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
-                          double *clear) override;
-        Pose turnedRound(const Pose &pose) const override;
+        /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
+        bool isMotionFree(const Pose &from, const Pose &to) override;
+        double roomAt(double x, double y) override;
+        search::BlockedHeadings blockedHeadings(double side, int headings) override;
+        bool acceptPath(const Path &path) override;
         Box bounds() const override
         {
             return bounds_;
         }
-        double roomAt(double x, double y) override;
-        double closeRoomAt(double x, double y) override;
-        /** \brief Conservative: covers the motion by poses whose clearances overlap (conservative advancement). */
-        bool isMotionFree(const Pose &from, const Pose &to) override;
-        bool acceptPath(const Path &path) override;
-        std::unique_ptr<search::BodyCells> bodyCells(double side, int headings) override;
         bool wasInterrupted() const override
         {
             return judge_ != nullptr && judge_->wasInterrupted();
@@ -56,8 +44,6 @@ namespace parking
         }
 
     private:
-        void sweep(const FootprintChecker::SweepStart &start, const Pose &from, const Arc *arcs, std::size_t count,
-                   double *lengths);
         double lengthInside(const Pose &from, double curvature, double length) const;
 
         const FootprintChecker &checker_;
@@ -65,7 +51,6 @@ namespace parking
         double tolerance_;
         search::MotionEnvironment *judge_;
         bool boundsMatter_;
-        bool hasWideCells_;
         CheckCounts counts_;
     };
 }  // namespace parking

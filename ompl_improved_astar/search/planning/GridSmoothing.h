@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/curves/Path.h"
 
 namespace parking::search

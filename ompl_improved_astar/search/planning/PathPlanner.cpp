@@ -1,8 +1,9 @@
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
 
-#include "ompl_improved_astar/search/planning/Knots.h"
+#include "ompl_improved_astar/search/Tuning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace parking::search
@@ -10,103 +11,54 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        constexpr double FINE_SAMPLES = 0.02;      // metres between the poses at which the clearance is sampled finely
+        constexpr std::uint64_t MIN_PASSES = 450;  // that find nothing, before planning ends while there is time
+
+        /** The multiples of these, without their whole parts, fill the unit cube evenly (after M. Roberts, "The
+            unreasonable effectiveness of quasirandom sequences", 2018). */
+        double fraction(std::uint64_t number, std::size_t dimension)
+        {
+            constexpr double STEPS[3]{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+            return std::fmod(0.5 + STEPS[dimension] * static_cast<double>(number), 1.0);
+        }
     }  // namespace
 
-    void PathPlanner::begin(MotionEnvironment &environment, const PathPlannerParameters &parameters)
+    void PathPlanner::begin(MotionEnvironment &environment, const PlannerParameters &parameters, const CarInSpace &car)
     {
         environment_ = &environment;
         parameters_ = parameters;
-        search_.begin(environment, parameters_.search);
-        parameters_.shorten = parameters.shorten && search_.model().curves() != nullptr;
-        parameters_.anytime = parameters.anytime && search_.model().curves() != nullptr;
-        restarts_.begin(environment, parameters_.search);
-        replanner_.begin(environment, parameters_.search);
-        CostModel closer = search_.cost();
-        closer.samplesApart = parameters_.search.tuning.closerSamples;
-        prices_.begin(environment, search_.cost());
-        closerPrices_.begin(environment, closer);
+        car_ = car;
+        search_.begin(environment, parameters, car);
+        improver_.reset();
+        if (const ReedsShepp *curves = search_.model().curves())
+            improver_.emplace(environment, *curves, search_.cost(), car.centreOffset);
+        approach_.reset();
         starts_.clear();
-        bestPath_ = {};
-        bestCost_ = INFINITE;
-        costWhenTurned_ = costWhenRelaxed_ = INFINITE;
-        relaxations_ = 0;
-        shortenerConnections_ = 0;
-        approach_.forget();
-        goodEnough_ = false;
-        round_ = 0;
-        weights_ = parameters.search.weights;
-    }
-
-    bool PathPlanner::take(const Path &path, double cost)
-    {
-        if (!(cost < bestCost_ - 1e-9) || (hasSolution() && !isCheaperAtACloserLook(path)))
-            return false;
-        bestPath_ = path;
-        bestCost_ = cost;
-        search_.setCostBound(cost);
-        if (improved_ && improved_(bestPath_, bestCost_))
-            goodEnough_ = true;
-        return true;
-    }
-
-    bool PathPlanner::isCheaperAtACloserLook(const Path &path)
-    {
-        // What looks cheaper and cheaper may do so by being near to obstacles where nobody looks, between the samples.
-        if (!search_.cost().prefersClearance())
-            return true;
-        const std::optional<double> cost = closerPrices_.cost(path, stop_);
-        const std::optional<double> best = cost ? closerPrices_.cost(bestPath_, stop_) : std::nullopt;
-        return best && *cost < *best;
-    }
-
-    bool PathPlanner::isShortestPossible(const Path &path, double cost)
-    {
-        // The bare curve is as short as any drivable path, whatever the obstacles. What it costs beyond its length may
-        // be worth a longer way when it is more than a few changes of gear and steering come to.
-        const double shortest = search_.shortestMotion();
-        return path.length() <= shortest * (1.0 + 1e-9) && cost <= shortest + parameters_.search.turningRadius &&
-               isKnownToBeClear(path);
-    }
-
-    bool PathPlanner::isKnownToBeClear(const Path &path)
-    {
-        const std::optional<double> closeness = prices_.closeness(path, stop_);
-        return closeness && *closeness <= 0.0;
-    }
-
-    double PathPlanner::closenessOfBest()
-    {
-        const std::optional<double> closeness = prices_.closeness(bestPath_, stop_);
-        return closeness ? *closeness : std::max(0.0, bestCost_ - costWithoutCloseness(search_.cost(), bestPath_));
-    }
-
-    double PathPlanner::closenessShare(const Path &path, double cost) const
-    {
-        return cost > 0.0 ? (cost - costWithoutCloseness(search_.cost(), path)) / cost : 0.0;
-    }
-
-    bool PathPlanner::passesClosely(const Path &path, double cost)
-    {
-        const double share = parameters_.search.tuning.dearlyClose, length = path.length(),
-                     end = parameters_.search.tuning.closeToEnds * parameters_.search.turningRadius;
-        if (length <= 2.0 * end || closenessShare(path, cost) <= share)
-            return false;
-        const std::optional<double> closeness =
-            pathCloseness(search_.cost(), path.first(length - end).rest(end), *environment_, stop_);
-        return closeness && *closeness > share * cost;
-    }
-
-    double PathPlanner::expectedLength()
-    {
-        return std::max(search_.shortestMotion(), search_.estimate());
+        hasGoal_ = isGoodEnough_ = false;
+        best_ = {};
+        best_.cost = INFINITE;
+        passes_ = 0;
     }
 
     PathPlanner::Outcome PathPlanner::solve(const StopFunction &stop, const ImprovementFunction &improved)
     {
         stop_ = stop;
         improved_ = improved;
-        const Outcome outcome = goOnSolving();
-        // Whom stop asks may be gone from now on.
+        isGoodEnough_ = false;
+        Outcome outcome = Outcome::Solved;
+        if (!hasSolution())
+        {
+            const SearchOutcome found = search_.run(stop);
+            if (found == SearchOutcome::Improved)
+                planFirst();
+            else
+                outcome = found == SearchOutcome::Stopped ? Outcome::Stopped : Outcome::Exhausted;
+        }
+        else if (search_.bestCost() < best_.cost)  // roots were added
+            take(priced(search_.bestPath(), search_.bestCost()));
+        if (hasSolution() && !isGoodEnough_ && parameters_.anytime && improver_ && !isShortestPossible(best_))
+            outcome = planAnytime();
+        // stop may refer to what is gone from now on.
         stop_ = []
         {
             return true;
@@ -114,225 +66,207 @@ namespace parking::search
         return outcome;
     }
 
-    PathPlanner::Outcome PathPlanner::goOnSolving()
+    void PathPlanner::planFirst()
     {
-        goodEnough_ = false;
-        if (!hasSolution())
+        PricedPath path = priced(search_.bestPath(), search_.bestCost());
+        const double expected = search_.expectedCost();
+        if (!isShortestPossible(path) && path.cost > tuning::NEAR_OPTIMAL * expected)
         {
-            const SearchOutcome outcome = search_.run(stop_);
-            if (outcome != SearchOutcome::Improved)
-                return outcome == SearchOutcome::Stopped ? Outcome::Stopped : Outcome::Exhausted;
-            takeFirst();
-        }
-        else
-        {
-            // Roots were added, or the caller wants the old solution again.
-            while (search_.run([] { return true; }) == SearchOutcome::Improved)
-                take(search_.bestPath(), search_.bestCost());
-        }
-        if (goodEnough_ || !parameters_.anytime || isShortestPossible(bestPath_, bestCost_))
-            return Outcome::Solved;
-        return improve();
-    }
-
-    void PathPlanner::takeFirst()
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        // A single curve that cannot be beaten ends the matter, and little can be gained by going on with a path that
-        // is hardly longer than the shortest curve.
-        if (isShortestPossible(search_.bestPath(), search_.bestCost()))
-        {
-            take(search_.bestPath(), search_.bestCost());
-            return;
-        }
-        const double shortest = search_.shortestMotion(), little = tuning.hardlyLonger * shortest;
-        const bool isShort = search_.bestPath().length() < little &&
-                             search_.bestCost() < little + parameters_.search.turningRadius &&
-                             isKnownToBeClear(search_.bestPath());
-        const bool isShortest = search_.bestPath().length() <= shortest * (1.0 + 1e-9);
-        const double expected = expectedLength();
-        // Nor with the shortest curve itself, unless it is very near to something, nor with what costs little more than
-        // it promised.
-        const bool isBare = isShortest && search_.expanded() == 0 &&
-                            closenessShare(search_.bestPath(), search_.bestCost()) <= tuning.dearlyClose;
-        const bool isCheap =
-            search_.bestCost() < tuning.hardlyDearer * expected && search_.bestPath().cusps() <= tuning.fewCusps;
-        if (!isShort && !isBare && !isCheap)
-            thinkAgain(expected);
-        Path best = search_.bestPath();
-        double cost = search_.bestCost();
-        // A bare curve is shortened no more.
-        if (parameters_.shorten && !(isShort && isShortest))
-        {
-            const double radius = parameters_.search.turningRadius, coarsest = best.length() / tuning.mostKnots;
-            const bool isShorter = shortenWhole(best, cost, coarsest);
-            // Near to obstacles, too, other knots find more; but hardly anything where the first found nothing.
-            if (best.length() > (1.0 + tuning.stillLong) * expected || (isShorter && !isKnownToBeClear(best)))
-                shortenByOtherKnots(prices_, best, cost, coarsest);
-            // A long path of many short pieces that is far from what it looked is often held by nothing but its knots.
-            const bool isLong = !isBare && best.length() > tuning.shortToShortenAgain * radius;
-            for (std::uint64_t k = 0; k < tuning.mostShortenings && isLong && cost > tuning.muchDearer * expected; ++k)
+            // Searching on is cheap when the search was, and the more worthwhile the longer the path.
+            const double excess = std::clamp(path.path.length() / expected - 1.0, 0.0, 1.0);
+            const double more = tuning::POST_SEARCH_EXPANSIONS + tuning::POST_SEARCH_PER_EXCESS * excess +
+                                tuning::POST_SEARCH_SHARE * static_cast<double>(search_.expanded());
+            search_.lowerWeights(tuning::WEIGHT_DECAY);
+            const std::uint64_t end = search_.expanded() + static_cast<std::uint64_t>(more);
+            while (search_.run(stop_, end) == SearchOutcome::Improved)
             {
-                const Knots knots = otherKnots(k + 1, tuning.leastSpacing * radius, tuning.spacings * radius);
-                shorten(prices_, best, cost, std::max(knots.spacing, best.length() / tuning.mostKnots), knots.offset,
-                        tuning.widestSpan * radius, CurveChoice::Cheapest);
             }
+            path = priced(search_.bestPath(), search_.bestCost());
         }
-        if (parameters_.shorten && cost > tuning.dearTurns * expected)
-            turnRound(best, cost);
-        if (parameters_.shorten && !isBare)
-            relaxFirst(best, cost, cost / expected);
-        if (parameters_.shorten && search_.cost().prefersClearance())
-            findRoom(best, cost, OtherWay::Allowed);
-        take(best, cost);
-        if (parameters_.shorten && !goodEnough_ && !search_.isFull() && passesClosely(best, cost))
-        {
-            restarts_.setMaxMemory(memoryLeft());
-            searchAnew(ENDLESS, 1, Room::Sought);
-        }
+        if (improver_ && parameters_.shortening && !isShortestPossible(path))
+            improveFirst(path, expected);
+        take(path);
     }
 
-    void PathPlanner::goOn(std::uint64_t expansions)
+    PathPlanner::Outcome PathPlanner::planAnytime()
     {
-        const std::uint64_t end = search_.expanded() + expansions;
-        while (search_.run(stop_, end) == SearchOutcome::Improved)
+        bool isSearching = true;
+        std::uint64_t improvedAt = passes_;
+        while (!isGoodEnough_ && !isShortestPossible(best_))
         {
-        }
-    }
-
-    void PathPlanner::thinkAgain(double expected)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        weights_ = weights_.lowered(tuning.weightsOfAfterthought);
-        search_.setWeights(weights_, stop_);
-        const double excess = search_.bestPath().length() / expected - 1.0;
-        const double more = tuning.afterthought * static_cast<double>(search_.expanded()) +
-                            tuning.afterthoughtPerExcess * std::clamp(excess, 0.0, tuning.mostExcess);
-        goOn(tuning.leastAfterthought + static_cast<std::uint64_t>(more));
-        if (search_.bestCost() > tuning.stillDear * expected)
-            goOn(tuning.secondAfterthought);
-    }
-
-    bool PathPlanner::searchAnew(std::uint64_t expansions, std::uint64_t searches, Room room)
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        const double factor = parameters_.shorten ? tuning.dearerToBeShortened : 1.0;
-        const std::uint64_t mostExpansions = restarts_.expanded() + expansions;
-        const std::uint64_t mostSearches = restarts_.searches() + searches;
-        bool progress = false;
-        while (!goodEnough_ && restarts_.run(stop_, mostExpansions, mostSearches, factor * bestCost_))
-        {
-            Path path = restarts_.path();
-            double cost = restarts_.cost();
-            if (parameters_.shorten && !isTimeUp())
-                shortenTwice(path, cost);
-            if (parameters_.shorten && cost < factor * bestCost_)
-                relaxAndShorten(path, cost);
-            if (room == Room::Sought && search_.cost().prefersClearance() && cost < factor * bestCost_)
-                findRoom(path, cost, OtherWay::Excluded);
-            progress = take(path, cost) || progress;
-        }
-        return progress;
-    }
-
-    PathPlanner::Outcome PathPlanner::improve()
-    {
-        const SearchTuning &tuning = parameters_.search.tuning;
-        bool searching = true;
-        const double radius = parameters_.search.turningRadius;
-        // From now on there are two searches that take memory.
-        const std::size_t memory = parameters_.search.maxMemory;
-        const auto share = static_cast<std::size_t>(tuning.memoryOfRestarts * static_cast<double>(memory));
-        restarts_.setMaxMemory(std::min(share, memoryLeft()));
-        search_.setMaxMemory(memory - share);
-        for (;; ++round_)
-        {
-            if (goodEnough_)
-                return Outcome::Solved;
-            if (isTimeUp())
+            constexpr int PASSES_PER_ROUND = 9;
+            if (isStopped())
                 return Outcome::Stopped;
-            bool progress = false;
-            if (parameters_.shorten)
-                for (std::uint64_t k = 0; k < tuning.shorteningsPerRound && !goodEnough_ && !isTimeUp(); ++k)
-                {
-                    const Knots knots = otherKnots(3 * round_ + k + 1, 0.2 * radius, 0.6 * radius);
-                    progress = shortenBest(knots.spacing, knots.offset) || progress;
-                }
-            if (parameters_.shorten)
-                for (std::size_t k = 0; k < tuning.relaxationsPerRound && !goodEnough_ && !isTimeUp(); ++k)
-                    progress = relaxBest() || progress;
-            if (parameters_.shorten && !goodEnough_)
+            for (int i = 0; i < PASSES_PER_ROUND && parameters_.shortening && !isGoodEnough_ && !isStopped(); ++i)
+                if (improveBest())
+                    improvedAt = passes_;
+            if (isSearching && !isGoodEnough_)
             {
-                Path path = bestPath_;
-                double cost = bestCost_;
-                progress = (turnRound(path, cost) && take(path, cost)) || progress;
-            }
-            if (searching && !goodEnough_)
-            {
-                if (weights_.far > 1.0 || weights_.near > 1.0)
-                {
-                    weights_ = weights_.lowered(tuning.weightDecay);
-                    search_.setWeights(weights_, stop_);
-                }
-                const std::uint64_t end = search_.expanded() + tuning.expansionsPerRound;
+                search_.lowerWeights(tuning::WEIGHT_DECAY);
+                const std::uint64_t end = search_.expanded() + tuning::ROUND_EXPANSIONS;
                 SearchOutcome outcome;
-                while ((outcome = search_.run(stop_, end)) == SearchOutcome::Improved && !goodEnough_)
-                    progress = take(search_.bestPath(), search_.bestCost()) || progress;
-                searching = outcome != SearchOutcome::Exhausted;
+                while ((outcome = search_.run(stop_, end)) == SearchOutcome::Improved && !isGoodEnough_)
+                    if (take(priced(search_.bestPath(), search_.bestCost())))
+                        improvedAt = passes_;
+                isSearching = outcome != SearchOutcome::Exhausted;
             }
-            if (!goodEnough_ && !isTimeUp())
-                progress = searchAnew(tuning.expansionsPerRound, tuning.restartsPerRound, Room::AsItIs) || progress;
-            if (isShortestPossible(bestPath_, bestCost_) || (!searching && !progress && round_ > tuning.leastRounds))
-                return Outcome::Solved;
+            if (!isSearching && (passes_ > improvedAt + MIN_PASSES || !parameters_.shortening))
+                break;
         }
+        return Outcome::Solved;
+    }
+
+    /** A path of the search with its costs, which are those that the search has summed up if there is no time. */
+    PricedPath PathPlanner::priced(const Path &path, double cost) const
+    {
+        PricedPath result = price(search_.cost(), path, *environment_);
+        if (environment_->wasInterrupted())
+            result.cost = cost;
+        return result;
+    }
+
+    bool PathPlanner::take(const PricedPath &path)
+    {
+        // What looks cheaper and cheaper may do so by being near to obstacles between the samples.
+        if (!(path.cost < best_.cost) || (hasSolution() && search_.cost().prefersClearance() &&
+                                          !(finelySampledCost(path.path) < finelySampledCost(best_.path))))
+            return false;
+        best_ = path;
+        search_.setCostBound(best_.cost);
+        isGoodEnough_ = (improved_ && improved_(best_.path, best_.cost)) || isGoodEnough_;
+        return true;
+    }
+
+    double PathPlanner::finelySampledCost(const Path &path) const
+    {
+        CostModel fine = search_.cost();
+        fine.sampleSpacing = FINE_SAMPLES;
+        return price(fine, path, *environment_).cost;
+    }
+
+    bool PathPlanner::isShortestPossible(const PricedPath &path) const
+    {
+        // The bare curve is as short as any drivable path, whatever the obstacles. Its cost beyond its length may be
+        // worth a longer path when it is more than a few changes of gear and steering come to.
+        const double shortest = search_.shortestMotion();
+        return path.path.length() <= shortest * (1.0 + 1e-9) && path.cost <= shortest + car_.turningRadius &&
+               path.totalProximity() <= 0.0;
+    }
+
+    bool PathPlanner::improve(PricedPath &path, const PathImprover::Pass &pass)
+    {
+        return !isStopped() &&
+               improver_->improve(path, pass, std::max<std::size_t>(path.path.cusps(), car_.maxCusps), stop_);
+    }
+
+    void PathPlanner::improveFirst(PricedPath &path, double expected)
+    {
+        const double radius = car_.turningRadius;
+        const auto passOf = [&](double spacing, double offset, double reach, double step)
+        {
+            PathImprover::Pass pass;
+            pass.spacing = std::max(spacing * radius, path.path.length() / tuning::MAX_KNOTS);
+            pass.offset = offset * radius;
+            pass.reach = reach * radius;
+            pass.step = step * radius;
+            return pass;
+        };
+        const auto isCostly = [&](double ratio)
+        {
+            return path.cost > ratio * expected;
+        };
+        const auto shorten = [&]
+        {
+            // Near to obstacles other knots find more; hardly anything where the first found nothing.
+            PathImprover::Pass pass = passOf(tuning::KNOT_SPACING, 0.0, INFINITE, 0.0);
+            pass.maxCurves = 2;
+            if (!improve(path, pass) || !isCostly(tuning::NEAR_OPTIMAL))
+                return;
+            pass = passOf(0.96 * tuning::KNOT_SPACING, 0.3 * tuning::KNOT_SPACING, 24.0 * tuning::KNOT_SPACING, 0.0);
+            pass.maxCurves = 2;
+            improve(path, pass);
+        };
+        shorten();
+        if (path.path.cusps() > 0 && isCostly(tuning::TURN_RATIO))
+        {
+            PathImprover::Pass turn = passOf(2.0 * tuning::KNOT_SPACING, 0.0, INFINITE, 0.0);
+            turn.spacing = std::max(radius, path.path.length() / (2.0 * tuning::MAX_KNOTS));
+            turn.turnsCar = true;
+            if (improve(path, turn))
+                shorten();
+        }
+        if (isCostly(tuning::MOVE_RATIO))
+            for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
+                for (int pass = 0; pass < tuning::MAX_MOVES; ++pass)
+                    if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
+                        break;
+    }
+
+    bool PathPlanner::improveBest()
+    {
+        const double radius = car_.turningRadius;
+        const std::uint64_t number = ++passes_;
+        PricedPath path = best_;
+        PathImprover::Pass pass{(0.2 + 0.6 * fraction(number, 0)) * radius};
+        pass.spacing = std::max(pass.spacing, path.path.length() / 40.0);
+        pass.offset = pass.spacing * fraction(number, 1);
+        pass.reach = 12.0 * radius;
+        if (number % 9 == 0)
+        {
+            pass.spacing *= 2.0;
+            pass.turnsCar = true;
+        }
+        else if (number % 2 == 0)
+        {
+            pass.reach = 4.0 * radius;
+            pass.step = 0.3 * std::pow(0.1, fraction(number, 2)) * radius;
+        }
+        return improve(path, pass) && take(path);
     }
 
     bool PathPlanner::approximate(const Pose &target, const StopFunction &stop, Path &path)
     {
-        Search *search = &search_;
-        if (search_.hasGoal() && !search_.hasSeenAllFromStart())
+        const auto search = [&](Search &towards)
         {
-            // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it; but
-            // where memory is short, another search would take as much again.
-            if (starts_.empty() || search_.isFull() || (stop && stop()))
-                return search_.nearestPath(target, path);
-            SearchParameters parameters = parameters_.search;
-            parameters.maxMemory = memoryLeft();
-            search = &approach_.begin(*environment_, parameters);
-            for (const Pose &start : starts_)
-                search->addStart(start);
-        }
-        if (search != &search_ || !search_.hasGoal())
-        {
-            search->setTarget(target);
-            while (search->run(stop) == SearchOutcome::Improved)
+            towards.setTarget(target);
+            while (towards.run(stop) == SearchOutcome::Improved)
             {
             }
-        }
-        if (!search->nearestPath(target, path))
-            return false;
+        };
+        if (!hasGoal_)
+            search(search_);
+        const bool isStuck = starts_.empty() || search_.isFull() || (stop && stop()) || search_.hasSeenAllFromStart();
+        if (!hasGoal_ || isStuck)
+            return search_.nearestPath(target, path);
+        // The frontiers grew towards the goal itself. What is left of the time goes into coming near to it.
+        if (!approach_)
+            approach_ = std::make_unique<Search>();
+        approach_->begin(*environment_, parameters_, car_);
+        const std::size_t memory = std::size_t{parameters_.maxMemoryMb} << 20;
+        approach_->setMaxMemory(memory - std::min(memory, search_.memory()));
+        for (const Pose &start : starts_)
+            approach_->addStart(start);
+        search(*approach_);
         Path other;
-        if (search != &search_ && search_.nearestPath(target, other) &&
-            positionDistance(other.end(), target) < positionDistance(path.end(), target))
+        if (!approach_->nearestPath(target, path) || !search_.nearestPath(target, other))
+            return false;
+        if (positionDistance(other.end(), target) < positionDistance(path.end(), target))
             path = std::move(other);
         return true;
     }
 
     double PathPlanner::suboptimalityBound(double cost)
     {
-        if (!hasSolution())
-            return INFINITE;
-        const double bound = search_.lowerBound();
+        const double bound = hasSolution() ? search_.lowerBound() : 0.0;
         return bound > 0.0 ? std::max(1.0, cost / bound) : INFINITE;
     }
 
     SearchStatistics PathPlanner::statistics() const
     {
         SearchStatistics sum = search_.statistics();
-        sum += restarts_.statistics();
-        sum += approach_.statistics();
-        sum += replanner_.statistics();
-        sum.connections += shortenerConnections_;
+        if (approach_)
+            sum += approach_->statistics();
+        sum.connections += improver_ ? improver_->connections() : 0;
         return sum;
     }
 }  // namespace parking::search

@@ -38,47 +38,9 @@ namespace parking::search
         car.inscribedRadius = vehicle.inscribedRadius(margin);
         car.bodyRadius = vehicle.bodyRadius(margin);
         car.turningLane = vehicle.turningLane(margin);
+        car.centreOffset = vehicle.centreOffset();
         car.bounds = bounds;
         return car;
-    }
-
-    PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car)
-    {
-        PathPlannerParameters result;
-        result.shorten = parameters.shortening;
-        result.anytime = parameters.anytime;
-        SearchParameters &search = result.search;
-        search.motionModel = parameters.motionModel;
-        search.heuristic = parameters.heuristic;
-        search.openList = parameters.openList;
-        search.turningRadius = car.turningRadius;
-        search.forwardOnly = car.forwardOnly;
-        search.mostCusps = car.mostCusps;
-        search.inscribedRadius = car.inscribedRadius;
-        search.bodyRadius = car.bodyRadius;
-        search.turningLane = car.turningLane;
-        search.bounds = car.bounds;
-        search.steeringAngles = parameters.steeringAngles;
-        search.xyResolution = parameters.xyResolution;
-        search.headingBins = parameters.headingBins;
-        search.weights = parameters.weights();
-        search.bidirectional = parameters.bidirectional;
-        search.searchFromGoal = parameters.searchFrom == "goal";
-        search.adaptiveResolution = parameters.adaptiveResolution;
-        search.analyticExpansion = parameters.analyticExpansion;
-        search.obstacleHeuristic = parameters.obstacleHeuristic;
-        search.lookAhead = parameters.lookAhead;
-        search.spreadOut = parameters.spreadOut;
-        search.detours = parameters.detours;
-        search.maxMemory = std::size_t{parameters.maxMemoryMb} << 20;
-        search.eagerObstacles = parameters.obstacleLoading == "eager";
-        search.cost.reversePenalty = parameters.reversePenalty;
-        search.cost.gearChangePenalty = parameters.gearChangePenalty;
-        search.cost.steeringChangePenalty = parameters.steeringChangePenalty;
-        search.cost.clearanceWeight = parameters.clearanceWeight;
-        search.cost.preferredClearance = parameters.preferredClearance;
-        search.cost.clearanceCost = parameters.clearanceCost;
-        return result;
     }
 
     std::string reasonOf(Exhaustion exhaustion, const CarInSpace &car)
@@ -116,7 +78,7 @@ namespace parking::search
             throw Error("a plan needs at least one start and one goal");
         PlanResult result;
         PathPlanner planner;
-        planner.begin(environment, plannerParameters(request.parameters, request.car));
+        planner.begin(environment, request.parameters, request.car);
         const std::vector<Pose> starts = freeOf(request.starts, environment),
                                 goals = freeOf(request.goals, environment);
         for (const Pose &start : starts)
@@ -154,7 +116,7 @@ namespace parking::search
             result.reason.clear();
             result.path = planner.bestPath();
             result.cost = planner.bestCost();
-            result.suboptimalityBound = planner.suboptimalityBound();
+            result.suboptimalityBound = planner.suboptimalityBound(result.cost);
             result.goal = nearest(request.goals, result.path.end());
         }
         else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))

@@ -1,12 +1,10 @@
 #pragma once
 
+#include "ompl_improved_astar/search/CarInSpace.h"
 #include "ompl_improved_astar/search/MotionEnvironment.h"
-#include "ompl_improved_astar/search/SearchParameters.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
-#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
-#include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 
 #include <cstdint>
@@ -16,28 +14,6 @@
 
 namespace parking::search
 {
-    /** \brief What the search has to know of the car and the space beyond the parameters. */
-    struct CarInSpace
-    {
-        double turningRadius{3.0};    ///< metres, of the rear axle
-        bool forwardOnly{false};      ///< never drive in reverse (Dubins)
-        double inscribedRadius{0.0};  ///< metres: no obstacle can be nearer to the rear axle than this; 0: unknown
-        Box bounds;                   ///< of the rear axle's positions
-        /** Changes of direction that a path may have. Shortening adds some where they are worth their cost. */
-        std::uint8_t mostCusps{ANY_CUSPS};
-        /** Metres, of the largest disc within the car wherever its centre is: how wide a gap must be. Only guides the
-            search and sizes the cells of proofs; 0: as inscribedRadius. */
-        double bodyRadius{0.0};
-        /** Metres, width of the lane that the car covers at full lock. Only guides the search; 0: unknown. */
-        double turningLane{0.0};
-    };
-
-    /** \brief What a vehicle that keeps \e margin metres to all sides is to the search, at its sharpest turn. */
-    CarInSpace carInSpace(const Vehicle &vehicle, double margin, const Box &bounds);
-
-    /** \brief What PathPlanner goes by, from the user's parameters and the car. */
-    PathPlannerParameters plannerParameters(const PlannerParameters &parameters, const CarInSpace &car);
-
     /** \brief A planning problem. */
     struct PlanRequest
     {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstdlib>
+#include <limits>
 
 namespace parking::search
 {
@@ -10,38 +11,35 @@ namespace parking::search
     {
         constexpr int BITS = 64;
 
-        bool has(const BodyCells::Headings &set, int bit)
+        bool has(const HeadingSet &set, int bit)
         {
             return (set[static_cast<std::size_t>(bit / BITS)] >> (bit % BITS) & 1U) != 0;
         }
 
-        void add(BodyCells::Headings &set, int bit)
+        void add(HeadingSet &set, int bit)
         {
             set[static_cast<std::size_t>(bit / BITS)] |= std::uint64_t{1} << (bit % BITS);
         }
 
-        bool isEmpty(const BodyCells::Headings &set)
+        bool isEmpty(const HeadingSet &set)
         {
             return (set[0] | set[1]) == 0;
         }
     }  // namespace
 
-    void Enclosure::begin(const BodyCells &body, const std::vector<Pose> &roots, const std::vector<Pose> &targets,
-                          double side, int headings, std::size_t mostColumns, Ahead ahead)
+    void Enclosure::begin(const BlockedHeadings &blocked, const std::vector<Pose> &roots,
+                          const std::vector<Pose> &targets, const Cells &cells)
     {
-        body_ = &body;
-        side_ = side;
-        headings_ = headings;
-        mostColumns_ = mostColumns;
+        blocked_ = &blocked;
+        cells_ = cells;
         seen_ = 0;
         verdict_ = Verdict::Unknown;
         columns_.clear();
         waiting_ = {};
         entered_ = 0;
-        ahead_ = std::move(ahead);
         if (!roots.empty())
         {
-            const Pose middle = body.middle(roots.front());
+            const Pose middle = advance(roots.front(), 0.0, cells.centreOffset);
             origin_ = {middle.x, middle.y};
         }
         targets_.clear();
@@ -50,7 +48,7 @@ namespace parking::search
         for (const Pose &root : roots)
         {
             const Cell cell = cellOf(root);
-            Headings heading{};
+            HeadingSet heading{};
             add(heading, cell.heading);
             enter(cell.place, heading);
         }
@@ -58,24 +56,28 @@ namespace parking::search
 
     Enclosure::Cell Enclosure::cellOf(const Pose &pose) const
     {
-        const Pose middle = body_->middle(pose);
+        const Pose middle = advance(pose, 0.0, cells_.centreOffset);
         // What is out of the grid's reach is a place that it does not contain, whichever.
         const auto index = [this](double value)
         {
             constexpr double BEYOND = 2.0 * TiledGrid<Column>::REACH;
-            return static_cast<std::int32_t>(std::clamp(std::floor(value / side_), -BEYOND, BEYOND));
+            return static_cast<std::int32_t>(std::clamp(std::floor(value / cells_.side), -BEYOND, BEYOND));
         };
-        const double turn = (wrapAngle(middle.yaw) + PI) / (2.0 * PI) * headings_;
+        const double turn = (wrapAngle(middle.yaw) + PI) / (2.0 * PI) * cells_.headings;
         return {{index(middle.x - origin_.x()), index(middle.y - origin_.y())},
-                std::clamp(static_cast<int>(turn), 0, headings_ - 1)};
+                std::clamp(static_cast<int>(turn), 0, cells_.headings - 1)};
     }
 
-    Eigen::Vector2d Enclosure::middleOf(const Place &place) const
+    std::int32_t Enclosure::cellsToTarget(const Place &place) const
     {
-        return origin_ + side_ * Eigen::Vector2d(place.first + 0.5, place.second + 0.5);
+        std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
+        for (const Cell &target : targets_)
+            nearest = std::min(nearest, std::max(std::abs(target.place.first - place.first),
+                                                 std::abs(target.place.second - place.second)));
+        return nearest;
     }
 
-    void Enclosure::enter(const Place &place, const Headings &headings)
+    void Enclosure::enter(const Place &place, const HeadingSet &headings)
     {
         if (!TiledGrid<Column>::contains(place.first, place.second))
         {
@@ -88,17 +90,15 @@ namespace parking::search
             column.entered[i] |= headings[i] & ~column.reached[i] & ~column.blocked[i];
         if (waits || isEmpty(column.entered))
             return;
-        const Eigen::Vector2d at = middleOf(place);
-        // Whole cells: what is about as near is seen in the order in which it came, and then less often again.
-        waiting_.emplace(ahead_ ? std::floor(ahead_(at.x(), at.y()) / side_) : 0.0, entered_++, place);
+        waiting_.emplace(cellsToTarget(place), entered_++, place);
     }
 
     /** Turning on the spot: the headings that are reached from some of the open ones. */
-    Enclosure::Headings Enclosure::spread(Headings from, const Headings &open) const
+    HeadingSet Enclosure::spread(HeadingSet from, const HeadingSet &open) const
     {
-        const std::size_t last = static_cast<std::size_t>(headings_ - 1) / BITS;
-        const int top = (headings_ - 1) % BITS;
-        for (Headings before{}; from != before;)
+        const std::size_t last = static_cast<std::size_t>(cells_.headings - 1) / BITS;
+        const int top = (cells_.headings - 1) % BITS;
+        for (HeadingSet before{}; from != before;)
         {
             before = from;
             // All at once by one part of the circle to either side; beyond the last part comes the first.
@@ -117,14 +117,14 @@ namespace parking::search
         Column &column = columns_.at(place.first, place.second);
         if (!column.asked)
         {
-            const Eigen::Vector2d at = middleOf(place);
-            column.blocked = body_->blocked(at.x(), at.y());
+            const Eigen::Vector2d middle = origin_ + cells_.side * Eigen::Vector2d(place.first + 0.5, place.second + 0.5);
+            column.blocked = (*blocked_)(middle.x(), middle.y());
         }
         column.asked = true;
-        Headings open{}, fresh{};
-        const std::size_t last = static_cast<std::size_t>(headings_ - 1) / BITS;
-        const std::uint64_t ofLast = ~std::uint64_t{0} >> (BITS - 1 - (headings_ - 1) % BITS);
-        const Headings all{last > 0 ? ~std::uint64_t{0} : ofLast, last > 0 ? ofLast : 0};
+        HeadingSet open{}, fresh{};
+        const std::size_t last = static_cast<std::size_t>(cells_.headings - 1) / BITS;
+        const std::uint64_t ofLast = ~std::uint64_t{0} >> (BITS - 1 - (cells_.headings - 1) % BITS);
+        const HeadingSet all{last > 0 ? ~std::uint64_t{0} : ofLast, last > 0 ? ofLast : 0};
         for (std::size_t i = 0; i < open.size(); ++i)
         {
             open[i] = all[i] & ~column.blocked[i] & ~column.reached[i];
@@ -149,7 +149,7 @@ namespace parking::search
         {
             if (waiting_.empty())
                 return verdict_ = Verdict::Closed;
-            if (seen_ >= mostColumns_)
+            if (seen_ >= cells_.maxColumns)
                 return verdict_ = Verdict::TooLarge;
             const Place place = std::get<Place>(waiting_.top());
             waiting_.pop();

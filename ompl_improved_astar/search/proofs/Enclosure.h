@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -30,8 +29,14 @@ namespace parking::search
     class Enclosure
     {
     public:
-        /** \brief Metres that are thought to lie between the body's middle at (x, y) and the targets. */
-        using Ahead = std::function<double(double x, double y)>;
+        /** \brief The cells of a proof. */
+        struct Cells
+        {
+            double side;             ///< metres
+            int headings;            ///< round the circle, 8 to 128
+            double centreOffset;     ///< metres from the rear axle ahead to the body's middle, which stands in the cell
+            std::size_t maxColumns;  ///< places after which the proof is given up
+        };
 
         /** \brief How far the proof is. */
         enum class Verdict
@@ -44,31 +49,14 @@ namespace parking::search
 
         /** \brief Begins a proof; memory of the last one is kept.
 
-            \param body of cells with that side and so many headings; must outlive the proof
-            \param roots, targets poses of the rear axle, free
-            \param side of a cell in metres
-            \param headings cells round the circle, from 8 to 128
-            \param mostColumns places after which it is given up
-            \param ahead places where it is least are seen first, so that a flood which can reach a target does so soon;
-            without it all that are equally near to the roots are. What is proven does not depend on it, unless there
-           are too many columns */
-        void begin(const BodyCells &body, const std::vector<Pose> &roots, const std::vector<Pose> &targets, double side,
-                   int headings, std::size_t mostColumns, Ahead ahead = {});
+            \param blocked of such cells; must outlive the proof
+            \param roots, targets poses of the rear axle, free. Places near a target are seen first, so that a flood
+            which can reach one does so soon */
+        void begin(const BlockedHeadings &blocked, const std::vector<Pose> &roots, const std::vector<Pose> &targets,
+                   const Cells &cells);
 
-        /** \brief Goes on by so many columns. */
+        /** \brief Goes on by that many columns. */
         Verdict widen(std::size_t columns);
-
-        /** \brief What the last widen() said. */
-        Verdict verdict() const
-        {
-            return verdict_;
-        }
-
-        /** \brief Columns seen since begin(), those that were seen again counted again. */
-        std::size_t columns() const
-        {
-            return seen_;
-        }
 
         /** \brief Bytes of the cells and of the queue, growing included. */
         std::size_t bytes() const
@@ -78,13 +66,12 @@ namespace parking::search
         }
 
     private:
-        using Headings = BodyCells::Headings;
         using Place = std::pair<std::int32_t, std::int32_t>;
-        using Waiting = std::tuple<double, std::size_t, Place>;  // what lies ahead, when it came, which
+        using Waiting = std::tuple<std::int32_t, std::size_t, Place>;  // cells to a target, when it came, which
 
         struct Column
         {
-            Headings reached{}, blocked{}, entered{};
+            HeadingSet reached{}, blocked{}, entered{};
             bool asked{false};
         };
 
@@ -95,17 +82,15 @@ namespace parking::search
         };
 
         Cell cellOf(const Pose &pose) const;
-        Eigen::Vector2d middleOf(const Place &place) const;
-        void enter(const Place &place, const Headings &headings);
-        Headings spread(Headings from, const Headings &open) const;
+        std::int32_t cellsToTarget(const Place &place) const;
+        void enter(const Place &place, const HeadingSet &headings);
+        HeadingSet spread(HeadingSet from, const HeadingSet &open) const;
         void see(const Place &place);
 
-        const BodyCells *body_{nullptr};
+        const BlockedHeadings *blocked_{nullptr};
         Eigen::Vector2d origin_{0.0, 0.0};
-        double side_{1.0};
-        int headings_{1};
-        std::size_t mostColumns_{0}, seen_{0};
-        Ahead ahead_;
+        Cells cells_{1.0, 8, 0.0, 0};
+        std::size_t seen_{0};
         Verdict verdict_{Verdict::TooLarge};
         std::vector<Cell> targets_;
         TiledGrid<Column> columns_;

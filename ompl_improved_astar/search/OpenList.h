@@ -2,11 +2,11 @@
 
 #include "ompl_improved_astar/search/Node.h"
 #include "ompl_improved_astar/search/Registry.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace parking::search
@@ -19,13 +19,13 @@ namespace parking::search
     class OpenList
     {
     public:
-        /** \brief A node that waits, with what it is ordered by. */
+        /** \brief An open node and its place in the order. */
         struct Entry
         {
-            double f;                ///< weighted cost of the whole way, or what a detour goes by, the smallest first
-            double h;                ///< estimated cost of the way on, the smallest first among equal f
+            double f;                ///< priority, the smallest first
+            double h;                ///< estimated cost of the rest, the smallest first among equal f
             std::uint32_t sequence;  ///< insertion number, the smallest first among equal f and h
-            NodeIndex node;          ///< the node that waits
+            NodeIndex node;          ///< the open node
         };
 
         /** \brief What was done since clear(): the work that one kind of list has more of than another. */
@@ -33,19 +33,11 @@ namespace parking::search
         {
             std::uint64_t operations{0};   ///< entries that were pushed, and entries that were popped
             std::uint64_t comparisons{0};  ///< of two entries with each other
-
-            /** \brief Adds what another list has done. */
-            Work &operator+=(const Work &other)
-            {
-                operations += other.operations;
-                comparisons += other.comparisons;
-                return *this;
-            }
         };
 
         virtual ~OpenList() = default;
 
-        /** \brief Does no entry wait, stale ones included? */
+        /** \brief Is there no entry, stale ones included? */
         bool empty() const
         {
             return entries_.empty();
@@ -61,7 +53,6 @@ namespace parking::search
         void clear()
         {
             entries_.clear();
-            kept_ = rekeyed_ = arranged_ = 0;
             sequence_ = 0;
             work_ = {};
         }
@@ -86,13 +77,8 @@ namespace parking::search
 
         /** \brief Gives every entry a new f: \e key changes the entry, and returns false for one to be dropped.
 
-            \param most of a long list no more is done at a time: to so many entries something is done in each of two
-            passes. Nothing may be pushed or popped until it is done
-            \return whether it is done; else the next call goes on */
-        bool rekey(const std::function<bool(Entry &)> &key, std::size_t most = std::numeric_limits<std::size_t>::max());
-
-        /** \brief From now on rekey() begins anew, with what it has not dropped so far. */
-        void beginRekeying();
+            \return false, and nothing has changed, if \e stop says so meanwhile */
+        bool rekey(const std::function<bool(Entry &)> &key, const StopFunction &stop);
 
         /** \brief What was done since clear(). */
         const Work &work() const
@@ -100,35 +86,23 @@ namespace parking::search
             return work_;
         }
 
-        /** \brief In no order that means anything. */
-        const std::vector<Entry> &entries() const
-        {
-            return entries_;
-        }
-
     protected:
-        /** \brief Does \e a come out after \e b? */
-        static bool isAfter(const Entry &a, const Entry &b)
+        /** \brief Does \e a come out after \e b? Counts how often that is asked. */
+        bool isAfter(const Entry &a, const Entry &b)
         {
+            ++work_.comparisons;
             if (a.f != b.f)
                 return a.f > b.f;
-            if (a.h != b.h)
-                return a.h > b.h;
-            return a.sequence > b.sequence;
+            return a.h != b.h ? a.h > b.h : a.sequence > b.sequence;
         }
 
-        /** \brief Calls \e arrangement with isAfter(), and counts how often that is asked. */
-        template <class Arrangement>
-        void counted(const Arrangement &arrangement)
+        /** \brief isAfter() as a function object for the algorithms of the standard library. */
+        auto order()
         {
-            std::uint64_t comparisons = 0;
-            arrangement(
-                [&comparisons](const Entry &a, const Entry &b)
-                {
-                    ++comparisons;
-                    return isAfter(a, b);
-                });
-            work_.comparisons += comparisons;
+            return [this](const Entry &a, const Entry &b)
+            {
+                return isAfter(a, b);
+            };
         }
 
         /** \brief Called when an entry has been put at the end. */
@@ -137,17 +111,13 @@ namespace parking::search
         /** \brief Called before the last entry is taken. */
         virtual void moveBestToEnd() = 0;
 
-        /** \brief Called for each entry from the last to the first when all may have changed: what comes after it is in
-            order. */
-        virtual void arrange(std::size_t place) = 0;
+        /** \brief Called when all entries may have changed. */
+        virtual void rearrange() = 0;
 
-        /** \brief What waits, in the order of the implementation. */
-        std::vector<Entry> entries_;
+        std::vector<Entry> entries_;  ///< in the order of the implementation
 
     private:
         std::uint32_t sequence_{0};
-        std::size_t rekeyed_{0}, kept_{0};  // that rekey() has asked about so far, and of them, at the front, kept
-        std::size_t arranged_{0};           // from the last on
         Work work_;
     };
 
