@@ -13,7 +13,7 @@ namespace parking
         parameters.gaps = {0.05, 0.02, 0.01};
         parameters.expansionsPerGap = 60000;
         parameters.radiusFactor = 1.03;
-        parameters.clearanceWeight = 0.0;
+        parameters.preferredClearance = 0.0;
         parameters.wayIn = WayIn::InStretches;
         parameters.sweep.aisleWidth = aisleWidth;
         return parameters;
@@ -35,6 +35,7 @@ namespace parking
         require.notNegative("gapWorth", gapWorth);
         require.notNegative("gearChangePenalty", gearChangePenalty);
         require.notNegative("steeringChangePenalty", steeringChangePenalty);
-        require.notNegative("clearanceWeight", clearanceWeight);
+        require.notNegative("preferredClearance", preferredClearance);
+        require.notNegative("clearanceCost", clearanceCost);
     }
 }  // namespace parking

@@ -31,7 +31,6 @@ namespace parking
         /** \name Whole ways
             @{ */
         double shareForTries{0.5};        ///< of the time limit, that all tries but the last may take together
-        double clearanceRange{1.0};       ///< metres of clearance from which on it costs nothing
         double gapOffset{0.02};           ///< metres, in PlanningParameters::gapWorth: what no gap at all counts as
         double manoeuvreRadius{1.1};      ///< of one sweep where there is room, in smallest turning radii
         double manoeuvrePreference{1.5};  ///< a search all the way must be cheaper than a manoeuvre by this factor
@@ -88,7 +87,8 @@ namespace parking
 
         double gearChangePenalty{2.0};      ///< metres that a change of direction may save
         double steeringChangePenalty{0.1};  ///< metres that turning the wheels to full lock may save
-        double clearanceWeight{1.0};        ///< extra cost per metre in touch with an obstacle, none at 1 m
+        double preferredClearance{0.5};     ///< metres kept from obstacles where that is cheap; 0: none
+        double clearanceCost{1.0};          ///< extra cost per metre driven nearer than that
 
         WayIn wayIn{WayIn::OneSweep};  ///< into slots; without a slot everything is searched
         /** Of the manoeuvre in one sweep. Its clearance is not looked at: \e gaps say it. */

@@ -182,8 +182,8 @@ namespace parking::planning
         request.parameters.searchFrom = task.bothSides ? "goal" : "start";
         request.parameters.gearChangePenalty = task.gearChange;
         request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
-        request.parameters.clearanceWeight = parameters_.clearanceWeight;
-        request.parameters.preferredClearance = 0.0;  // the gaps say what is kept
+        request.parameters.preferredClearance = parameters_.preferredClearance;
+        request.parameters.clearanceCost = parameters_.clearanceCost;
         request.parameters.detours = task.bothSides;  // out of a slot they lead in more stretches
         request.parameters.approximate = false;
         request.maxExpansions = task.expansions;
@@ -199,9 +199,12 @@ namespace parking::planning
     double Tries::cost(const Path &path) const
     {
         FootprintEnvironment environment(world_.footprint(), scenario_.bounds, parameters_.tuning.sweepTolerance);
-        return search::pathCost(
-            {0.0, parameters_.gearChangePenalty, parameters_.steeringChangePenalty, parameters_.clearanceWeight,
-             parameters_.tuning.clearanceRange, 1.0 / scenario_.vehicle.minTurningRadius()},
-            path, environment);
+        search::CostModel model;
+        model.gearChangePenalty = parameters_.gearChangePenalty;
+        model.steeringChangePenalty = parameters_.steeringChangePenalty;
+        model.fullLockCurvature = 1.0 / scenario_.vehicle.minTurningRadius();
+        model.preferredClearance = parameters_.preferredClearance;
+        model.clearanceCost = parameters_.clearanceCost;
+        return search::pathCost(model, path, environment);
     }
 }  // namespace parking::planning

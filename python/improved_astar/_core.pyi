@@ -168,8 +168,9 @@ class ParkingPlan(Drive):
 class ParkingPlanner:
     def __init__(self, tight: bool = False, *, time_limit: float = 10.0, gaps: Sequence[float] = ...,
                  gap_worth: float = ..., expansions_per_gap: int = ..., radius_factor: float = ...,
-                 gear_change_penalty: float = ..., steering_change_penalty: float = ..., clearance_weight: float = ...,
-                 way_in: str = ..., aisle_width: float = ..., smooth: bool = True) -> None: ...
+                 gear_change_penalty: float = ..., steering_change_penalty: float = ...,
+                 preferred_clearance: float = ..., clearance_cost: float = ..., way_in: str = ...,
+                 aisle_width: float = ..., smooth: bool = True) -> None: ...
     def plan(self, scenario: Scenario) -> ParkingPlan: ...
 
 class Verdict:

@@ -24,13 +24,14 @@ namespace parking::python
         PlanningParameters planningParameters(bool tight, const py::kwargs &values)
         {
             using P = PlanningParameters;
-            static const std::array<std::pair<const char *, double P::*>, 6> NUMBERS{
+            static const std::array<std::pair<const char *, double P::*>, 7> NUMBERS{
                 {{"time_limit", &P::timeLimit},
                  {"gap_worth", &P::gapWorth},
                  {"radius_factor", &P::radiusFactor},
                  {"gear_change_penalty", &P::gearChangePenalty},
                  {"steering_change_penalty", &P::steeringChangePenalty},
-                 {"clearance_weight", &P::clearanceWeight}}};
+                 {"preferred_clearance", &P::preferredClearance},
+                 {"clearance_cost", &P::clearanceCost}}};
             constexpr double INFINITE = std::numeric_limits<double>::infinity();
             const double aisle =
                 values.contains("aisle_width") ? numberFrom(values["aisle_width"], "aisle_width") : INFINITE;
@@ -165,7 +166,8 @@ fits, the search for the rest, as much room round the car as there is, and curva
 
 ParkingPlanner(tight=True) is for slots that leave centimetres. Other parameters: time_limit (seconds), gaps (metres kept
 round the car, tried in turn), gap_worth, expansions_per_gap, radius_factor, gear_change_penalty, steering_change_penalty,
-clearance_weight, way_in (searched, one_sweep, in_stretches), aisle_width (metres), smooth (bool).)")
+preferred_clearance (metres), clearance_cost, way_in (searched, one_sweep, in_stretches), aisle_width (metres),
+smooth (bool).)")
             .def(py::init([](bool tight, const py::kwargs &values)
                           { return ParkingPlanner(planningParameters(tight, values)); }),
                  py::arg("tight") = false)
