@@ -13,15 +13,15 @@ namespace ompl::geometric
 {
     namespace
     {
-        /** In the form that OMPL.app reads: "0,1" for a switch, "least:step:most", or names with commas. */
+        /** In the form that OMPL.app reads: "0,1" for a switch, "min:step:max", or names with commas. */
         std::string rangeSuggestion(const parking::Parameter &row)
         {
             if (std::holds_alternative<bool parking::PlannerParameters::*>(row.member))
                 return "0,1";
             const parking::ParameterValues &values = row.values;
             if (values.names == nullptr)
-                return parking::formatNumber(values.zeroToo ? 0.0 : values.least) + ":" +
-                       parking::formatNumber(values.step) + ":" + parking::formatNumber(values.most);
+                return parking::formatNumber(values.allowsZero ? 0.0 : values.min) + ":" +
+                       parking::formatNumber(values.step) + ":" + parking::formatNumber(values.max);
             std::string names;
             for (const std::string &name : values.names())
                 names += (names.empty() ? "" : ",") + name;

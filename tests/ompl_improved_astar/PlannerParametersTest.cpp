@@ -48,7 +48,7 @@ namespace
                     else if constexpr (std::is_same_v<Value, std::string>)
                         values[row.name] = row.values.names().back();
                     else
-                        values[row.name] = parking::formatNumber(row.values.most);
+                        values[row.name] = parking::formatNumber(row.values.max);
                 },
                 row.member);
         values.erase("parameter_set");  // which sets the others
@@ -136,7 +136,7 @@ namespace
             if (std::holds_alternative<bool PlannerParameters::*>(row.member))
                 continue;  // has no values out of range
             const std::string bad =
-                row.values.names != nullptr ? "hovercraft" : parking::formatNumber(row.values.most + 1.0);
+                row.values.names != nullptr ? "hovercraft" : parking::formatNumber(row.values.max + 1.0);
             try
             {
                 params.setParam(row.name, bad);

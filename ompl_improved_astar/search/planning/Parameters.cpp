@@ -20,15 +20,14 @@ namespace parking
         using P = PlannerParameters;
         using Names = std::vector<std::string>;
 
-        /** Numbers from \e least to \e most. */
-        ParameterValues between(double least, double most, double step)
+        ParameterValues between(double min, double max, double step)
         {
-            return {least, most, step, false, nullptr};
+            return {min, max, step, false, nullptr};
         }
 
-        ParameterValues zeroOrBetween(double least, double most, double step)
+        ParameterValues zeroOrBetween(double min, double max, double step)
         {
-            return {least, most, step, true, nullptr};
+            return {min, max, step, true, nullptr};
         }
 
         ParameterValues oneOf(Names (*names)())
@@ -75,7 +74,7 @@ namespace parking
 
         bool isWithin(const ParameterValues &values, double value)
         {
-            return (value >= values.least && value <= values.most) || (values.zeroToo && value == 0.0);
+            return (value >= values.min && value <= values.max) || (values.allowsZero && value == 0.0);
         }
 
         std::string listed(const Names &names)
@@ -276,8 +275,8 @@ namespace parking
         if (values.names != nullptr)
             return listed(values.names());
         const bool inSteps = std::holds_alternative<unsigned int P::*>(member) && values.step != 1.0;
-        return (values.zeroToo ? "0 or " : "") + ("between " + formatNumber(values.least)) + " and " +
-               formatNumber(values.most) + (inSteps ? " in steps of " + formatNumber(values.step) : "") +
+        return (values.allowsZero ? "0 or " : "") + ("between " + formatNumber(values.min)) + " and " +
+               formatNumber(values.max) + (inSteps ? " in steps of " + formatNumber(values.step) : "") +
                (unit.empty() ? "" : " " + unit);
     }
 
@@ -296,7 +295,7 @@ namespace parking
             {
                 const double number = value;
                 const bool isStep =
-                    !std::is_same_v<Value, unsigned int> || std::fmod(number - values.least, values.step) == 0.0;
+                    !std::is_same_v<Value, unsigned int> || std::fmod(number - values.min, values.step) == 0.0;
                 if (!isWithin(values, number) || !isStep)
                     throw Error(name + " must be " + allowed() + ", not " + formatNumber(number));
             }
@@ -310,8 +309,8 @@ namespace parking
             parameters.*(*number) = value;
         else
         {
-            constexpr double MOST = std::numeric_limits<unsigned int>::max();
-            if (!(value >= 0.0 && value <= MOST) || value != std::floor(value))
+            constexpr double MAX = std::numeric_limits<unsigned int>::max();
+            if (!(value >= 0.0 && value <= MAX) || value != std::floor(value))
                 throw Error(name + " must be " + allowed() + ", not " + formatNumber(value));
             parameters.*std::get<unsigned int P::*>(member) = static_cast<unsigned int>(value);
         }

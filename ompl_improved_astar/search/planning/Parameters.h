@@ -67,10 +67,10 @@ namespace parking
     /** \brief The values that a parameter may have: a range of numbers, or a list of names. */
     struct ParameterValues
     {
-        double least{0.0};    ///< smallest number
-        double most{0.0};     ///< largest number
-        double step{0.0};     ///< between whole numbers; for others what suits a slider
-        bool zeroToo{false};  ///< zero may lie below least
+        double min{0.0};         ///< smallest number
+        double max{0.0};         ///< largest number
+        double step{0.0};        ///< between whole numbers; for others what suits a slider
+        bool allowsZero{false};  ///< whether zero is allowed even below the smallest number
         /** Lists the values of a text; nullptr for a number or a switch. */
         std::vector<std::string> (*names)(){nullptr};
     };
