@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -19,6 +20,8 @@ namespace parking
     {
         using P = PlannerParameters;
         using Names = std::vector<std::string>;
+
+        constexpr ParameterValues YES_OR_NO{};
 
         ParameterValues between(double min, double max, double step)
         {
@@ -35,26 +38,11 @@ namespace parking
             return {0.0, 0.0, 0.0, false, names};
         }
 
-        ParameterValues yesOrNo()
-        {
-            return {};
-        }
-
-        Names motionModelNames()
-        {
-            return search::motionModels().names();
-        }
-
         Names heuristicNames()
         {
             Names names = search::heuristics().names();
             names.insert(names.begin(), "default");
             return names;
-        }
-
-        Names openListNames()
-        {
-            return search::openLists().names();
         }
 
         Names sides()
@@ -72,11 +60,6 @@ namespace parking
             return {"bspline", "none"};
         }
 
-        bool isWithin(const ParameterValues &values, double value)
-        {
-            return (value >= values.min && value <= values.max) || (values.allowsZero && value == 0.0);
-        }
-
         std::string listed(const Names &names)
         {
             std::string text;
@@ -85,106 +68,51 @@ namespace parking
             return text;
         }
 
-        // The sets differ from the defaults in this and that.
-
-        void onGrid(P &set)
+        Error refused(const Parameter &row, const std::string &value)
         {
-            set.motionModel = "grid8";
+            return Error(row.name + " must be " + row.allowed() + ", not " + value);
         }
 
-        void weighted(P &set, double far, double near, double nearDistance, double tieBreak)
+        /** The set of this name, which is one of parameterSetNames(). */
+        P namedSet(const std::string &name)
         {
-            set.heuristicWeightFar = far;
-            set.heuristicWeightNear = near;
-            set.nearGoalDistance = nearDistance;
-            set.tieBreak = tieBreak;
+            P set;
+            set.parameterSet = name;
+            if (name == "default")
+                return set;
+            if (name == "hybrid_astar")
+            {
+                set.bidirectional = set.adaptiveResolution = set.shortening = false;
+                set.lookAhead = set.spreadOut = set.detours = false;
+                set.searchFrom = "start";
+                return set;
+            }
+            const auto isOneOf = [&name](std::initializer_list<const char *> names)
+            {
+                return std::find(names.begin(), names.end(), name) != names.end();
+            };
+            // The paper's best set has every improvement but the neighbourhood expansion (section "Discussion").
+            set.motionModel = isOneOf({"experiment_4"}) ? "grid16" : "grid8";
+            set.heuristicWeightFar = 1.5;
+            set.heuristicWeightNear = 0.9;
+            if (isOneOf({"basic_astar", "experiment_1"}))
+            {
+                set.heuristicWeightFar = set.heuristicWeightNear = 1.0;
+                set.nearGoalDistance = set.tieBreak = 0.0;
+            }
+            if (isOneOf({"basic_astar", "experiment_2"}))
+                set.obstacleLoading = "eager";
+            if (isOneOf({"basic_astar", "experiment_3", "experiment_6"}))
+            {
+                set.bidirectional = false;
+                set.searchFrom = "start";
+                set.openList = "linear";
+            }
+            if (isOneOf({"basic_astar", "experiment_5", "experiment_6"}))
+                set.smoothing = "none";
+            set.approximate = name != "basic_astar";
+            return set;
         }
-
-        void unweighted(P &set)
-        {
-            weighted(set, 1.0, 1.0, 0.0, 0.0);
-        }
-
-        void fromStartOnly(P &set)
-        {
-            set.bidirectional = false;
-            set.searchFrom = "start";
-        }
-
-        /** The paper's best set: every improvement but the neighbourhood expansion (section "Discussion"). */
-        void improvedGrid(P &set)
-        {
-            onGrid(set);
-            weighted(set, 1.5, 0.9, 5.0, 1e-3);
-        }
-
-        void withoutBidirectionalSearchAndHeap(P &set)
-        {
-            improvedGrid(set);
-            fromStartOnly(set);
-            set.openList = "linear";
-        }
-
-        struct NamedSet
-        {
-            const char *name;
-            void (*change)(P &);  ///< of the defaults
-        };
-
-        const std::vector<NamedSet> SETS{{"default",
-                                          [](P &) {
-                                          }},
-                                         {"basic_astar",
-                                          [](P &set)
-                                          {
-                                              onGrid(set);
-                                              unweighted(set);
-                                              fromStartOnly(set);
-                                              set.openList = "linear";
-                                              set.obstacleLoading = "eager";
-                                              set.smoothing = "none";
-                                              set.approximate = false;
-                                          }},
-                                         {"experiment_1",  // without the weighted heuristic
-                                          [](P &set)
-                                          {
-                                              onGrid(set);
-                                              unweighted(set);
-                                          }},
-                                         {"experiment_2",  // without dynamic obstacle loading
-                                          [](P &set)
-                                          {
-                                              improvedGrid(set);
-                                              set.obstacleLoading = "eager";
-                                          }},
-                                         {"experiment_3", withoutBidirectionalSearchAndHeap},
-                                         {"experiment_4",  // with neighbourhood expansion
-                                          [](P &set)
-                                          {
-                                              improvedGrid(set);
-                                              set.motionModel = "grid16";
-                                          }},
-                                         {"experiment_5",  // without smoothing
-                                          [](P &set)
-                                          {
-                                              improvedGrid(set);
-                                              set.smoothing = "none";
-                                          }},
-                                         {"experiment_6",  // and without bidirectional search and binary heap
-                                          [](P &set)
-                                          {
-                                              withoutBidirectionalSearchAndHeap(set);
-                                              set.smoothing = "none";
-                                          }},
-                                         {"improved_astar", improvedGrid},
-                                         {"hybrid_astar",  // the car model without what this project adds to it
-                                          [](P &set)
-                                          {
-                                              fromStartOnly(set);
-                                              set.adaptiveResolution = false;
-                                              set.lookAhead = set.spreadOut = set.detours = false;
-                                              set.shortening = false;
-                                          }}};
     }  // namespace
 
     const std::vector<Parameter> &parameterTable()
@@ -193,7 +121,7 @@ namespace parking
             {"parameter_set", &P::parameterSet, oneOf(parameterSetNames), "",
              "sets the others but for `turning_radius`, `xy_resolution` and `heading_bins`; the `experiment_` sets are "
              "the paper's ablation, `hybrid_astar` is the car model without this project's additions"},
-            {"motion_model", &P::motionModel, oneOf(motionModelNames), "",
+            {"motion_model", &P::motionModel, oneOf([] { return search::motionModels().names(); }), "",
              "`car`: drivable motions; the `grid` models: the paper's moves between grid cells, for a plain SE2 space"},
             {"turning_radius", &P::turningRadius, between(0.01, 1000.0, 0.1), "m",
              "on a plain SE2 space only, others bring their own"},
@@ -203,9 +131,9 @@ namespace parking
             {"heading_bins", &P::headingBins, between(8.0, 1440.0, 1.0), "",
              "cells of heading round the circle, at steps of a metre (car model)"},
             {"steering_angles", &P::steeringAngles, between(3.0, 21.0, 2.0), "", "of the car model, straight included"},
-            {"bidirectional", &P::bidirectional, yesOrNo(), "", "search from the start and from the goal"},
+            {"bidirectional", &P::bidirectional, YES_OR_NO, "", "search from the start and from the goal"},
             {"search_from", &P::searchFrom, oneOf(sides), "", "the side of a search that is not bidirectional"},
-            {"open_list", &P::openList, oneOf(openListNames), "",
+            {"open_list", &P::openList, oneOf([] { return search::openLists().names(); }), "",
              "how the best node is found; `linear` is that of the plain A* of the paper's comparison"},
             {"heuristic_weight_far", &P::heuristicWeightFar, between(0.0, 10.0, 0.1), "",
              "w of f = g + (w + p) h, farther from the target than `near_goal_distance`"},
@@ -215,24 +143,23 @@ namespace parking
             {"heuristic", &P::heuristic, oneOf(heuristicNames), "",
              "what is thought to lie ahead: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to "
              "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
-            {"obstacle_heuristic", &P::obstacleHeuristic, yesOrNo(), "",
+            {"obstacle_heuristic", &P::obstacleHeuristic, YES_OR_NO, "",
              "guide the search round obstacles (car model)"},
-            {"look_ahead", &P::lookAhead, yesOrNo(), "",
+            {"look_ahead", &P::lookAhead, YES_OR_NO, "",
              "drive on along the way round obstacles while there is room, without looking at each step (car model)"},
-            {"spread_out", &P::spreadOut, yesOrNo(), "",
+            {"spread_out", &P::spreadOut, YES_OR_NO, "",
              "while no path is known, rather search where less has been searched, by place and heading (car model)"},
-            {"detours", &P::detours, yesOrNo(), "",
+            {"detours", &P::detours, YES_OR_NO, "",
              "when the search is stuck: try ways through wider gaps, explore, and look for a proof that there is no "
              "way (car "
              "model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
              "when to find out which cells are free: as the search asks, or all of them beforehand"},
-            {"adaptive_resolution", &P::adaptiveResolution, yesOrNo(), "",
+            {"adaptive_resolution", &P::adaptiveResolution, YES_OR_NO, "",
              "search finely where coarse steps do not get through (car model)"},
-            {"analytic_expansion", &P::analyticExpansion, yesOrNo(), "",
+            {"analytic_expansion", &P::analyticExpansion, YES_OR_NO, "",
              "join the two frontiers by Reeds-Shepp or Dubins curves (car model); without it nothing ends exactly at "
-             "the "
-             "goal"},
+             "the goal"},
             {"reverse_penalty", &P::reversePenalty, between(0.0, 100.0, 0.1), "", "extra cost per metre in reverse"},
             {"gear_change_penalty", &P::gearChangePenalty, between(0.0, 100.0, 0.1), "m",
              "cost of a change of direction"},
@@ -243,17 +170,16 @@ namespace parking
              "checker that knows clearances"},
             {"preferred_clearance", &P::preferredClearance, between(0.0, 10.0, 0.01), "m",
              "the path keeps so far from obstacles where that is cheap; 0: it may graze them (car model, with a "
-             "checker "
-             "that knows clearances)"},
+             "checker that knows clearances)"},
             {"clearance_cost", &P::clearanceCost, between(0.0, 100.0, 0.5), "m",
              "what a metre driven nearer than `preferred_clearance` is worth, in metres of detour"},
             {"smoothing", &P::smoothing, oneOf(smoothings), "", "B-spline through the path (grid models)"},
-            {"shortening", &P::shortening, yesOrNo(), "",
+            {"shortening", &P::shortening, YES_OR_NO, "",
              "replace parts of the solution by cheaper curves, move its cusps, and drive parts of it the other way "
              "round (car model)"},
-            {"approximate", &P::approximate, yesOrNo(), "",
+            {"approximate", &P::approximate, YES_OR_NO, "",
              "end as near to the goal as possible when it cannot be reached"},
-            {"anytime", &P::anytime, yesOrNo(), "", "after the first solution go on improving until terminated"},
+            {"anytime", &P::anytime, YES_OR_NO, "", "after the first solution go on improving until terminated"},
             {"max_memory_mb", &P::maxMemoryMb, between(16.0, 1048576.0, 1.0), "MB",
              "of the search: with more it ends as when the time is up, and says so"}};
         return table;
@@ -282,8 +208,9 @@ namespace parking
 
     void Parameter::check(const PlannerParameters &parameters) const
     {
-        const auto checkValue = [this](const auto &value)
+        const auto checkValue = [&](const auto at)
         {
+            const auto &value = parameters.*at;
             using Value = std::decay_t<decltype(value)>;
             if constexpr (std::is_same_v<Value, std::string>)
             {
@@ -294,26 +221,27 @@ namespace parking
             else if constexpr (!std::is_same_v<Value, bool>)
             {
                 const double number = value;
-                const bool isStep =
-                    !std::is_same_v<Value, unsigned int> || std::fmod(number - values.min, values.step) == 0.0;
-                if (!isWithin(values, number) || !isStep)
-                    throw Error(name + " must be " + allowed() + ", not " + formatNumber(number));
+                const bool isWithin =
+                    (number >= values.min && number <= values.max) || (values.allowsZero && number == 0.0);
+                const bool isStep = std::is_same_v<Value, double> || std::fmod(number - values.min, values.step) == 0.0;
+                if (!isWithin || !isStep)
+                    throw refused(*this, formatNumber(number));
             }
         };
-        std::visit([&](const auto at) { checkValue(parameters.*at); }, member);
+        std::visit(checkValue, member);
     }
 
     void Parameter::setNumber(PlannerParameters &parameters, double value) const
     {
         if (const auto *number = std::get_if<double P::*>(&member))
-            parameters.*(*number) = value;
-        else
         {
-            constexpr double MAX = std::numeric_limits<unsigned int>::max();
-            if (!(value >= 0.0 && value <= MAX) || value != std::floor(value))
-                throw Error(name + " must be " + allowed() + ", not " + formatNumber(value));
-            parameters.*std::get<unsigned int P::*>(member) = static_cast<unsigned int>(value);
+            parameters.*(*number) = value;
+            return;
         }
+        constexpr double MAX = std::numeric_limits<unsigned int>::max();
+        if (!(value >= 0.0 && value <= MAX) || value != std::floor(value))
+            throw refused(*this, formatNumber(value));
+        parameters.*std::get<unsigned int P::*>(member) = static_cast<unsigned int>(value);
     }
 
     void Parameter::setText(PlannerParameters &parameters, const std::string &text) const
@@ -328,24 +256,21 @@ namespace parking
         else if (!isSwitch && parseNumber(text, number))
             setNumber(changed, number);
         else
-            throw Error(name + " must be " + allowed() + ", not " + inQuotes(text));
+            throw refused(*this, inQuotes(text));
         check(changed);
         parameters = std::move(changed);
     }
 
     const Parameter &parameterNamed(std::string_view name)
     {
-        const auto &table = parameterTable();
-        const auto row =
-            std::find_if(table.begin(), table.end(), [&](const Parameter &each) { return each.name == name; });
-        if (row == table.end())
+        Names names;
+        for (const Parameter &row : parameterTable())
         {
-            Names names;
-            for (const Parameter &each : table)
-                names.push_back(each.name);
-            throw Error(unknownName("parameter", std::string(name), names));
+            if (row.name == name)
+                return row;
+            names.push_back(row.name);
         }
-        return *row;
+        throw Error(unknownName("parameter", std::string(name), names));
     }
 
     void checkParameters(const PlannerParameters &parameters)
@@ -356,21 +281,16 @@ namespace parking
 
     std::vector<std::string> parameterSetNames()
     {
-        Names names;
-        for (const NamedSet &set : SETS)
-            names.emplace_back(set.name);
-        return names;
+        return {"default",      "basic_astar",  "experiment_1", "experiment_2",   "experiment_3",
+                "experiment_4", "experiment_5", "experiment_6", "improved_astar", "hybrid_astar"};
     }
 
     PlannerParameters parameterSet(const std::string &name, const PlannerParameters &current)
     {
-        const auto found =
-            std::find_if(SETS.begin(), SETS.end(), [&](const NamedSet &set) { return set.name == name; });
-        if (found == SETS.end())
-            throw Error(unknownName("parameter set", name, parameterSetNames()));
-        PlannerParameters set;
-        found->change(set);
-        set.parameterSet = name;
+        const Names names = parameterSetNames();
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw Error(unknownName("parameter set", name, names));
+        PlannerParameters set = namedSet(name);
         set.turningRadius = current.turningRadius;
         set.xyResolution = current.xyResolution;
         set.headingBins = current.headingBins;
