@@ -6,6 +6,7 @@
 #include "benchmarks/planners/SolveRecord.h"
 #include "benchmarks/planners/TextbookHybridAStar.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
@@ -165,6 +166,8 @@ namespace parking
             ompl::base::ParamSet &parameters = planner.params();
             if (!parameters.hasParam(name))
             {
+                if (dynamic_cast<const og::ImprovedAStar *>(&planner) != nullptr)
+                    checkNotRemoved(name);
                 std::map<std::string, std::string> all;
                 parameters.getParams(all);
                 std::vector<std::string> names;

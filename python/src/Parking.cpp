@@ -1,4 +1,5 @@
 // ParkingPlanner and ParkingPlan.
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
@@ -65,6 +66,7 @@ namespace parking::python
                 }
                 else if (name != "aisle_width")
                 {
+                    checkNotRemoved(name);
                     std::vector<std::string> names{"aisle_width", "smooth", "gaps", "expansions_per_gap", "way_in"};
                     for (const auto &each : NUMBERS)
                         names.emplace_back(each.first);

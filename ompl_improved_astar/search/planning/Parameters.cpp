@@ -73,6 +73,12 @@ namespace parking
             return Error(row.name + " must be " + row.allowed() + ", not " + value);
         }
 
+        /** Names of removed parameters, and what to use instead. */
+        constexpr std::pair<std::string_view, std::string_view> REMOVED[]{
+            {"look_ahead", "it is always on with detours"},
+            {"spread_out", "it is always on with detours"},
+            {"clearance_weight", "use preferred_clearance and clearance_cost"}};
+
         /** The set of this name, which is one of parameterSetNames(). */
         P namedSet(const std::string &name)
         {
@@ -82,8 +88,7 @@ namespace parking
                 return set;
             if (name == "hybrid_astar")
             {
-                set.bidirectional = set.adaptiveResolution = set.shortening = false;
-                set.lookAhead = set.spreadOut = set.detours = false;
+                set.bidirectional = set.adaptiveResolution = set.detours = set.shortening = false;
                 set.searchFrom = "start";
                 return set;
             }
@@ -145,14 +150,9 @@ namespace parking
              "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, YES_OR_NO, "",
              "guide the search round obstacles (car model)"},
-            {"look_ahead", &P::lookAhead, YES_OR_NO, "",
-             "drive on along the way round obstacles while there is room, without looking at each step (car model)"},
-            {"spread_out", &P::spreadOut, YES_OR_NO, "",
-             "while no path is known, rather search where less has been searched, by place and heading (car model)"},
             {"detours", &P::detours, YES_OR_NO, "",
-             "when the search is stuck: try ways through wider gaps, explore, and look for a proof that there is no "
-             "way (car "
-             "model)"},
+             "while no path is known, drive ahead along the route round obstacles and spread out the search; when "
+             "stuck, try routes through wider gaps, explore, and look for a proof that there is none (car model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
              "when to find out which cells are free: as the search asks, or all of them beforehand"},
             {"adaptive_resolution", &P::adaptiveResolution, YES_OR_NO, "",
@@ -165,9 +165,6 @@ namespace parking
              "cost of a change of direction"},
             {"steering_change_penalty", &P::steeringChangePenalty, between(0.0, 100.0, 0.1), "m",
              "cost of turning the wheels from straight to full lock"},
-            {"clearance_weight", &P::clearanceWeight, between(0.0, 100.0, 0.1), "",
-             "extra cost per metre driven in touch with an obstacle, falling to none at 1 m of clearance; needs a "
-             "checker that knows clearances"},
             {"preferred_clearance", &P::preferredClearance, between(0.0, 10.0, 0.01), "m",
              "the path keeps so far from obstacles where that is cheap; 0: it may graze them (car model, with a "
              "checker that knows clearances)"},
@@ -270,7 +267,15 @@ namespace parking
                 return row;
             names.push_back(row.name);
         }
+        checkNotRemoved(name);
         throw Error(unknownName("parameter", std::string(name), names));
+    }
+
+    void checkNotRemoved(std::string_view name)
+    {
+        for (const auto &[removed, instead] : REMOVED)
+            if (removed == name)
+                throw Error(std::string(name) + " was removed: " + std::string(instead));
     }
 
     void checkParameters(const PlannerParameters &parameters)

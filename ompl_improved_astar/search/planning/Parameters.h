@@ -11,8 +11,7 @@ namespace parking
 {
     /** \brief All parameters of the planner, with their defaults.
 
-        What each means, and which values it may have, stands in parameterTable(): a new parameter is a member here and
-        a row there. */
+        parameterTable() documents each and limits its values: a new parameter is a member here and a row there. */
     struct PlannerParameters
     {
         std::string parameterSet{"default"};  ///< a name only: parameterSet() makes the values that belong to it
@@ -30,16 +29,13 @@ namespace parking
         double nearGoalDistance{5.0};         ///< near_goal_distance: metres, where w changes
         double tieBreak{1e-3};                ///< tie_break: p, added to w
         bool obstacleHeuristic{true};         ///< obstacle_heuristic: guide round obstacles
-        bool lookAhead{true};                 ///< look_ahead: drive on along the way round obstacles
-        bool spreadOut{true};                 ///< spread_out: rather search where less has been searched
-        bool detours{true};                   ///< detours: try other ways when stuck
+        bool detours{true};                   ///< detours: drive ahead, spread out, try other routes when stuck
         std::string obstacleLoading{"lazy"};  ///< obstacle_loading: lazy or eager
         bool adaptiveResolution{true};        ///< adaptive_resolution: refine where needed
         bool analyticExpansion{true};         ///< analytic_expansion: join by curves
         double reversePenalty{0.0};           ///< reverse_penalty: extra cost per metre
         double gearChangePenalty{0.5};        ///< gear_change_penalty: metres, per change
         double steeringChangePenalty{0.1};    ///< steering_change_penalty: metres, straight to full lock
-        double clearanceWeight{0.0};          ///< clearance_weight: extra cost per metre in touch
         double preferredClearance{0.1};       ///< preferred_clearance: metres
         double clearanceCost{10.0};           ///< clearance_cost: extra cost per metre nearer
         std::string smoothing{"bspline"};     ///< smoothing: bspline or none (grid models)
@@ -109,8 +105,11 @@ namespace parking
     /** \brief Every parameter, in the order in which docs/parameters.md lists them. */
     const std::vector<Parameter> &parameterTable();
 
-    /** \brief The row of this name; throws parking::Error naming the nearest one otherwise. */
+    /** \brief The row of this name. Otherwise throws parking::Error with the nearest one, or as checkNotRemoved(). */
     const Parameter &parameterNamed(std::string_view name);
+
+    /** \brief Throws parking::Error with what to use instead if \e name is that of a removed parameter. */
+    void checkNotRemoved(std::string_view name);
 
     /** \brief Throws parking::Error for the first parameter whose value is not allowed, see Parameter::check(). */
     void checkParameters(const PlannerParameters &parameters);

@@ -67,15 +67,12 @@ namespace parking::search
         search.adaptiveResolution = parameters.adaptiveResolution;
         search.analyticExpansion = parameters.analyticExpansion;
         search.obstacleHeuristic = parameters.obstacleHeuristic;
-        search.lookAhead = parameters.lookAhead;
-        search.spreadOut = parameters.spreadOut;
-        search.detours = parameters.detours;
+        search.lookAhead = search.spreadOut = search.detours = parameters.detours;
         search.maxMemory = std::size_t{parameters.maxMemoryMb} << 20;
         search.eagerObstacles = parameters.obstacleLoading == "eager";
         search.cost.reversePenalty = parameters.reversePenalty;
         search.cost.gearChangePenalty = parameters.gearChangePenalty;
         search.cost.steeringChangePenalty = parameters.steeringChangePenalty;
-        search.cost.clearanceWeight = parameters.clearanceWeight;
         search.cost.preferredClearance = parameters.preferredClearance;
         search.cost.clearanceCost = parameters.clearanceCost;
         return result;

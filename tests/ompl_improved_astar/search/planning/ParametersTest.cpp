@@ -235,6 +235,27 @@ TEST(Parameters, CountsAreWholeAndUnknownNamesAreAnsweredWithTheNearest)
     }
 }
 
+TEST(Parameters, RemovedNamesAreAnsweredWithWhatToUseInstead)
+{
+    for (const auto &[name, instead] :
+         {std::pair("look_ahead", "always on with detours"), std::pair("spread_out", "always on with detours"),
+          std::pair("clearance_weight", "use preferred_clearance and clearance_cost")})
+        try
+        {
+            parameterNamed(name);
+            ADD_FAILURE() << name << " was taken";
+        }
+        catch (const Error &error)
+        {
+            const std::string text = error.what();
+            EXPECT_EQ(text.find(name + std::string(" was removed: ")), 0u) << text;
+            EXPECT_NE(text.find(instead), std::string::npos) << text;
+        }
+    for (const Parameter &row : parameterTable())
+        EXPECT_NO_THROW(checkNotRemoved(row.name));
+    EXPECT_NO_THROW(checkNotRemoved("heading_bin"));
+}
+
 TEST(Parameters, TheWeightsAreThoseOfTheHeuristic)
 {
     PlannerParameters parameters;
