@@ -48,6 +48,10 @@ namespace parking
 
     void declareSettings(Node &node, const std::string &name)
     {
+        const std::string prefix = name + ".";
+        for (const auto &[given, value] : node.get_node_parameters_interface()->get_parameter_overrides())
+            if (given.rfind(prefix, 0) == 0)
+                checkNotRemoved(given.substr(prefix.size()));
         PlannerSettings defaults;
         forEachSetting(defaults,
                        [&](const std::string &setting, auto &value)

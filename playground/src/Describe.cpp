@@ -42,10 +42,10 @@ namespace parking::playground
                     else
                         text += std::string(",\"type\":\"") + (std::is_same_v<Value, double> ? "number" : "count") +
                                 "\",\"value\":" + formatNumber(value) +
-                                ",\"least\":" + formatNumber(parameter.values.least) +
-                                ",\"most\":" + formatNumber(parameter.values.most) +
+                                ",\"least\":" + formatNumber(parameter.values.min) +
+                                ",\"most\":" + formatNumber(parameter.values.max) +
                                 ",\"step\":" + formatNumber(parameter.values.step) +
-                                ",\"zero\":" + (parameter.values.zeroToo ? "true" : "false");
+                                ",\"zero\":" + (parameter.values.allowsZero ? "true" : "false");
                 },
                 parameter.member);
             return text + ",\"unit\":" + quoted(parameter.unit) + ",\"meaning\":" + quoted(parameter.meaning) + "}";

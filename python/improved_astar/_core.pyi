@@ -168,8 +168,9 @@ class ParkingPlan(Drive):
 class ParkingPlanner:
     def __init__(self, tight: bool = False, *, time_limit: float = 10.0, gaps: Sequence[float] = ...,
                  gap_worth: float = ..., expansions_per_gap: int = ..., radius_factor: float = ...,
-                 gear_change_penalty: float = ..., steering_change_penalty: float = ..., clearance_weight: float = ...,
-                 way_in: str = ..., aisle_width: float = ..., smooth: bool = True) -> None: ...
+                 gear_change_penalty: float = ..., steering_change_penalty: float = ...,
+                 preferred_clearance: float = ..., clearance_cost: float = ..., way_in: str = ...,
+                 aisle_width: float = ..., smooth: bool = True) -> None: ...
     def plan(self, scenario: Scenario) -> ParkingPlan: ...
 
 class Verdict:
@@ -193,22 +194,21 @@ def plan(scenario: Scenario, time_limit: float = 1.0, anytime: bool = False, max
          heading_bins: int = 72, steering_angles: int = 3, bidirectional: bool = True, search_from: str = 'goal',
          open_list: str = 'binary_heap', heuristic_weight_far: float = 2.5, heuristic_weight_near: float = 2.5,
          near_goal_distance: float = 5.0, tie_break: float = 0.001, heuristic: str = 'default', obstacle_heuristic: bool
-         = True, look_ahead: bool = True, spread_out: bool = True, detours: bool = True, obstacle_loading: str = 'lazy',
-         adaptive_resolution: bool = True, analytic_expansion: bool = True, reverse_penalty: float = 0.0,
-         gear_change_penalty: float = 0.5, steering_change_penalty: float = 0.1, clearance_weight: float = 0.0,
-         preferred_clearance: float = 0.1, clearance_cost: float = 10.0, smoothing: str = 'bspline', shortening: bool =
-         True, approximate: bool = True, max_memory_mb: int = 512) -> Result: ...
+         = True, detours: bool = True, obstacle_loading: str = 'lazy', adaptive_resolution: bool = True,
+         analytic_expansion: bool = True, reverse_penalty: float = 0.0, gear_change_penalty: float = 0.5,
+         steering_change_penalty: float = 0.1, preferred_clearance: float = 0.1, clearance_cost: float = 10.0,
+         smoothing: str = 'bspline', shortening: bool = True, approximate: bool = True, max_memory_mb: int = 512) ->
+         Result: ...
 def plan_batch(scenarios: Iterable[Scenario], threads: int = 0, time_limit: float = 1.0, anytime: bool = False,
                max_expansions: int = 0, *, parameter_set: str = 'default', motion_model: str = 'car', turning_radius:
                float = 3.0, xy_resolution: float = 0.0, heading_bins: int = 72, steering_angles: int = 3, bidirectional:
                bool = True, search_from: str = 'goal', open_list: str = 'binary_heap', heuristic_weight_far: float =
                2.5, heuristic_weight_near: float = 2.5, near_goal_distance: float = 5.0, tie_break: float = 0.001,
-               heuristic: str = 'default', obstacle_heuristic: bool = True, look_ahead: bool = True, spread_out: bool =
-               True, detours: bool = True, obstacle_loading: str = 'lazy', adaptive_resolution: bool = True,
-               analytic_expansion: bool = True, reverse_penalty: float = 0.0, gear_change_penalty: float = 0.5,
-               steering_change_penalty: float = 0.1, clearance_weight: float = 0.0, preferred_clearance: float = 0.1,
-               clearance_cost: float = 10.0, smoothing: str = 'bspline', shortening: bool = True, approximate: bool =
-               True, max_memory_mb: int = 512) -> List[Result]: ...
+               heuristic: str = 'default', obstacle_heuristic: bool = True, detours: bool = True, obstacle_loading: str
+               = 'lazy', adaptive_resolution: bool = True, analytic_expansion: bool = True, reverse_penalty: float =
+               0.0, gear_change_penalty: float = 0.5, steering_change_penalty: float = 0.1, preferred_clearance: float =
+               0.1, clearance_cost: float = 10.0, smoothing: str = 'bspline', shortening: bool = True, approximate: bool
+               = True, max_memory_mb: int = 512) -> List[Result]: ...
 # parameters:end
 
 def check(scenario: Scenario, path: Union[Drive, ArrayLike], exact: bool = True) -> Verdict: ...

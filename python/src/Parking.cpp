@@ -1,4 +1,5 @@
 // ParkingPlanner and ParkingPlan.
+#include "ompl_improved_astar/search/planning/Parameters.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
@@ -24,13 +25,14 @@ namespace parking::python
         PlanningParameters planningParameters(bool tight, const py::kwargs &values)
         {
             using P = PlanningParameters;
-            static const std::array<std::pair<const char *, double P::*>, 6> NUMBERS{
+            static const std::array<std::pair<const char *, double P::*>, 7> NUMBERS{
                 {{"time_limit", &P::timeLimit},
                  {"gap_worth", &P::gapWorth},
                  {"radius_factor", &P::radiusFactor},
                  {"gear_change_penalty", &P::gearChangePenalty},
                  {"steering_change_penalty", &P::steeringChangePenalty},
-                 {"clearance_weight", &P::clearanceWeight}}};
+                 {"preferred_clearance", &P::preferredClearance},
+                 {"clearance_cost", &P::clearanceCost}}};
             constexpr double INFINITE = std::numeric_limits<double>::infinity();
             const double aisle =
                 values.contains("aisle_width") ? numberFrom(values["aisle_width"], "aisle_width") : INFINITE;
@@ -64,6 +66,7 @@ namespace parking::python
                 }
                 else if (name != "aisle_width")
                 {
+                    checkNotRemoved(name);
                     std::vector<std::string> names{"aisle_width", "smooth", "gaps", "expansions_per_gap", "way_in"};
                     for (const auto &each : NUMBERS)
                         names.emplace_back(each.first);
@@ -165,7 +168,8 @@ fits, the search for the rest, as much room round the car as there is, and curva
 
 ParkingPlanner(tight=True) is for slots that leave centimetres. Other parameters: time_limit (seconds), gaps (metres kept
 round the car, tried in turn), gap_worth, expansions_per_gap, radius_factor, gear_change_penalty, steering_change_penalty,
-clearance_weight, way_in (searched, one_sweep, in_stretches), aisle_width (metres), smooth (bool).)")
+preferred_clearance (metres), clearance_cost, way_in (searched, one_sweep, in_stretches), aisle_width (metres),
+smooth (bool).)")
             .def(py::init([](bool tight, const py::kwargs &values)
                           { return ParkingPlanner(planningParameters(tight, values)); }),
                  py::arg("tight") = false)

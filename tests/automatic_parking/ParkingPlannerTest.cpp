@@ -231,7 +231,8 @@ namespace
         refused("gapWorth", [nan](auto &p) { p.gapWorth = nan; });
         refused("gearChangePenalty", [](auto &p) { p.gearChangePenalty = -1.0; });
         refused("steeringChangePenalty", [](auto &p) { p.steeringChangePenalty = -1.0; });
-        refused("clearanceWeight", [nan](auto &p) { p.clearanceWeight = nan; });
+        refused("preferredClearance", [nan](auto &p) { p.preferredClearance = nan; });
+        refused("clearanceCost", [](auto &p) { p.clearanceCost = -1.0; });
         Scenario scenario = openGround();
         scenario.goals.clear();
         expectError([&] { ParkingPlanner().plan(scenario); }, {"no goal"});

@@ -48,7 +48,7 @@ namespace
                     else if constexpr (std::is_same_v<Value, std::string>)
                         values[row.name] = row.values.names().back();
                     else
-                        values[row.name] = parking::formatNumber(row.values.most);
+                        values[row.name] = parking::formatNumber(row.values.max);
                 },
                 row.member);
         values.erase("parameter_set");  // which sets the others
@@ -63,7 +63,7 @@ namespace
         for (const Parameter &row : parking::parameterTable())
             expected.insert(row.name);
         EXPECT_EQ(names, expected);
-        EXPECT_EQ(params["clearance_weight"].getRangeSuggestion(), "0:0.1:100");
+        EXPECT_EQ(params["preferred_clearance"].getRangeSuggestion(), "0:0.01:10");
         EXPECT_EQ(params["xy_resolution"].getRangeSuggestion(), "0:0.05:100");
         EXPECT_EQ(params["steering_angles"].getRangeSuggestion(), "3:2:21");
         EXPECT_EQ(params["anytime"].getRangeSuggestion(), "0,1");
@@ -79,13 +79,11 @@ namespace
                                                           {"approximate", "1"},
                                                           {"bidirectional", "1"},
                                                           {"clearance_cost", "10"},
-                                                          {"clearance_weight", "0"},
                                                           {"detours", "1"},
                                                           {"gear_change_penalty", "0.5"},
                                                           {"heading_bins", "72"},
                                                           {"heuristic_weight_far", "2.5"},
                                                           {"heuristic_weight_near", "2.5"},
-                                                          {"look_ahead", "1"},
                                                           {"motion_model", "car"},
                                                           {"near_goal_distance", "5"},
                                                           {"obstacle_heuristic", "1"},
@@ -97,7 +95,6 @@ namespace
                                                           {"search_from", "goal"},
                                                           {"shortening", "1"},
                                                           {"smoothing", "bspline"},
-                                                          {"spread_out", "1"},
                                                           {"steering_angles", "3"},
                                                           {"turning_radius", "3"},
                                                           {"xy_resolution", "0"}};
@@ -136,7 +133,7 @@ namespace
             if (std::holds_alternative<bool PlannerParameters::*>(row.member))
                 continue;  // has no values out of range
             const std::string bad =
-                row.values.names != nullptr ? "hovercraft" : parking::formatNumber(row.values.most + 1.0);
+                row.values.names != nullptr ? "hovercraft" : parking::formatNumber(row.values.max + 1.0);
             try
             {
                 params.setParam(row.name, bad);
@@ -187,7 +184,7 @@ namespace
         {
             PlannerParameters bad = good;
             bad.anytime = true;
-            bad.clearanceWeight = wrong;
+            bad.preferredClearance = wrong;
             EXPECT_THROW(problem.planner->setParameters(bad), ompl::Exception);
             EXPECT_TRUE(problem.planner->parameters() == good);
         }
@@ -235,7 +232,7 @@ namespace
         set = {};
         set.bidirectional = set.adaptiveResolution = set.shortening = false;
         set.searchFrom = "start";
-        set.lookAhead = set.spreadOut = set.detours = false;
+        set.detours = false;
         expected["hybrid_astar"] = set;
 
         EXPECT_EQ(parking::parameterSetNames().size(), expected.size());

@@ -81,7 +81,7 @@ namespace
             problem.set("anytime", i % 7 == 3);
             problem.set("bidirectional", i % 11 != 5);
             problem.set("steering_angles", i % 4 == 1 ? 5 : 3);
-            problem.set("clearance_weight", i % 13 == 6 ? 1.0 : 0.0);
+            problem.set("preferred_clearance", i % 13 == 6 ? 1.0 : 0.1);
             const auto start = freePose(random, world, problem.vehicle);
             // Now and then a goal in an obstacle.
             const auto goal = i % 9 == 8 ? world.anywhere(random) : freePose(random, world, problem.vehicle);

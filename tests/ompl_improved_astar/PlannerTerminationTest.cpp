@@ -204,9 +204,9 @@ namespace
     TEST_F(PlannerTermination, WithACheckerThatTellsClearances)
     {
         for (const bool anytime : {false, true})
-            for (const double weight : {0.0, 1.0})
+            for (const double preferred : {0.1, 1.0})
             {
-                SCOPED_TRACE(testing::Message() << anytime << ' ' << weight);
+                SCOPED_TRACE(testing::Message() << anytime << ' ' << preferred);
                 PlanningProblem problem(Space::SE2, AmongPosts::bounds());
                 const auto checker = std::make_shared<AmongPosts>(problem.si);
                 problem.si->setStateValidityChecker(checker);
@@ -214,7 +214,7 @@ namespace
                 problem.si->setup();
                 problem.makePlanner();
                 problem.set("anytime", anytime);
-                problem.set("clearance_weight", weight);
+                problem.set("preferred_clearance", preferred);
                 problem.from({-90.0, 0.0, 0.0}).to({{90.0, 0.0, 0.0}});
                 expectPrompt(problem, 64, [&checker] { return checker->clearances; });
             }

@@ -89,6 +89,20 @@ namespace
         EXPECT_NEAR(radius, problem->scenario().vehicle.minTurningRadius(), 1e-4);
     }
 
+    TEST(PlannerSettings, RemovedParametersAreAnsweredWithWhatToUseInsteadByThePlannerThatHadThem)
+    {
+        const std::unique_ptr<Problem> problem = openField();
+        const PlannerRegistry registry = PlannerRegistry::builtIn();
+        const auto prepare = [&](const char *planner)
+        {
+            problem->prepare(registry.find(planner), {{"clearance_weight", "1"}});
+        };
+        for (const char *planner : {"improved_astar", "hybrid_astar"})
+            expectError([&] { prepare(planner); },
+                        {"clearance_weight was removed: use preferred_clearance and clearance_cost"});
+        expectError([&] { prepare("RRT"); }, {"unknown parameter of RRT 'clearance_weight'"});
+    }
+
     TEST(PlannerSettings, ATurningRadiusThatWouldBeIgnoredIsRefused)
     {
         const PlannerRegistry registry = PlannerRegistry::builtIn();

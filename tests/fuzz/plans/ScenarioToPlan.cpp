@@ -24,7 +24,7 @@ namespace parking_test::fuzz
             {
                 parameters.heuristicWeightFar = numbers.between(0.0, 5.0);
                 parameters.heuristicWeightNear = numbers.between(0.0, 5.0);
-                parameters.clearanceWeight = numbers.between(0.0, 5.0);
+                parameters.clearanceCost = numbers.between(0.0, 20.0);
                 parameters.gearChangePenalty = numbers.between(0.0, 5.0);
             }
             if ((mask & 4U) != 0)
@@ -46,11 +46,7 @@ namespace parking_test::fuzz
                 parameters.anytime = numbers.flag();
             }
             if ((mask & 16U) != 0)
-            {
                 parameters.preferredClearance = numbers.between(0.0, 1.0);
-                parameters.lookAhead = numbers.flag();
-                parameters.spreadOut = numbers.flag();
-            }
             return parameters;
         }
     }  // namespace

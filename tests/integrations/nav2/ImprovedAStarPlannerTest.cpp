@@ -176,6 +176,20 @@ namespace
                      std::exception);
     }
 
+    TEST_F(Nav2Planner, ARemovedParameterIsRefusedAtOnce)
+    {
+        auto &overrides = node->get_node_parameters_interface()->overrides;
+        const auto configure = [&]
+        {
+            makePlugin()->configure(node, "Other", std::make_shared<tf2_ros::Buffer>(),
+                                    std::make_shared<nav2_costmap_2d::Costmap2DROS>(costmap));
+        };
+        overrides.emplace("Another.look_ahead", true);
+        EXPECT_NO_THROW(configure());
+        overrides.emplace("Other.look_ahead", true);
+        EXPECT_THROW(configure(), std::exception);
+    }
+
     TEST_F(Nav2Planner, NothingIsPlannedAfterTheEnd)
     {
         planner->deactivate();

@@ -91,7 +91,7 @@ TEST(Parameters, EachChangesOneMemberAndEqualityNoticesIt)
                 else if constexpr (std::is_same_v<Value, std::string>)
                     changed.*member = row.values.names().back();
                 else
-                    changed.*member = static_cast<Value>(row.values.most);
+                    changed.*member = static_cast<Value>(row.values.max);
             },
             row.member);
         EXPECT_TRUE(changed != PlannerParameters()) << row.name;
@@ -109,23 +109,23 @@ TEST(Parameters, NumbersAreTakenFromEndToEndAndNotBeyond)
         [](const Parameter &row, double PlannerParameters::*member)
         {
             const ParameterValues &values = row.values;
-            EXPECT_LT(values.least, values.most);
+            EXPECT_LT(values.min, values.max);
             EXPECT_GT(values.step, 0.0);
             PlannerParameters parameters;
-            for (const double right : {values.least, values.most, 0.5 * (values.least + values.most)})
+            for (const double right : {values.min, values.max, 0.5 * (values.min + values.max)})
             {
                 parameters.*member = right;
                 EXPECT_TRUE(isTaken(row, parameters)) << right;
             }
             constexpr double INF = std::numeric_limits<double>::infinity();
-            for (const double wrong : {std::nextafter(values.least, -INF), std::nextafter(values.most, INF), INF, -INF,
+            for (const double wrong : {std::nextafter(values.min, -INF), std::nextafter(values.max, INF), INF, -INF,
                                        std::numeric_limits<double>::quiet_NaN()})
             {
                 parameters.*member = wrong;
                 expectRefused(row, parameters, formatNumber(wrong));
             }
             parameters.*member = 0.0;
-            EXPECT_EQ(isTaken(row, parameters), values.zeroToo || values.least == 0.0);
+            EXPECT_EQ(isTaken(row, parameters), values.allowsZero || values.min == 0.0);
         });
 }
 
@@ -134,20 +134,20 @@ TEST(Parameters, CountsAreTakenInStepsFromEndToEndAndNotBeyond)
     forEach<unsigned int>(
         [](const Parameter &row, unsigned int PlannerParameters::*member)
         {
-            const auto least = static_cast<unsigned int>(row.values.least);
-            const auto most = static_cast<unsigned int>(row.values.most);
+            const auto min = static_cast<unsigned int>(row.values.min);
+            const auto max = static_cast<unsigned int>(row.values.max);
             const auto step = static_cast<unsigned int>(row.values.step);
             PlannerParameters parameters;
-            for (unsigned int value = least; value <= most; ++value)
+            for (unsigned int value = min; value <= max; ++value)
             {
                 parameters.*member = value;
-                if ((value - least) % step == 0)
+                if ((value - min) % step == 0)
                     EXPECT_TRUE(isTaken(row, parameters)) << value;
                 else
                     expectRefused(row, parameters, std::to_string(value));
             }
-            EXPECT_EQ((most - least) % step, 0u);
-            for (const unsigned int wrong : {0u, least - 1, most + 1, std::numeric_limits<unsigned int>::max()})
+            EXPECT_EQ((max - min) % step, 0u);
+            for (const unsigned int wrong : {0u, min - 1, max + 1, std::numeric_limits<unsigned int>::max()})
             {
                 parameters.*member = wrong;
                 expectRefused(row, parameters, formatNumber(wrong));
@@ -182,7 +182,7 @@ TEST(Parameters, AreReadFromTextAndRefusedTextChangesNothing)
     {
         const std::string right = std::holds_alternative<bool PlannerParameters::*>(row.member) ? "true"
                                   : row.values.names != nullptr ? row.values.names().back()
-                                                                : formatNumber(row.values.most);
+                                                                : formatNumber(row.values.max);
         PlannerParameters parameters;
         row.setText(parameters, right);
         std::visit(
@@ -194,7 +194,7 @@ TEST(Parameters, AreReadFromTextAndRefusedTextChangesNothing)
                 else if constexpr (std::is_same_v<Value, bool>)
                     EXPECT_TRUE(parameters.*member) << row.name;
                 else
-                    EXPECT_EQ(static_cast<double>(parameters.*member), row.values.most) << row.name;
+                    EXPECT_EQ(static_cast<double>(parameters.*member), row.values.max) << row.name;
             },
             row.member);
         const PlannerParameters before = parameters;
@@ -233,6 +233,27 @@ TEST(Parameters, CountsAreWholeAndUnknownNamesAreAnsweredWithTheNearest)
     {
         EXPECT_NE(std::string(error.what()).find("did you mean 'heading_bins'"), std::string::npos) << error.what();
     }
+}
+
+TEST(Parameters, RemovedNamesAreAnsweredWithWhatToUseInstead)
+{
+    for (const auto &[name, instead] :
+         {std::pair("look_ahead", "always on with detours"), std::pair("spread_out", "always on with detours"),
+          std::pair("clearance_weight", "use preferred_clearance and clearance_cost")})
+        try
+        {
+            parameterNamed(name);
+            ADD_FAILURE() << name << " was taken";
+        }
+        catch (const Error &error)
+        {
+            const std::string text = error.what();
+            EXPECT_EQ(text.find(name + std::string(" was removed: ")), 0u) << text;
+            EXPECT_NE(text.find(instead), std::string::npos) << text;
+        }
+    for (const Parameter &row : parameterTable())
+        EXPECT_NO_THROW(checkNotRemoved(row.name));
+    EXPECT_NO_THROW(checkNotRemoved("heading_bin"));
 }
 
 TEST(Parameters, TheWeightsAreThoseOfTheHeuristic)

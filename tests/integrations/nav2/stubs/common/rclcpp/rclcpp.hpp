@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -44,4 +45,20 @@ namespace rclcpp
     private:
         ParameterVariant value_;
     };
+
+    namespace node_interfaces
+    {
+        class NodeParametersInterface
+        {
+        public:
+            using SharedPtr = std::shared_ptr<NodeParametersInterface>;
+
+            const std::map<std::string, ParameterValue> &get_parameter_overrides() const
+            {
+                return overrides;
+            }
+
+            std::map<std::string, ParameterValue> overrides;
+        };
+    }  // namespace node_interfaces
 }  // namespace rclcpp

@@ -31,11 +31,18 @@ namespace rclcpp_lifecycle
             return rclcpp::Parameter(parameters.at(name));
         }
 
+        rclcpp::node_interfaces::NodeParametersInterface::SharedPtr get_node_parameters_interface() const
+        {
+            return parametersInterface;
+        }
+
         builtin_interfaces::msg::Time now() const
         {
             return {42, 7U};
         }
 
         std::map<std::string, rclcpp::ParameterVariant> parameters;
+        rclcpp::node_interfaces::NodeParametersInterface::SharedPtr parametersInterface{
+            std::make_shared<rclcpp::node_interfaces::NodeParametersInterface>()};
     };
 }  // namespace rclcpp_lifecycle
