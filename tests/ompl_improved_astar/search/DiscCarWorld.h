@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -37,10 +38,6 @@ namespace parking_test
         bool tellsRoom{true};
         bool acceptsPaths{true};
         std::uint64_t questions{0};
-        std::uint64_t lengthsAsked{0};  ///< of the questions, those about motions
-        mutable std::uint64_t turnsAsked{0};
-        std::uint64_t pathsAsked{0};
-        std::uint64_t roomsAsked{0};
 
         /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
         double distanceFrom(double x, double y) const
@@ -68,29 +65,37 @@ namespace parking_test
             return gap(pose) > 0.0;
         }
 
-        double clearance(const parking::Pose &pose) override
+        bool keeps(const parking::Pose &pose, double clearance) override
         {
-            return std::max(0.0, gap(pose));
+            return gap(pose) >= clearance;
         }
 
-        double freeLength(const parking::Pose &from, double curvature, double length) override
+        void freeLengths(const parking::Pose &from, const parking::Arc *arcs, std::size_t count, double clearance,
+                         double *lengths) override
         {
             ++questions;
-            ++lengthsAsked;
-            const double whole = std::abs(length), direction = length < 0.0 ? -1.0 : 1.0;
             double farthest = 0.0;
             for (const double offset : offsets)
                 farthest = std::max(farthest, std::abs(offset));
-            const double speed = std::hypot(1.0, farthest * curvature);
-            double driven = 0.0;
-            while (driven < whole)
+            for (std::size_t i = 0; i < count; ++i)
             {
-                const double room = gap(advance(from, curvature, direction * driven));
-                if (room < 1e-4)
-                    return std::max(0.0, driven - 1e-6);
-                driven += room / speed;
+                const auto [curvature, length] = arcs[i];
+                const double whole = std::abs(length), speed = std::hypot(1.0, farthest * curvature);
+                const auto spare = [&, curvature = curvature, length = length](double driven)
+                {
+                    return gap(advance(from, curvature, std::copysign(driven, length))) - clearance;
+                };
+                double driven = 0.0, room = 0.0;
+                while (driven < whole && (room = spare(driven)) >= 1e-4)
+                    driven += room / speed;
+                const bool isWhole = driven >= whole && spare(whole) >= 1e-4;
+                lengths[i] = isWhole ? whole : std::max(0.0, std::min(driven, whole) - 1e-6);
             }
-            return gap(advance(from, curvature, length)) >= 1e-4 ? whole : whole - 1e-6;
+        }
+
+        parking::Box bounds() const override
+        {
+            return inside;
         }
 
         bool isMotionFree(const parking::Pose & /*from*/, const parking::Pose &to) override
@@ -98,21 +103,13 @@ namespace parking_test
             return isFree(to);  // cars do not ask
         }
 
-        parking::Pose turnedRound(const parking::Pose &pose) const override
-        {
-            ++turnsAsked;
-            return MotionEnvironment::turnedRound(pose);
-        }
-
         double roomAt(double x, double y) override
         {
-            ++roomsAsked;
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
         }
 
         bool acceptPath(const parking::Path & /*path*/) override
         {
-            ++pathsAsked;
             return acceptsPaths;
         }
 

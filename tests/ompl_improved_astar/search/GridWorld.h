@@ -4,7 +4,9 @@
 #include "ompl_improved_astar/search/Search.h"
 #include "tests/ompl_improved_astar/AfterAsking.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <queue>
@@ -103,24 +105,32 @@ namespace parking_test
         }
 
         /** \brief Of the paper's search on this grid; from the start where it is from one side. */
-        parking::search::SearchParameters parameters() const
+        parking::PlannerParameters parameters() const
         {
-            parking::search::SearchParameters result;
+            parking::PlannerParameters result;
             result.motionModel = "grid8";
-            result.searchFromGoal = false;
+            result.searchFrom = "start";
             result.xyResolution = 1.0;
-            result.bounds.max = {columns, rows};
             return result;
         }
 
-        // What only cars ask.
-        double clearance(const parking::Pose & /*pose*/) override
+        parking::search::CarInSpace car() const
         {
-            return 0.0;
+            parking::search::CarInSpace result;
+            result.bounds = bounds();
+            return result;
         }
-        double freeLength(const parking::Pose & /*from*/, double /*curvature*/, double /*length*/) override
+
+        parking::Box bounds() const override
         {
-            return 0.0;
+            return {{0.0, 0.0}, {columns, rows}};
+        }
+
+        // What only cars ask.
+        void freeLengths(const parking::Pose & /*from*/, const parking::Arc * /*arcs*/, std::size_t count,
+                         double /*clearance*/, double *lengths) override
+        {
+            std::fill(lengths, lengths + count, 0.0);
         }
         double roomAt(double /*x*/, double /*y*/) override
         {
