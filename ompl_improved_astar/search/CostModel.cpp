@@ -6,6 +6,11 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        constexpr double MIN_NEARER = 0.25;  // metres that count as nearer than preferred where the clearance is not kept
+    }
+
     double CostModel::proximity(const Pose &from, const PathPiece &piece, MotionEnvironment &environment, double clear,
                                 double max) const
     {
@@ -18,13 +23,13 @@ namespace parking::search
             return 0.0;
         const double samples = std::ceil((length - clear) / sampleSpacing), spacing = (length - clear) / samples;
         // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
-        const double floor = clear > 0.0 ? 1.0 : 0.0, perSample = clearanceCost * spacing;
+        const double floor = clear > 0.0 ? std::min(MIN_NEARER, length - clear) : 0.0;
         double nearer = 0.0;
-        for (double i = 0.5; i < samples && std::max(floor, nearer) * perSample <= max; i += 1.0)
+        for (double i = 0.5; i < samples && clearanceCost * std::max(floor, nearer) <= max; i += 1.0)
             if (!environment.keeps(advance(from, piece.curvature, std::copysign(clear + i * spacing, piece.length)),
                                    preferredClearance))
-                nearer += 1.0;
-        return std::max(floor, nearer) * perSample;
+                nearer += spacing;
+        return clearanceCost * std::max(floor, nearer);
     }
 
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve, const PathPiece *before,

@@ -65,9 +65,9 @@ namespace parking::search::tuning
     constexpr int PROOF_HEADINGS = 32;               ///< parts of the circle: more close narrower gaps
 
     // Searching on after a solution
-    constexpr double POST_SEARCH_SHARE = 0.3;        ///< expansions after the first solution to those before,
+    constexpr double POST_SEARCH_SHARE = 0.5;        ///< expansions after the first solution to those before,
     constexpr double POST_SEARCH_EXPANSIONS = 8.0;   ///< and at least that many,
-    constexpr double POST_SEARCH_PER_EXCESS = 35.0;  ///< and more for a path twice as long as expected
+    constexpr double POST_SEARCH_PER_EXCESS = 70.0;  ///< and more for a path twice as long as expected
     constexpr double WEIGHT_DECAY = 0.7;             ///< factor on the weights whenever the search goes on
     constexpr double NEAR_OPTIMAL = 1.1;             ///< cost to expected cost up to which a path is left as it is
     constexpr std::uint64_t ROUND_EXPANSIONS = 200;  ///< of a round of anytime
@@ -80,6 +80,8 @@ namespace parking::search::tuning
     constexpr double TURN_REACH = 4.0;     ///< within which, and for which, the car turns round
     constexpr double MOVE_RATIO = 1.2;     ///< cost to expected cost from which poses are moved,
     constexpr double MOVE_STEP = 0.2;      ///< first by this, then by a quarter of it
+    constexpr double IMPROVEMENT_EFFORT = 500.0;  ///< pairs of poses joined by curves to improve a first path,
+    constexpr double IMPROVEMENT_EFFORT_PER_EXPANSION = 20.0;  ///< and more of them for each expansion of the search
     constexpr int MAX_MOVES = 3;           ///< passes with each of the two: more find little
     constexpr double MOVE_REACH = 3.0;     ///< of the path that a curve to or from a moved pose replaces
 }  // namespace parking::search::tuning

@@ -171,9 +171,13 @@ namespace parking::search
             pass.step = step * radius;
             return pass;
         };
+        // What the search has cost is worth as much improving: tight places take long to improve by little.
+        const double effort = tuning::IMPROVEMENT_EFFORT + tuning::IMPROVEMENT_EFFORT_PER_EXPANSION *
+                                                               static_cast<double>(search_.expanded());
+        const std::uint64_t end = improver_->connections() + static_cast<std::uint64_t>(effort);
         const auto isCostly = [&](double ratio)
         {
-            return path.cost > ratio * expected;
+            return path.cost > ratio * expected && improver_->connections() < end;
         };
         const auto shorten = [&]
         {
@@ -195,11 +199,10 @@ namespace parking::search
             if (improve(path, turn))
                 shorten();
         }
-        if (isCostly(tuning::MOVE_RATIO))
-            for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
-                for (int pass = 0; pass < tuning::MAX_MOVES; ++pass)
-                    if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
-                        break;
+        for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
+            for (int pass = 0; pass < tuning::MAX_MOVES && isCostly(tuning::MOVE_RATIO); ++pass)
+                if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
+                    break;
     }
 
     bool PathPlanner::improveBest()
