@@ -8,7 +8,8 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double MIN_NEARER = 0.25;  // metres that count as nearer than preferred where the clearance is not kept
+        constexpr double MIN_NEARER =
+            0.25;  // metres that count as nearer than preferred where the clearance is not kept
     }
 
     double CostModel::proximity(const Pose &from, const PathPiece &piece, MotionEnvironment &environment, double clear,
@@ -58,8 +59,8 @@ namespace parking::search
         for (std::size_t i = 0; i < pieces.size(); ++i)
         {
             priced.proximity.push_back(model.proximity(pose, pieces[i], environment));
-            priced.cost += model.drive(pieces[i]) + priced.proximity.back() +
-                           (i > 0 ? model.join(pieces[i - 1], pieces[i]) : 0.0);
+            priced.cost +=
+                model.drive(pieces[i]) + priced.proximity.back() + (i > 0 ? model.join(pieces[i - 1], pieces[i]) : 0.0);
             pose = advance(pose, pieces[i]);
         }
         return priced;

@@ -22,7 +22,7 @@ namespace parking::search
         double fullLockCurvature{1.0};      ///< 1/m, of full lock
         double preferredClearance{0.0};     ///< metres that the car keeps from obstacles where that is cheap; 0: none
         double clearanceCost{0.0};          ///< extra cost per metre driven nearer than that
-        double sampleSpacing{0.1};         ///< metres between the poses at which the clearance is sampled
+        double sampleSpacing{0.1};          ///< metres between the poses at which the clearance is sampled
 
         /** \brief Cost of driving \e piece in the direction in which the car will drive, wherever it is. */
         double drive(const PathPiece &piece) const

@@ -54,7 +54,8 @@ namespace parking::search
         resolution_ = resolution;
         disc_ = disc;
         for (const std::uint8_t direction : {std::uint8_t{0}, std::uint8_t{1}})
-            costlyLengths_[direction] = static_cast<std::uint32_t>(std::lround(disc.costFactor * stepLength(direction)));
+            costlyLengths_[direction] =
+                static_cast<std::uint32_t>(std::lround(disc.costFactor * stepLength(direction)));
         maxCells_ = maxCells;
         origin_ = toward;
         aim_ = {0, 0};

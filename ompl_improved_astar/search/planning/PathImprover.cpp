@@ -145,8 +145,7 @@ namespace parking::search
         };
         if (pass.turnsCar && lane == 1 && isNear(knot, 0))
             add(knot, 0);
-        for (std::size_t earlier = knot;
-             earlier-- > 0 && knots_[knot].driven - knots_[earlier].driven <= pass.reach;)
+        for (std::size_t earlier = knot; earlier-- > 0 && knots_[knot].driven - knots_[earlier].driven <= pass.reach;)
         {
             // Long parts are tried from every few knots only: most of them cannot be replaced, and what is missed by a
             // knot is found by a shorter part.
@@ -171,12 +170,8 @@ namespace parking::search
     void PathImprover::connect(std::size_t from, std::size_t to, const Pass &pass, double max, const PathPiece *after)
     {
         const State &source = states_[from];
-        const FreeCurves::Gap gap{source.pose,
-                                  states_[to].pose,
-                                  from == 0 ? nullptr : &source.last,
-                                  after,
-                                  max - source.cost,
-                                  FreeCurves::SweepEnd::Start,
+        const FreeCurves::Gap gap{source.pose,   states_[to].pose,  from == 0 ? nullptr : &source.last,
+                                  after,         max - source.cost, FreeCurves::SweepEnd::Start,
                                   pass.maxCurves};
         ++connections_;
         freeCurves_.connect(gap,

@@ -172,8 +172,8 @@ namespace parking::search
             return pass;
         };
         // What the search has cost is worth as much improving: tight places take long to improve by little.
-        const double effort = tuning::IMPROVEMENT_EFFORT + tuning::IMPROVEMENT_EFFORT_PER_EXPANSION *
-                                                               static_cast<double>(search_.expanded());
+        const double effort = tuning::IMPROVEMENT_EFFORT +
+                              tuning::IMPROVEMENT_EFFORT_PER_EXPANSION * static_cast<double>(search_.expanded());
         const std::uint64_t end = improver_->connections() + static_cast<std::uint64_t>(effort);
         const auto isCostly = [&](double ratio)
         {
