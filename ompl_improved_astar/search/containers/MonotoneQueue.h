@@ -8,171 +8,118 @@
 
 namespace parking::search
 {
-    /** \brief A priority queue for whole priorities that never fall below the one taken last, as those of A* with a
+    /** \brief A priority queue for whole priorities that do not fall below the one popped last, as those of A* with a
         consistent heuristic.
 
-        Items wait in one bucket for each priority, so that adding and taking cost the same however many there are
-        (R. B. Dial, "Algorithm 360: shortest-path forest with topological ordering", 1969). Of equal priorities the
-        one added last comes out first. Memory is kept by clear(). */
+        A radix heap (R. K. Ahuja et al., "Faster algorithms for the shortest path problem", 1990): an item's bucket is
+        the highest bit in which its priority differs from the one popped last, so that it moves to lower buckets only.
+        Of equal priorities the latest usually comes first. */
     template <class Item>
     class MonotoneQueue
     {
     public:
-        MonotoneQueue()
-        {
-            first_.fill(NONE);
-        }
-
-        /** \brief Is there nothing to take? */
+        /** \brief Is the queue empty? */
         bool empty() const
         {
-            return inRing_ == 0 && beyond_.empty();
+            return size_ == 0;
         }
 
         /** \brief Number of items. */
         std::size_t size() const
         {
-            return inRing_ + beyond_.size();
+            return size_;
         }
 
-        /** \brief The most bytes that the items since clear() take up to the next growth, old and new arrays
-            together. */
+        /** \brief Upper limit of the bytes of the items, old and new arrays of growing buckets together. */
         std::size_t bytes() const
         {
-            constexpr std::size_t GROWING = 3;
-            return GROWING * (pool_.size() + beyond_.size()) * sizeof(Waiting);
+            return 3 * size_ * sizeof(Entry);
         }
 
-        /** \brief Forgets the items; memory is kept, and priorities may be small again. */
+        /** \brief Removes all items; the next priorities may be small again. Memory is kept. */
         void clear()
         {
-            if (inRing_ > 0)
-                first_.fill(NONE);
-            inRing_ = 0;
-            current_ = 0;
-            pool_.clear();
-            beyond_.clear();
-            unused_ = NONE;
+            for (std::vector<Entry> &bucket : buckets_)
+                bucket.clear();
+            size_ = 0;
+            last_ = 0;
         }
 
-        /** \brief Adds an item.
-
-            \param priority what is below the priority taken last counts as equal to it */
+        /** \brief Adds an item. A priority below the one popped last counts as equal to it. */
         void push(std::uint32_t priority, const Item &item)
         {
-            keep({item, std::max(priority, current_), NONE});
+            place({std::max(priority, last_), item});
+            ++size_;
         }
 
-        /** \brief Takes an item of the smallest priority. The queue must not be empty. */
+        /** \brief Removes and returns an item of the smallest priority. The queue must not be empty. */
         Item pop()
         {
-            if (first_[current_ % RING] == NONE)
-                nextBucket();
-            std::uint32_t &first = first_[current_ % RING];
-            const std::uint32_t place = first;
-            Waiting &waiting = pool_[place];
-            first = waiting.next;
-            waiting.next = unused_;
-            unused_ = place;
-            --inRing_;
-            return waiting.item;
+            if (buckets_[0].empty())
+                fillFirstBucket();
+            const Item item = buckets_[0].back().item;
+            buckets_[0].pop_back();
+            --size_;
+            return item;
         }
 
-        /** \brief Gives all items new priorities, which may be smaller than any before.
+        /** \brief Removes and returns all items; the next priorities may be small again. */
+        std::vector<Item> takeAll()
+        {
+            std::vector<Item> items;
+            items.reserve(size_);
+            for (const std::vector<Entry> &bucket : buckets_)
+                for (const Entry &each : bucket)
+                    items.push_back(each.item);
+            clear();
+            return items;
+        }
 
-            \param renew gets an item and its priority, to be set; returns whether the item is to be kept */
+        /** \brief Changes the priorities of all items, also to lower ones than that popped last.
+
+            \param renew gets an item and its priority, to be set; returns whether the item is kept */
         template <class Renew>
         void renewAll(const Renew &renew)
         {
-            std::vector<Waiting> items;
-            items.reserve(size());
-            for (std::size_t k = 0, left = inRing_; left > 0; ++k)
-                for (std::uint32_t place = first_[k]; place != NONE; place = pool_[place].next, --left)
-                    items.push_back(pool_[place]);
-            items.insert(items.end(), beyond_.begin(), beyond_.end());
+            std::vector<Entry> entries;
+            for (const std::vector<Entry> &bucket : buckets_)
+                entries.insert(entries.end(), bucket.begin(), bucket.end());
             clear();
-            items.erase(std::remove_if(items.begin(), items.end(),
-                                       [&renew](Waiting &each) { return !renew(each.item, each.priority); }),
-                        items.end());
-            if (items.empty())
-                return;
-            current_ = leastOf(items);
-            for (const Waiting &each : items)
-                keep(each);
+            for (Entry &each : entries)
+                if (renew(each.item, each.priority))
+                    push(each.priority, each.item);
         }
 
     private:
-        static constexpr std::uint32_t RING = 1024;  // priorities that are told apart at a time, a power of two
-        static constexpr std::uint32_t NONE = 0xffffffffu;
-
-        struct Waiting
+        struct Entry
         {
-            Item item;
             std::uint32_t priority;
-            std::uint32_t next;  // in the same bucket, or of the unused ones
+            Item item;
         };
 
-        void keep(Waiting waiting)
+        void place(const Entry &entry)
         {
-            if (waiting.priority >= current_ + RING)
-            {
-                beyond_.push_back(waiting);
-                return;
-            }
-            std::uint32_t place = unused_;
-            if (place != NONE)
-                unused_ = pool_[place].next;
-            else
-            {
-                place = static_cast<std::uint32_t>(pool_.size());
-                pool_.emplace_back();
-            }
-            std::uint32_t &first = first_[waiting.priority % RING];
-            waiting.next = first;
-            pool_[place] = waiting;
-            first = place;
-            ++inRing_;
+            const std::uint32_t difference = entry.priority ^ last_;
+            buckets_[difference == 0 ? 0 : 32 - __builtin_clz(difference)].push_back(entry);
         }
 
-        /** Goes on to the next priority that anything waits with. */
-        void nextBucket()
+        void fillFirstBucket()
         {
-            if (inRing_ == 0)
+            const auto isUsed = [](const std::vector<Entry> &bucket)
             {
-                current_ = leastOf(beyond_);
-                sortBeyond();
-            }
-            while (first_[current_ % RING] == NONE)
-            {
-                ++current_;
-                if (!beyond_.empty() && current_ % (RING / 2) == 0)
-                    sortBeyond();
-            }
+                return !bucket.empty();
+            };
+            std::vector<Entry> &bucket = *std::find_if(buckets_.begin(), buckets_.end(), isUsed);
+            last_ = bucket.front().priority;
+            for (const Entry &each : bucket)
+                last_ = std::min(last_, each.priority);
+            for (const Entry &each : bucket)
+                place(each);
+            bucket.clear();
         }
 
-        static std::uint32_t leastOf(const std::vector<Waiting> &items)
-        {
-            return std::min_element(items.begin(), items.end(),
-                                    [](const Waiting &a, const Waiting &b) { return a.priority < b.priority; })
-                ->priority;
-        }
-
-        /** Moves what has come within reach into the ring. */
-        void sortBeyond()
-        {
-            const auto far = std::partition(beyond_.begin(), beyond_.end(),
-                                            [this](const Waiting &each) { return each.priority >= current_ + RING; });
-            std::vector<Waiting> near(far, beyond_.end());
-            beyond_.erase(far, beyond_.end());
-            for (const Waiting &each : near)
-                keep(each);
-        }
-
-        std::uint32_t current_{0};
-        std::array<std::uint32_t, RING> first_;  // of each bucket, by priority
-        std::size_t inRing_{0};
-        std::vector<Waiting> pool_;
-        std::uint32_t unused_{NONE};
-        std::vector<Waiting> beyond_;  // what lies beyond the ring
+        std::array<std::vector<Entry>, 33> buckets_;
+        std::size_t size_{0};
+        std::uint32_t last_{0};  // the priority popped last
     };
 }  // namespace parking::search

@@ -85,6 +85,20 @@ namespace parking::search
             bool isWithin_;
         };
 
+        /** \brief Calls visit(column, row, cell) for every cell of the tiles in use. */
+        template <class Visit>
+        void forEach(const Visit &visit) const
+        {
+            for (std::size_t tile = 0; tile < touched_.size(); ++tile)
+                for (std::int32_t place = 0; place < TILE * TILE; ++place)
+                {
+                    const auto number = static_cast<std::int32_t>(touched_[tile]);
+                    visit(number % DIRECTORY * TILE + place % TILE - REACH,
+                          number / DIRECTORY * TILE + place / TILE - REACH,
+                          (*tiles_[tile])[static_cast<std::size_t>(place)]);
+                }
+        }
+
         /** \brief Of the tiles in use. */
         std::size_t bytes() const
         {
