@@ -75,21 +75,6 @@ namespace parking::search
             return items;
         }
 
-        /** \brief Changes the priorities of all items, also to lower ones than that popped last.
-
-            \param renew gets an item and its priority, to be set; returns whether the item is kept */
-        template <class Renew>
-        void renewAll(const Renew &renew)
-        {
-            std::vector<Entry> entries;
-            for (const std::vector<Entry> &bucket : buckets_)
-                entries.insert(entries.end(), bucket.begin(), bucket.end());
-            clear();
-            for (Entry &each : entries)
-                if (renew(each.item, each.priority))
-                    push(each.priority, each.item);
-        }
-
     private:
         struct Entry
         {
