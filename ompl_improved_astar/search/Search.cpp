@@ -476,11 +476,11 @@ namespace parking::search
     {
         const double radius = car_.turningRadius;
         const Pose from = own.node(index).pose;
-        const auto place =
+        const std::optional<Pose> place =
             route.placeOnRoute(from.x, from.y, tuning::LOOKAHEAD * radius, tuning::LOOKAHEAD_HEADING * radius);
         if (!place)
             return NO_NODE;
-        Pose to{place->place.x(), place->place.y(), std::atan2(place->heading.y(), place->heading.x())};
+        Pose to = *place;
         const bool inReverse = std::cos(from.yaw) * (to.x - from.x) + std::sin(from.yaw) * (to.y - from.y) < 0.0;
         if (inReverse)
             to.yaw = wrapAngle(to.yaw + PI);

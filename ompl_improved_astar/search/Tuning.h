@@ -23,6 +23,7 @@ namespace parking::search::tuning
 
     // Route round the obstacles (see RouteHeuristic)
     constexpr double ROUTE_CELL = 1.0 / 6.0;            ///< side of a cell: smaller sees narrower gaps, and costs more
+    constexpr double MIN_ROUTE_CELL = 0.35;             ///< radii of the largest disc within the car, at least
     constexpr double ROUTE_CELL_LONG = 1.0 / 120.0;     ///< the same as a share of the distance on long routes,
     constexpr double ROUTE_CELL_RATIO = 2.5;            ///< but at most that many times the usual side
     constexpr std::uint64_t MAX_ROUTE_CELLS = 4000000;  ///< settled: bounds memory in a world without walls

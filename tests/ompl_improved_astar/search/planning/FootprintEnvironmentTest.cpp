@@ -2,7 +2,7 @@
 // other checker.
 
 #include "benchmarks/worlds/RandomWorlds.h"
-#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
+#include "ompl_improved_astar/search/heuristics/RouteHeuristic.h"
 #include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
@@ -243,12 +243,12 @@ namespace
         bool lets(double radius)
         {
             const StopFunction never;
-            const std::vector<Pose> roots{{0.8 * side_, 0.8 * side_, 0.0}}, targets{{0.2 * side_, 0.2 * side_, 0.0}};
-            const SearchParameters parameters;
-            ObstacleHeuristic way;
-            way.begin({environment_, parameters, Side::Start, roots, targets, never}, {radius},
-                      parameters.tuning.mostCells);
-            return !way.provesUnreachable(roots.front());
+            const Pose root{0.8 * side_, 0.8 * side_, 0.0}, target{0.2 * side_, 0.2 * side_, 0.0};
+            RouteHeuristic routes;
+            routes.begin(environment_, routeResolution(1.0, 0.0, {root}, {target}), {radius}, {root.x, root.y}, never,
+                         1000000);
+            routes.addTarget(target.x, target.y);
+            return !routes.provesUnreachable(root);
         }
 
     private:
