@@ -3,7 +3,6 @@
 
 #include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/HeuristicWeights.h"
-#include "parking_geometry/Error.h"
 #include "tests/ompl_improved_astar/search/GridWorld.h"
 
 #include <gtest/gtest.h>
@@ -87,8 +86,7 @@ TEST(Heuristics, theLowerBoundIsNeverAboveADriveFromEitherEnd)
             }
 }
 
-/** No path is shorter than the straight line, or turns by more than full lock does: what drives like that is shortest.
- */
+/** No path is shorter than the straight line, or turns faster than at full lock: such drives are shortest. */
 TEST(Heuristics, curvesAreExactForLinesAndArcsAtFullLock)
 {
     Random random(4);
@@ -102,18 +100,15 @@ TEST(Heuristics, curvesAreExactForLinesAndArcsAtFullLock)
                 const double length = (isLine ? random.between(0.0, 50.0) : random.between(0.0, PI)) * radius,
                              curvature = isLine ? 0.0 : (random.chance(0.5) ? 1.0 : -1.0) / radius;
                 const Pose from = random.poseIn(-9.0, 9.0), to = advance(from, curvature, isReverse ? -length : length);
-                for (const Side side : {Side::Start, Side::Goal})
-                {
-                    query.begin(side, {side == Side::Start ? to : from});
-                    const Pose &pose = side == Side::Start ? from : to;
-                    ASSERT_NEAR(query->lowerBound(pose), length, 1e-6 * radius);
-                    ASSERT_EQ(query->estimate(pose), query->lowerBound(pose));
-                }
-                if (forwardOnly && isLine && length > 0.1 * radius)
-                {
-                    query.begin(Side::Start, {from});
-                    ASSERT_GT(query->lowerBound(to), length + radius) << "there is no way back but round a circle";
-                }
+                query.begin(Side::Start, {to});
+                ASSERT_NEAR(query->lowerBound(from), length, 1e-6 * radius);
+                ASSERT_EQ(query->estimate(from), query->lowerBound(from));
+                query.begin(Side::Goal, {from});
+                ASSERT_NEAR(query->lowerBound(to), length, 1e-6 * radius);
+                // Back to where a straight drive began there is no path in reverse, but only round a circle.
+                query.begin(Side::Start, {from});
+                ASSERT_TRUE(!forwardOnly || !isLine || length < 0.1 * radius ||
+                            query->lowerBound(to) > length + radius);
             }
         }
 }
@@ -162,9 +157,6 @@ TEST(Heuristics, onAnEmptyGridTheMetricsAreWhatTheirNeighboursNeed)
             ASSERT_NEAR(octile->estimate(from), shortestByDijkstra(world, from, goal, false), 1e-9);
             ASSERT_NEAR(manhattan->estimate(from), std::abs(from.x - goal.x) + std::abs(from.y - goal.y), 1e-9);
             ASSERT_NEAR(straight->estimate(from), positionDistance(from, goal), 1e-9);
-            ASSERT_LE(straight->estimate(from), shortestByDijkstra(world, from, goal, true) + 1e-9);
-            for (Query *query : {&octile, &straight, &manhattan})
-                ASSERT_EQ((*query)->lowerBound(from), straight->estimate(from)) << "of steps in any direction";
         }
     }
 }
@@ -192,41 +184,19 @@ TEST(Heuristics, anAimMovesTheEstimateButNotTheBound)
     }
 }
 
-TEST(Heuristics, anUnknownNameIsRefusedWithThoseThatAreKnown)
-{
-    try
-    {
-        heuristics().make("octle");
-        ADD_FAILURE() << "was taken";
-    }
-    catch (const Error &error)
-    {
-        for (const std::string &name : NAMES)
-            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
-    }
-}
-
 TEST(HeuristicWeights, aLoweredWeightIsNeitherRaisedNorBelowOneUnlessItWas)
 {
     Random random(8);
     for (int i = 0; i < 1000; ++i)
     {
-        HeuristicWeights weights{random.between(0.0, 3.0), random.between(0.0, 3.0), random.between(0.0, 9.0), 0.01};
-        const double beyond = std::nextafter(weights.nearDistance, INFINITE);
-        ASSERT_EQ(weights.at(weights.nearDistance), weights.near + weights.tieBreak);
-        ASSERT_EQ(weights.at(beyond), weights.far + weights.tieBreak);
+        const HeuristicWeights weights{random.between(0.0, 3.0), random.between(0.0, 3.0), random.between(0.0, 9.0),
+                                       0.1};
+        const double factor = random.between(0.1, 0.99);
+        ASSERT_EQ(weights.at(weights.nearDistance), weights.near + 0.1);
+        ASSERT_EQ(weights.at(std::nextafter(weights.nearDistance, INFINITE)), weights.far + 0.1);
         ASSERT_EQ(weights.canBeLowered(), std::max(weights.far, weights.near) > 1.0);
-        for (int round = 0; round < 50; ++round)
-        {
-            const HeuristicWeights lower = weights.lowered(0.8);
-            for (const double HeuristicWeights::*weight : {&HeuristicWeights::far, &HeuristicWeights::near})
-            {
-                ASSERT_LE(lower.*weight, weights.*weight);
-                ASSERT_EQ(lower.*weight<weights.*weight, weights.*weight> 1.0);
-                ASSERT_GE(lower.*weight, std::min(1.0, weights.*weight));
-            }
-            weights = lower;
-        }
-        ASSERT_FALSE(weights.canBeLowered());
+        const HeuristicWeights lower = weights.lowered(factor);
+        for (const double HeuristicWeights::*each : {&HeuristicWeights::far, &HeuristicWeights::near})
+            ASSERT_EQ(lower.*each, weights.*each <= 1.0 ? weights.*each : std::max(1.0, factor * weights.*each));
     }
 }

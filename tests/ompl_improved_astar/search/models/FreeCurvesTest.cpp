@@ -113,14 +113,8 @@ TEST(FreeCurves, offersTheFreeWordsThatCostLessThanTheBoundCheapestFirst)
                 const Word &word = words[k];
                 const bool isCheap = word.whole < gap.maxCost, isTried = k < gap.maxCurves;
                 ++(isOffered[k] ? offers : !isCheap ? tooCostly : notFree);
-                if (isOffered[k])
-                {
-                    ASSERT_TRUE(word.gap > 0.0 && isCheap && isTried);
-                }
-                else
-                {
-                    ASSERT_FALSE(word.gap > SURELY && isCheap && isTried) << word.whole << " of " << gap.maxCost;
-                }
+                ASSERT_TRUE(!isOffered[k] || (word.gap > 0.0 && isCheap && isTried));
+                ASSERT_TRUE(isOffered[k] || !(word.gap > SURELY && isCheap && isTried));
             }
             // The first that is taken ends it.
             int asked = 0;
@@ -138,39 +132,6 @@ TEST(FreeCurves, offersTheFreeWordsThatCostLessThanTheBoundCheapestFirst)
     EXPECT_GT(offers, 500);
     EXPECT_GT(tooCostly, 500);
     EXPECT_GT(notFree, 500);
-}
-
-/** The end from which pieces are swept is a matter of speed. */
-TEST(FreeCurves, findsTheSameFromEitherEnd)
-{
-    int found = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-    {
-        DiscCarWorld world = randomField(seed, 6);
-        Random random(seed);
-        const ReedsShepp curves(RADIUS);
-        FreeCurves freeCurves(world, curves, {});
-        for (int i = 0; i < 10; ++i)
-        {
-            FreeCurves::Gap gap{world.freePose(random), world.freePose(random), nullptr, nullptr, INFINITE};
-            std::vector<ReedsSheppCurve> offered[2];
-            for (const FreeCurves::SweepEnd end : {FreeCurves::SweepEnd::Start, FreeCurves::SweepEnd::Goal})
-            {
-                gap.end = end;
-                freeCurves.connect(gap,
-                                   [&](const ReedsSheppCurve &curve, double)
-                                   {
-                                       if (leastGap(world, pathOf(gap.from, curve)) > SURELY)
-                                           offered[static_cast<std::size_t>(end)].push_back(curve);
-                                       return false;
-                                   });
-            }
-            ASSERT_EQ(offered[0].size(), offered[1].size());
-            ASSERT_TRUE(std::equal(offered[0].begin(), offered[0].end(), offered[1].begin(), isSame));
-            found += static_cast<int>(offered[0].size());
-        }
-    }
-    EXPECT_GT(found, 500);
 }
 
 TEST(FreeCurves, theQuickBoundIsNeverAboveACurve)

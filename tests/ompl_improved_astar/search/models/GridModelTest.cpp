@@ -194,82 +194,44 @@ TEST(GridModel, loadingListsAndReuseLeaveThePathAndAskAboutEachCellOnce)
 TEST(GridModel, aStopIsHeededWithinAFewQuestionsAndTheSearchGoesOnToAPathAsGood)
 {
     int stops = 0;
-    for (const std::string &model : BOTH)
-        for (const bool both : {false, true})
-            for (const bool eager : {false, true})
-                for (std::uint64_t seed = 0; seed < 12; ++seed)
-                {
-                    SCOPED_TRACE(seed);
-                    GridWorld world = randomGrid(seed, 0.25, 30);
-                    Random random(seed);
-                    const Pose start = world.freePose(random), goal = world.freePose(random);
-                    PlannerParameters parameters = weighted(world, 1.5);
-                    parameters.motionModel = model;
-                    parameters.bidirectional = both;
-                    parameters.obstacleLoading = eager ? "eager" : "lazy";
-                    const double best = shortestByDijkstra(world, start, goal, model == "grid16");
-                    Search search;
-                    search.begin(world, parameters, world.car());
-                    search.addStart(start);
-                    search.addGoal(goal);
-                    const auto questions = [&]
-                    {
-                        return world.states + world.motions;
-                    };
-                    for (Outcome outcome = Outcome::Stopped; outcome == Outcome::Stopped;)
-                    {
-                        // It may not ask much between two polls either, or it would not hear of the time.
-                        std::uint64_t last = questions();
-                        const std::size_t polls = 20 + random.index(30);
-                        std::size_t polled = 0;
-                        outcome = search.run(
-                            [&]
-                            {
-                                EXPECT_LE(questions() - last, 64u);
-                                last = questions();
-                                return ++polled > polls;
-                            });
-                        ASSERT_LE(questions() - last, 64u);
-                        ASSERT_LT(++stops, 1000000);
-                        if (outcome != Outcome::Stopped)
-                        {
-                            ASSERT_EQ(outcome == Outcome::Exhausted, best == INFINITE);
-                        }
-                    }
-                    const std::vector<Pose> path = posesOf(search.bestPath());
-                    if (best == INFINITE)
-                        continue;
-                    ASSERT_EQ(faultOf(path, world, start, goal), "");
-                    if (!both)
-                    {
-                        ASSERT_LE(lengthOf(path), 1.5 * best + 1e-9);
-                    }
-                }
-    EXPECT_GT(stops, 300);
-}
-
-TEST(GridModel, rootsInCellsWithABlockedCentreAreReachedLazilyAndEagerly)
-{
-    // Start and goal stand beside posts on the centres of their cells.
-    class Posts : public GridWorld
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
     {
-    public:
-        using GridWorld::GridWorld;
-        bool isFree(const Pose &pose) override
+        SCOPED_TRACE(seed);
+        GridWorld world = randomGrid(seed, 0.25, 30);
+        Random random(seed);
+        const Pose start = world.freePose(random), goal = world.freePose(random);
+        PlannerParameters parameters = weighted(world, 1.5);
+        parameters.motionModel = BOTH[seed % 2];
+        parameters.bidirectional = seed / 2 % 2 == 0;
+        parameters.obstacleLoading = seed / 4 % 2 == 0 ? "eager" : "lazy";
+        const double best = shortestByDijkstra(world, start, goal, seed % 2 == 1);
+        Search search;
+        search.begin(world, parameters, world.car());
+        search.addStart(start);
+        search.addGoal(goal);
+        Outcome outcome = Outcome::Stopped;
+        for (; outcome == Outcome::Stopped; ++stops)
         {
-            return isPoseFree(pose) && std::hypot(pose.x - 8.5, pose.y - 1.5) > 0.1 &&
-                   std::hypot(pose.x - 1.5, pose.y - 1.5) > 0.1;
+            // It may not ask much between two polls either, or it would not hear of the time.
+            std::uint64_t last = world.states + world.motions;
+            const std::size_t polls = 20 + random.index(30);
+            std::size_t polled = 0;
+            const auto stop = [&]
+            {
+                EXPECT_LE(world.states + world.motions - last, 64u);
+                last = world.states + world.motions;
+                return ++polled > polls;
+            };
+            outcome = search.run(stop);
+            ASSERT_LE(world.states + world.motions - last, 64u);
+            ASSERT_LT(stops, 1000000);
         }
-    } world(10, 3);
-    const Pose start{1.8, 1.5, 0.0}, goal{8.2, 1.5, 0.0};
-    for (const char *loading : {"lazy", "eager"})
-        for (const bool both : {false, true})
-        {
-            PlannerParameters parameters = world.parameters();
-            parameters.obstacleLoading = loading;
-            parameters.bidirectional = both;
-            EXPECT_EQ(solve(world, parameters, start, goal).outcome, Outcome::Improved) << loading << both;
-        }
+        ASSERT_EQ(outcome == Outcome::Improved, best < INFINITE);
+        const std::vector<Pose> path = posesOf(search.bestPath());
+        ASSERT_EQ(best < INFINITE ? faultOf(path, world, start, goal) : "", "");
+        ASSERT_TRUE(parameters.bidirectional || best == INFINITE || lengthOf(path) <= 1.5 * best + 1e-9);
+    }
+    EXPECT_GT(stops, 300);
 }
 
 TEST(GridModel, longStepsDoNotJumpOverAWallOfOneCellAndShortenPathsInTheOpen)
@@ -280,77 +242,67 @@ TEST(GridModel, longStepsDoNotJumpOverAWallOfOneCellAndShortenPathsInTheOpen)
         // In steps: diagonal neighbours of the wall touch at their corners only.
         {"....##.....", ".....##....", "......##...", ".......##..", "........##."},
         {"......##...", ".....##....", "....##.....", "...##......", "..##......."}};
+    const Pose start{0.5, 4.5, 0.0}, goal{10.5, 0.5, 0.0};
     for (const auto &picture : walls)
-        for (const double nose : {0.0, 0.3})
+    {
+        GridWorld world(picture), open(world.columns, world.rows);
+        double shorter = INFINITE;
+        for (const char *model : {"grid8", "grid16", "grid32"})
         {
-            GridWorld world(picture), open(world.columns, world.rows);
-            world.nose = open.nose = nose;
-            const Pose start{0.5, 4.5, 0.0}, goal{10.5, 0.5, 0.0};
-            double shorter = INFINITE;
-            for (const char *model : {"grid8", "grid16", "grid32"})
+            PlannerParameters parameters = weighted(world, 1.0);
+            parameters.motionModel = model;
+            for (const double nose : {0.0, 0.3})
             {
-                PlannerParameters parameters = weighted(world, 1.0);
-                parameters.motionModel = model;
-                for (const bool both : {false, true})
-                {
-                    parameters.bidirectional = both;
-                    EXPECT_EQ(solve(world, parameters, start, goal).outcome, Outcome::Exhausted) << model;
-                }
-                parameters.bidirectional = false;
-                const double length = lengthOf(solve(open, parameters, start, goal).path);
-                EXPECT_LT(length, shorter - 0.01) << model;
-                shorter = length;
+                world.nose = nose;
+                EXPECT_EQ(solve(world, parameters, start, goal).outcome, Outcome::Exhausted) << model;
             }
+            const double length = lengthOf(solve(open, parameters, start, goal).path);
+            EXPECT_LT(length, shorter - 0.01) << model;
+            shorter = length;
         }
+    }
 }
 
 TEST(GridModel, endsAsNearToAnUnreachableTargetAsAFloodGets)
 {
-    // The goal's room is closed, and small or large; the start's side must be searched to its end all the same.
-    const std::vector<std::pair<std::vector<std::string>, Pose>> rooms{
-        {{"..............", "..........###.", "..........#.#.", "..........###.", ".............."}, {11.5, 2.5, 0.0}},
-        {{"..............", ".......#######", ".......#......", ".......#......", ".......#......"}, {13.5, 0.5, 0.0}},
-        {{"..##############", "..#............#", "..#............#", "..#............#", "..##############"},
-         {14.5, 2.5, 0.0}}};
-    for (const auto &[picture, goal] : rooms)
-        for (const bool both : {false, true})
-            for (const bool isTarget : {false, true})
+    int unreachable = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+        for (const bool isTarget : {false, true})
+        {
+            SCOPED_TRACE(seed);
+            GridWorld world = randomGrid(seed, 0.45, 12);
+            Random random(seed);
+            const Pose start = world.freePose(random), goal = world.freePose(random);
+            if (shortestByDijkstra(world, start, goal, false) < INFINITE)
+                continue;
+            ++unreachable;
+            PlannerParameters parameters = world.parameters();
+            parameters.bidirectional = seed % 2 == 0;
+            Search search;
+            search.begin(world, parameters, world.car());
+            search.addStart(start);
+            isTarget ? search.setTarget(goal) : search.addGoal(goal);
+            ASSERT_EQ(search.run(afterAsking()), Outcome::Exhausted);
+            Path path;
+            ASSERT_TRUE(search.nearestPath(goal, path));
+            const std::vector<Pose> poses = posesOf(path);
+            ASSERT_EQ(poses.size() > 1 ? faultOf(poses, world, start, poses.back()) : "", "");
+            // The cells of roots stand for these.
+            const auto isIn = [](const Pose &centre, const Pose &root)
             {
-                SCOPED_TRACE(goal.x);
-                GridWorld world(picture);
-                PlannerParameters parameters = world.parameters();
-                parameters.bidirectional = both;
-                const Pose start{0.5, 4.5, 0.0};
-                Search search;
-                search.begin(world, parameters, world.car());
-                search.addStart(start);
-                if (isTarget)
-                    search.setTarget(goal);
-                else
-                    search.addGoal(goal);
-                ASSERT_EQ(search.run(afterAsking()), Outcome::Exhausted);
-                Path path;
-                ASSERT_TRUE(search.nearestPath(goal, path));
-                const std::vector<Pose> poses = posesOf(path);
-                if (poses.size() > 1)
-                {
-                    EXPECT_EQ(faultOf(poses, world, start, poses.back()), "");
-                }
-                double nearest = INFINITE;
-                for (int cell = 0; cell < world.columns * world.rows; ++cell)
-                {
-                    const Pose centre{cell % world.columns + 0.5, cell / world.columns + 0.5, 0.0};
-                    if (world.isPoseFree(centre) && shortestByDijkstra(world, start, centre, false) < INFINITE)
-                        nearest = std::min(nearest, positionDistance(centre, goal));
-                }
-                EXPECT_NEAR(positionDistance(poses.back(), goal), nearest, 1e-9) << "both " << both;
+                return std::floor(root.x) == std::floor(centre.x) && std::floor(root.y) == std::floor(centre.y);
+            };
+            double nearest = positionDistance(start, goal);
+            for (int cell = 0; cell < world.columns * world.rows; ++cell)
+            {
+                const Pose centre{cell % world.columns + 0.5, cell / world.columns + 0.5, 0.0};
+                if (world.isPoseFree(centre) && positionDistance(centre, goal) < nearest && !isIn(centre, start) &&
+                    (isTarget || !isIn(centre, goal)) && shortestByDijkstra(world, start, centre, false) < INFINITE)
+                    nearest = positionDistance(centre, goal);
             }
-    Search empty;
-    GridWorld world(3, 3);
-    empty.begin(world, world.parameters(), world.car());
-    EXPECT_EQ(empty.run(afterAsking()), Outcome::Exhausted);
-    Path path;
-    EXPECT_FALSE(empty.nearestPath({}, path));
+            ASSERT_NEAR(positionDistance(poses.back(), goal), nearest, 1e-9);
+        }
+    EXPECT_GT(unreachable, 30);
 }
 
 TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
@@ -385,28 +337,15 @@ TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
 
 TEST(GridModel, refusesStepsWithoutAnOppositeAndGridsBeyondItsReach)
 {
-    std::vector<GridStep> steps;
-    for (int i = 1; i <= 16; ++i)
-        for (const int sign : {1, -1})
-            steps.push_back({sign * i, 0});
-    EXPECT_NO_THROW(GridModel{steps});
-    EXPECT_THROW(GridModel(std::vector<GridStep>(steps.begin(), steps.end() - 1)), Error);
-    steps.push_back({0, 1});
-    steps.push_back({0, -1});
-    EXPECT_THROW(GridModel{steps}, Error);
+    EXPECT_NO_THROW(GridModel({{1, 0}, {-1, 0}}));
+    EXPECT_THROW(GridModel({{1, 0}, {-1, 0}, {0, 1}}), Error);
+    EXPECT_THROW(GridModel(std::vector<GridStep>(33, {0, 0})), Error);
     GridWorld world(3, 3);
-    for (const double side : {1e3, 1e12, INFINITE, std::numeric_limits<double>::quiet_NaN()})
+    CarInSpace car = world.car();
+    EXPECT_NO_THROW(Search().begin(world, world.parameters(), car));
+    for (const double side : {1e12, INFINITE, std::numeric_limits<double>::quiet_NaN()})
     {
-        CarInSpace car = world.car();
         car.bounds.max.x() = side;
-        Search search;
-        if (side == 1e3)
-        {
-            EXPECT_NO_THROW(search.begin(world, world.parameters(), car));
-        }
-        else
-        {
-            EXPECT_THROW(search.begin(world, world.parameters(), car), Error) << side;
-        }
+        EXPECT_THROW(Search().begin(world, world.parameters(), car), Error) << side;
     }
 }

@@ -1,9 +1,7 @@
-// Parts that the project does not bring: a robot with two driven wheels, which turns on the spot, and a heuristic.
+// A motion model that the project does not bring: a robot with two driven wheels, which turns on the spot.
 
-#include "ompl_improved_astar/search/Heuristic.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
-#include "parking_geometry/Error.h"
 #include "tests/ompl_improved_astar/search/GridWorld.h"
 
 #include <gtest/gtest.h>
@@ -87,13 +85,6 @@ namespace
             return positionDistance(from, to);
         }
 
-        std::size_t bytes() const override
-        {
-            return tables;
-        }
-
-        static inline std::size_t tables = 0;  ///< what its tables are said to take
-
     private:
         bool isMotionFree(const Pose &from, const Pose &to)
         {
@@ -103,30 +94,9 @@ namespace
         MotionEnvironment *environment_{nullptr};
     };
 
-    /** Nothing is ahead, wherever it is asked. */
-    class Nothing final : public Heuristic
-    {
-    public:
-        void begin(const SearchContext & /*context*/, Side /*side*/, const std::vector<Pose> & /*targets*/) override
-        {
-        }
-        double estimate(const Pose & /*pose*/) override
-        {
-            ++asked;
-            return 0.0;
-        }
-        double lowerBound(const Pose & /*pose*/) override
-        {
-            return 0.0;
-        }
-
-        static inline int asked = 0;
-    };
-
     PlanRequest requestIn(const GridWorld &world, const Pose &start, const Pose &goal)
     {
         motionModels().add("two_wheels", newPart<TwoWheels>);
-        heuristics().add("nothing", newPart<Nothing>);
         PlanRequest request;
         request.starts = {start};
         request.goals = {goal};
@@ -141,20 +111,12 @@ TEST(OwnModel, isSearchedLikeTheProjectsOwn)
     GridWorld world({"..........", "..######..", ".......#..", "..####.#..", ".....#.#..", ".....#...."});
     // Off the middles of cells, so that no step ends on a border, where rounding decides what is free.
     const Pose start{0.53, 0.47, 0.0}, goal{6.53, 1.47, 0.5 * PI};
-    for (const char *heuristic : {"default", "nothing"})
-    {
-        SCOPED_TRACE(heuristic);
-        PlanRequest request = requestIn(world, start, goal);
-        request.parameters.heuristic = heuristic;
-        Nothing::asked = 0;
-        const PlanResult result = plan(world, request);
-        ASSERT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
-        EXPECT_EQ(faultOf(posesOf(result.path), world, start, goal), "");
-        EXPECT_NEAR(result.cost, result.path.length(), 1e-9);
-        EXPECT_GE(result.path.length(), 8.49) << "round the walls";
-        EXPECT_GE(result.suboptimalityBound, 1.0);
-        EXPECT_EQ(Nothing::asked > 0, std::string(heuristic) == "nothing");
-    }
+    const PlanResult result = plan(world, requestIn(world, start, goal));
+    ASSERT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
+    EXPECT_EQ(faultOf(posesOf(result.path), world, start, goal), "");
+    EXPECT_NEAR(result.cost, result.path.length(), 1e-9);
+    EXPECT_GE(result.path.length(), 8.49) << "round the walls";
+    EXPECT_GE(result.suboptimalityBound, 1.0);
     EXPECT_TRUE(turnsOnTheSpot("two_wheels"));
 }
 
@@ -165,28 +127,4 @@ TEST(OwnModel, findsOutThatThereIsNoPath)
     EXPECT_EQ(result.outcome, PlanOutcome::Approximate);
     EXPECT_FALSE(result.reason.empty()) << "not for want of time";
     EXPECT_NEAR(result.path.end().y, 2.0, 0.4) << "up to the wall";
-}
-
-TEST(OwnModel, itsTablesCountAsMemory)
-{
-    std::vector<std::string> rows(40, std::string(40, '.'));
-    rows[35] = std::string(40, '#');
-    GridWorld world(rows);
-    const PlanRequest request = requestIn(world, {0.5, 0.5, 0.0}, {4.5, 38.5, 0.0});
-    EXPECT_EQ(plan(world, request).reason.find("MB of memory"), std::string::npos);
-    TwoWheels::tables = (std::size_t(request.parameters.maxMemoryMb) << 20) + 1;
-    const PlanResult full = plan(world, request);
-    TwoWheels::tables = 0;
-    EXPECT_NE(full.reason.find("MB of memory"), std::string::npos) << full.reason;
-}
-
-TEST(OwnModel, theNameOfAPartIsTakenOnceItIsAddedAndReplacesItsNamesake)
-{
-    Registry<Heuristic> registry("heuristic", {});
-    EXPECT_THROW(registry.make("mine"), Error);
-    registry.add("mine", [] { return std::unique_ptr<Heuristic>(); });
-    EXPECT_EQ(registry.make("mine"), nullptr);
-    registry.add("mine", newPart<Nothing>);
-    EXPECT_NE(registry.make("mine"), nullptr);
-    EXPECT_EQ(registry.names(), std::vector<std::string>{"mine"});
 }

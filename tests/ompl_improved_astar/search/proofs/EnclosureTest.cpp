@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -20,84 +21,34 @@ using Verdict = Enclosure::Verdict;
 
 namespace
 {
-    constexpr int SIZE = 7;  // columns and rows beyond which all is blocked
-    constexpr double SIDE = 0.5;
+    constexpr double SIDE = 0.5;  // metres, of cells
 
-    using CellIndex = std::tuple<int, int, int>;
+    using CellIndex = std::tuple<int, int, int>;  // column, row, part of the circle
 
-    /** A room of random cells of position and heading round the first root's. */
-    class RandomCells
+    /** All cells that are reached from one, one after the other. */
+    template <class MayStep>
+    std::set<CellIndex> flood(const CellIndex &from, int headings, const MayStep &mayStep)
     {
-    public:
-        RandomCells(std::uint64_t seed, int headings, double share) : headings_(headings)
+        std::set<CellIndex> seen{from};
+        std::vector<CellIndex> waiting{from};
+        while (!waiting.empty())
         {
-            Random random(seed);
-            for (int i = 0; i < SIZE * SIZE * headings; ++i)
-                open_.push_back(random.chance(share));
+            const CellIndex cell = waiting.back();
+            const auto [x, y, k] = cell;
+            waiting.pop_back();
+            for (const CellIndex &next :
+                 {CellIndex{x + 1, y, k}, CellIndex{x - 1, y, k}, CellIndex{x, y + 1, k}, CellIndex{x, y - 1, k},
+                  CellIndex{x, y, (k + 1) % headings}, CellIndex{x, y, (k + headings - 1) % headings}})
+                if (seen.count(next) == 0 && mayStep(cell, next))
+                {
+                    seen.insert(next);
+                    waiting.push_back(next);
+                }
         }
+        return seen;
+    }
 
-        bool isOpen(const CellIndex &cell) const
-        {
-            const auto [column, row, heading] = cell;
-            return column >= 0 && row >= 0 && column < SIZE && row < SIZE && open_[indexOf(cell)];
-        }
-
-        void open(const CellIndex &cell)
-        {
-            open_[indexOf(cell)] = true;
-        }
-
-        BlockedHeadings blocked() const
-        {
-            return [this](double x, double y)
-            {
-                HeadingSet bits{};
-                const int column = static_cast<int>(std::floor(x / SIDE)), row = static_cast<int>(std::floor(y / SIDE));
-                for (int i = 0; i < headings_; ++i)
-                    if (!isOpen({column, row, i}))
-                        bits[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
-                return bits;
-            };
-        }
-
-        /** A pose whose body's middle, that far ahead, lies on the corner of the cell from which cells are counted. */
-        Pose poseIn(const CellIndex &cell, double centreOffset) const
-        {
-            const auto [column, row, heading] = cell;
-            return advance({SIDE * column, SIDE * row, 2.0 * PI * (heading + 0.5) / headings_ - PI}, 0.0,
-                           -centreOffset);
-        }
-
-        /** All cells that can be reached, one after the other. */
-        std::set<CellIndex> reachedFrom(const CellIndex &from) const
-        {
-            std::set<CellIndex> seen{from};
-            std::vector<CellIndex> waiting{from};
-            while (!waiting.empty())
-            {
-                const auto [x, y, k] = waiting.back();
-                waiting.pop_back();
-                for (const CellIndex &next :
-                     {CellIndex{x + 1, y, k}, CellIndex{x - 1, y, k}, CellIndex{x, y + 1, k}, CellIndex{x, y - 1, k},
-                      CellIndex{x, y, (k + 1) % headings_}, CellIndex{x, y, (k + headings_ - 1) % headings_}})
-                    if (isOpen(next) && seen.insert(next).second)
-                        waiting.push_back(next);
-            }
-            return seen;
-        }
-
-    private:
-        std::size_t indexOf(const CellIndex &cell) const
-        {
-            const auto [column, row, heading] = cell;
-            return static_cast<std::size_t>((row * SIZE + column) * headings_ + heading);
-        }
-
-        int headings_;
-        std::vector<bool> open_;
-    };
-
-    Verdict verdictOf(Enclosure &enclosure, std::size_t pace = 50)
+    Verdict verdictOf(Enclosure &enclosure, std::size_t pace)
     {
         Verdict verdict = Verdict::Unknown;
         while (verdict == Verdict::Unknown)
@@ -105,9 +56,8 @@ namespace
         return verdict;
     }
 
-    /** Whether a car that moves as it likes gets from one place to another, in steps of a lattice: a yes is proven, and
-        a no right up to the lattice. */
-    bool isFloodConnected(FootprintEnvironment &environment, const Box &world, const Pose &from, const Pose &to)
+    /** Does a car that moves as it likes get from one place to another? A yes is proven, a no holds for a lattice. */
+    bool isFloodConnected(FootprintEnvironment &environment, const Pose &from, const Pose &to)
     {
         constexpr double STEP = 0.1;
         constexpr int HEADINGS = 48;
@@ -116,71 +66,61 @@ namespace
             const auto [x, y, k] = cell;
             return Pose{from.x + STEP * x, from.y + STEP * y, wrapAngle(from.yaw + 2.0 * PI * k / HEADINGS)};
         };
-        std::set<CellIndex> seen{{0, 0, 0}};
-        std::vector<CellIndex> waiting{{0, 0, 0}};
-        while (!waiting.empty())
-        {
-            const auto [x, y, k] = waiting.back();
-            waiting.pop_back();
-            const Pose pose = poseAt({x, y, k});
-            if (positionDistance(pose, to) < 1.5 * STEP && std::abs(wrapAngle(pose.yaw - to.yaw)) < 0.2)
-                return true;
-            for (const CellIndex &next :
-                 {CellIndex{x + 1, y, k}, CellIndex{x - 1, y, k}, CellIndex{x, y + 1, k}, CellIndex{x, y - 1, k},
-                  CellIndex{x, y, (k + 1) % HEADINGS}, CellIndex{x, y, (k + HEADINGS - 1) % HEADINGS}})
-            {
-                const Pose at = poseAt(next);
-                if (world.contains(at.x, at.y) && seen.count(next) == 0 && environment.isMotionFree(pose, at))
-                {
-                    seen.insert(next);
-                    waiting.push_back(next);
-                }
-            }
-        }
-        return false;
+        const std::set<CellIndex> reached = flood({0, 0, 0}, HEADINGS,
+                                                  [&](const CellIndex &cell, const CellIndex &next)
+                                                  { return environment.isMotionFree(poseAt(cell), poseAt(next)); });
+        return std::any_of(reached.begin(), reached.end(),
+                           [&](const CellIndex &cell) { return environment.isMotionFree(poseAt(cell), to); });
     }
 }  // namespace
 
 TEST(Enclosure, agreesWithAFloodOfSingleCells)
 {
+    constexpr int SIZE = 4;  // columns and rows to each side of the root's, beyond which all is blocked
     int closed = 0, connected = 0;
     Enclosure enclosure;
     for (std::uint64_t seed = 0; seed < 400; ++seed)
     {
-        Random random(seed + 1000);
-        const int counts[] = {8, 63, 64, 65, 72, 120, 127, 128};
-        const int headings = counts[random.index(std::size(counts))];
-        RandomCells cells(seed, headings, random.between(0.2, 0.6));
+        Random random(seed);
+        const int counts[] = {8, 63, 64, 65, 72, 120, 127, 128}, headings = counts[random.index(std::size(counts))];
         const auto any = [&]
         {
-            return CellIndex{random.below(SIZE), random.below(SIZE), random.below(headings)};
+            return CellIndex{random.below(2 * SIZE + 1) - SIZE, random.below(2 * SIZE + 1) - SIZE,
+                             random.below(headings)};
         };
-        const std::vector<CellIndex> indices{any(), any(), any()};
-        const double offset = random.chance(0.5) ? 0.0 : random.between(-1.0, 2.0);
+        const std::vector<CellIndex> ends{{0, 0, random.below(headings)}, any(), any()};
+        const double share = random.between(0.2, 0.6), offset = random.between(-1.0, 2.0);
+        std::set<CellIndex> open(ends.begin(), ends.end());
+        for (int column = -SIZE; column <= SIZE; ++column)
+            for (int row = -SIZE; row <= SIZE; ++row)
+                for (int heading = 0; heading < headings; ++heading)
+                    if (random.chance(share))
+                        open.insert({column, row, heading});
+        // The middle of the root's body is a corner of its cell; the others are anywhere in theirs.
+        const Eigen::Vector2d origin(random.between(-9.0, 9.0), random.between(-9.0, 9.0));
         std::vector<Pose> poses;
-        for (const CellIndex &cell : indices)
+        for (const auto &[column, row, heading] : ends)
         {
-            cells.open(cell);
-            poses.push_back(cells.poseIn(cell, offset));
+            const double in = poses.empty() ? 0.0 : random.between(0.01, 0.99);
+            const Pose body{origin.x() + SIDE * (column + in), origin.y() + SIDE * (row + in),
+                            2.0 * PI * (heading + random.between(0.01, 0.99)) / headings - PI};
+            poses.push_back(advance(body, 0.0, -offset));
         }
-        // The grid of the proof begins at its first root; the cells' corners are a hair from it.
-        const std::set<CellIndex> all = cells.reachedFrom(indices[0]);
-        const Pose middle = advance(poses[0], 0.0, offset);
-        const BlockedHeadings inRoom = cells.blocked(), blocked = [&](double x, double y)
+        const BlockedHeadings blocked = [&](double x, double y)
         {
-            return inRoom(x - middle.x + SIDE * std::get<0>(indices[0]), y - middle.y + SIDE * std::get<1>(indices[0]));
+            HeadingSet bits{};
+            for (int i = 0; i < headings; ++i)
+                if (open.count({std::floor((x - origin.x()) / SIDE), std::floor((y - origin.y()) / SIDE), i}) == 0)
+                    bits[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
+            return bits;
         };
-        for (std::size_t i = 1; i < poses.size(); ++i)
-        {
-            poses[i].x += 0.25 * SIDE;
-            poses[i].y += 0.25 * SIDE;
-        }
         // Two roots must not see less than one; the second one is the first again. One of two targets suffices.
         enclosure.begin(blocked, {poses[0], poses[0]}, {poses[1], poses[2]}, {SIDE, headings, offset, 100000});
         const Verdict verdict = verdictOf(enclosure, 1 + random.index(5));
-        const bool isConnected = all.count(indices[1]) + all.count(indices[2]) > 0;
-        ASSERT_EQ(verdict, isConnected ? Verdict::Connected : Verdict::Closed)
-            << "seed " << seed << ", " << headings << " headings";
+        const std::set<CellIndex> reached =
+            flood(ends[0], headings, [&](const CellIndex &, const CellIndex &next) { return open.count(next) > 0; });
+        const bool isConnected = reached.count(ends[1]) + reached.count(ends[2]) > 0;
+        ASSERT_EQ(verdict, isConnected ? Verdict::Connected : Verdict::Closed) << "seed " << seed;
         ASSERT_EQ(enclosure.widen(10), verdict) << "and stays so";
         ++(isConnected ? connected : closed);
     }
@@ -188,30 +128,20 @@ TEST(Enclosure, agreesWithAFloodOfSingleCells)
     EXPECT_GT(connected, 100);
 }
 
-TEST(Enclosure, givesUpWhereThereIsNoEndAndMemoryIsLimited)
+TEST(Enclosure, givesUpWhereThereIsNoEnd)
 {
-    const RandomCells cells(1, 8, 1.1);
-    const Pose root = cells.poseIn({3, 3, 0}, 0.0), beyond{1e9, 0.0, 0.0};
     const BlockedHeadings nothing = [](double, double)
     {
         return HeadingSet{};
     };
-    const BlockedHeadings room = [inRoom = cells.blocked()](double x, double y)
-    {
-        return inRoom(x, y);
-    };
-    Enclosure enclosure;
     for (const std::size_t maxColumns : {20u, 1000u})
     {
-        enclosure.begin(nothing, {root}, {beyond}, {SIDE, 8, 0.0, maxColumns});
+        Enclosure enclosure;
+        enclosure.begin(nothing, {{}}, {{1e9, 0.0, 0.0}}, {SIDE, 8, 0.0, maxColumns});
         EXPECT_EQ(enclosure.widen(maxColumns), Verdict::Unknown);
         EXPECT_GT(enclosure.bytes(), 0u);
         EXPECT_EQ(enclosure.widen(1), Verdict::TooLarge);
-        EXPECT_EQ(enclosure.widen(100), Verdict::TooLarge);
     }
-    // A room of as many columns, which has an end, and one of one more.
-    enclosure.begin(room, {root}, {beyond}, {SIDE, 8, 0.0, 1000});
-    EXPECT_EQ(verdictOf(enclosure), Verdict::Closed);
 }
 
 /** Wherever a drive leads, free in every part, no proof may say that it cannot. */
@@ -243,7 +173,7 @@ TEST(Enclosure, isNeverClosedBetweenTheEndsOfADrive)
             const int headings = 8 + random.below(121);
             const BlockedHeadings blocked = environment.blockedHeadings(side, headings);
             enclosure.begin(blocked, {from}, {to}, {side, headings, car.centreOffset(), 4000});
-            ASSERT_NE(verdictOf(enclosure), Verdict::Closed) << "seed " << seed << ", drive " << i;
+            ASSERT_NE(verdictOf(enclosure, 50), Verdict::Closed) << "seed " << seed << ", drive " << i;
             ++drives;
         }
     }
@@ -269,7 +199,7 @@ TEST(Enclosure, closesASmallWorldOnlyWhereAnExhaustiveFloodAgrees)
                                              {{3.4, high}, {3.7, high}, {3.7 + slant, 3.5}, {3.4 + slant, 3.5}}};
             const FootprintChecker checker(ObstacleSet::fromPolygons(walls, box), car, 0.0, {}, 0.02);
             FootprintEnvironment environment(checker, box, 1e-3);
-            const bool isConnected = isFloodConnected(environment, box, from, to);
+            const bool isConnected = isFloodConnected(environment, from, to);
             ++(isConnected ? connected : closed);
             for (const double side : {0.05, 0.1, 0.3})
                 for (const int headings : {16, 72, 128})
@@ -278,14 +208,9 @@ TEST(Enclosure, closesASmallWorldOnlyWhereAnExhaustiveFloodAgrees)
                     Enclosure enclosure;
                     enclosure.begin(blocked, {from}, {to}, {side, headings, car.centreOffset(), 100000});
                     const Verdict verdict = verdictOf(enclosure, 1000);
-                    if (isConnected)
-                    {
-                        EXPECT_EQ(verdict, Verdict::Connected);
-                    }
-                    else if (gap < 0.6 && side < 0.2 && headings > 16)
-                    {
-                        EXPECT_EQ(verdict, Verdict::Closed) << side << " " << headings;
-                    }
+                    const bool isSurelyClosed = gap < 0.6 && side < 0.2 && headings > 16;
+                    EXPECT_TRUE(verdict == Verdict::Connected || !isConnected);
+                    EXPECT_TRUE(verdict == Verdict::Closed || !isSurelyClosed) << side << " " << headings;
                 }
         }
     EXPECT_GT(closed, 4);
@@ -303,8 +228,8 @@ TEST(Enclosure, endsPlanningThatTheDiscCannotEnd)
         bool isPassable;
     };
     for (const auto &[width, rearOverhang, farther, isPassable] :
-         {Corridor{1.9, 0.929, 0.0, false}, Corridor{4.6, 0.929, 0.0, true}, Corridor{1.9, 0.05, 0.0, false},
-          Corridor{4.6, 0.05, 0.0, true}, Corridor{1.1, 0.5, 150.0, false}, Corridor{4.6, 0.5, 150.0, true}})
+         {Corridor{1.9, 0.929, 0.0, false}, Corridor{1.9, 0.05, 0.0, false}, Corridor{4.6, 0.05, 0.0, true},
+          Corridor{1.1, 0.5, 150.0, false}})
     {
         SCOPED_TRACE(testing::Message() << width << " m, " << rearOverhang << " m behind the axle");
         Vehicle car;
