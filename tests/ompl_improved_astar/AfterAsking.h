@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 
 #include <cstdint>
 
