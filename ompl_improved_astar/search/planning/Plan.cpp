@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parking::search
 {
@@ -23,7 +24,8 @@ namespace parking::search
         {
             const auto off = [&to](const Pose &pose)
             {
-                return positionDistance(pose, to) + std::abs(wrapAngle(pose.yaw - to.yaw));
+                return isFinite(pose) ? positionDistance(pose, to) + std::abs(wrapAngle(pose.yaw - to.yaw))
+                                      : std::numeric_limits<double>::infinity();
             };
             const auto found = std::min_element(poses.begin(), poses.end(),
                                                 [&off](const Pose &a, const Pose &b) { return off(a) < off(b); });

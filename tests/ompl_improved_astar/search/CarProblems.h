@@ -1,8 +1,6 @@
 #pragma once
 
-#include "ompl_improved_astar/search/Search.h"
 #include "ompl_improved_astar/search/planning/PathPlanner.h"
-#include "tests/ompl_improved_astar/AfterAsking.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <gtest/gtest.h>
@@ -11,29 +9,59 @@
 #include <cstdint>
 #include <limits>
 #include <queue>
-#include <set>
 #include <string>
-#include <tuple>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace parking_test
 {
-    constexpr double TURNING_RADIUS = 3.0;
+    constexpr double TURNING_RADIUS = 3.0, UNREACHED = std::numeric_limits<double>::infinity();
 
+    /** \brief A world, and where a car shall go in it. */
     struct CarProblem
     {
         DiscCarWorld world;
         std::vector<parking::Pose> starts, goals;
 
-        /** \brief Begins the query of a Search or a PathPlanner; the problem must outlive it. */
-        template <class Planner, class Parameters>
-        void begin(Planner &planner, const Parameters &parameters)
+        parking::search::CarInSpace car() const
         {
-            planner.begin(world, parameters);
+            parking::search::CarInSpace car;
+            car.turningRadius = TURNING_RADIUS;
+            car.inscribedRadius = car.bodyRadius = world.radius;
+            car.bounds = world.inside;
+            car.centreOffset = 0.5 * (world.offsets.front() + world.offsets.back());
+            return car;
+        }
+
+        /** \brief Begins the query of a Search or a PathPlanner; the problem must outlive it. */
+        template <class Planner>
+        void begin(Planner &planner, const parking::PlannerParameters &parameters,
+                   const parking::search::CarInSpace &ofCar)
+        {
+            planner.begin(world, parameters, ofCar);
             for (const parking::Pose &start : starts)
                 planner.addStart(start);
             for (const parking::Pose &goal : goals)
                 planner.addGoal(goal);
+        }
+
+        template <class Planner>
+        void begin(Planner &planner, const parking::PlannerParameters &parameters)
+        {
+            begin(planner, parameters, car());
+        }
+
+        /** \brief What is wrong with a path from a start to a goal. */
+        std::string faultOf(const parking::Path &path, bool forwardOnly = false) const
+        {
+            return parking_test::faultOf(path, world, starts, goals, TURNING_RADIUS, forwardOnly);
+        }
+
+        /** \brief What is wrong with a path from a start to anywhere. */
+        std::string faultTowards(const parking::Path &path) const
+        {
+            return parking_test::faultOf(path, world, starts, {path.end()}, TURNING_RADIUS);
         }
     };
 
@@ -41,90 +69,88 @@ namespace parking_test
     {
         std::string name;
         CarProblem problem;
-        bool solvable;
+        bool isSolvable;
     };
 
-    struct TargetProblem
+    /** \brief The defaults, without a preferred clearance: costs then depend on no sampling. */
+    inline parking::PlannerParameters carParameters()
     {
-        std::string name;
-        CarProblem problem;
-        parking::Pose target;
-    };
-
-    inline parking::search::SearchParameters carParameters()
-    {
-        parking::search::SearchParameters parameters;
-        parameters.turningRadius = TURNING_RADIUS;
-        parameters.cost = {0.0, 1.0, 0.1, 0.0, 1.0, 1.0 / TURNING_RADIUS};
+        parking::PlannerParameters parameters;
+        parameters.preferredClearance = 0.0;
         return parameters;
     }
 
-    /** \brief The same for the world of a problem. */
-    inline parking::search::SearchParameters parametersIn(const CarProblem &problem)
+    /** \brief Stops what is polled more often than that, and always from then on. */
+    inline parking::search::StopFunction afterPolls(int count)
     {
-        parking::search::SearchParameters parameters = carParameters();
-        parameters.inscribedRadius = problem.world.radius;
-        parameters.bounds = problem.world.inside;
-        return parameters;
-    }
-
-    /** \brief Of a PathPlanner that knows how large a disc is within the car. */
-    inline parking::search::PathPlannerParameters parametersFor(const CarProblem &problem)
-    {
-        parking::search::PathPlannerParameters parameters;
-        parameters.search = carParameters();
-        parameters.search.inscribedRadius = problem.world.radius;
-        return parameters;
-    }
-
-    /** \brief Searches up to the first solution, which must be right where there is one, or up to so many expansions.
-     */
-    inline bool isSolved(parking::search::Search &search, CarProblem &problem,
-                         const parking::search::SearchParameters &parameters, std::uint64_t mostExpansions)
-    {
-        problem.begin(search, parameters);
-        search.run({}, mostExpansions);
-        if (!search.hasSolution())
-            return false;
-        EXPECT_EQ(faultOf(search.bestPath(), problem.world, problem.starts, problem.goals, TURNING_RADIUS,
-                          parameters.forwardOnly),
-                  "");
-        if (!parameters.cost.prefersClearance())  // else it depends on where motions are sampled
+        return [count, polls = 0]() mutable
         {
-            EXPECT_NEAR(search.bestCost(), pathCost(parameters.cost, search.bestPath(), problem.world), 1e-6);
-        }
-        return true;
+            return ++polls > count;
+        };
     }
 
-    /** \brief From somewhere in that world to somewhere else. */
-    inline CarProblem randomProblemIn(const DiscCarWorld &world, std::uint64_t seed)
+    /** \brief The same for what is to be stopped soon: counts the questions asked of the world between two polls, and
+        after the last one. */
+    class MeasuredStop
     {
-        CarProblem problem{world, {}, {}};
-        Random random(seed);
+    public:
+        MeasuredStop(const DiscCarWorld &world, int count) : world_(world), stop_(afterPolls(count))
+        {
+        }
+
+        bool operator()()
+        {
+            max_ = maxQuestions();
+            if (!isStopped_)
+                before_ = world_.questions;
+            return isStopped_ = stop_();
+        }
+
+        bool isStopped() const
+        {
+            return isStopped_;
+        }
+
+        std::uint64_t maxQuestions() const
+        {
+            return std::max(max_, world_.questions - before_);
+        }
+
+    private:
+        const DiscCarWorld &world_;
+        parking::search::StopFunction stop_;
+        std::uint64_t before_{world_.questions}, max_{0};
+        bool isStopped_{false};
+    };
+
+    /** \brief Are these the same to the last bit? */
+    inline bool isSamePath(const parking::Path &a, const parking::Path &b)
+    {
+        const auto isSamePiece = [](const parking::PathPiece &one, const parking::PathPiece &other)
+        {
+            return one.length == other.length && one.curvature == other.curvature;
+        };
+        return isSamePose(a.start, b.start, 0.0) &&
+               std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), isSamePiece);
+    }
+
+    /** \brief Metres driven nearer to obstacles than \e clearance, sampled finely. */
+    inline double metresNearer(const DiscCarWorld &world, const parking::Path &path, double clearance)
+    {
+        constexpr double STEP = 0.01;
+        double metres = 0.0;
+        for (const parking::PathState &state : path.sample(STEP))
+            metres += world.gap(state.pose) < clearance ? STEP : 0.0;
+        return metres;
+    }
+
+    /** \brief From somewhere in a field to somewhere else. */
+    inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10, double half = 12.0)
+    {
+        CarProblem problem{randomField(seed, boxes, half), {}, {}};
+        Random random(seed + 1000);
         problem.starts.push_back(problem.world.freePose(random));
         problem.goals.push_back(problem.world.freePose(random));
-        return problem;
-    }
-
-    inline CarProblem randomProblem(std::uint64_t seed, std::uint32_t boxes = 10)
-    {
-        return randomProblemIn(randomField(seed, boxes), seed + 1000);
-    }
-
-    /** \brief 15 cm on each side, and an aisle not much longer than the car. */
-    inline CarProblem tightSlot()
-    {
-        CarProblem problem{slot(2.2), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * parking::PI}}};
-        problem.world.boxes.push_back({{-12.0, 9.5}, {12.0, 11.0}});
-        return problem;
-    }
-
-    /** \brief Parallel to the aisle, 30 cm at each end. */
-    inline CarProblem tightParallelSlot()
-    {
-        CarProblem problem{DiscCarWorld({{-12.0, -2.0}, {12.0, 6.0}}), {{-8.0, 3.0, 0.0}}, {{0.0, 0.0, 0.0}}};
-        problem.world.boxes = {
-            {{-12.0, -2.0}, {-1.25, 1.0}}, {{3.85, -2.0}, {12.0, 1.0}}, {{-12.0, -2.0}, {12.0, -1.0}}};
         return problem;
     }
 
@@ -141,59 +167,115 @@ namespace parking_test
         return problem;
     }
 
+    /** \brief The goal is in a room without a door. */
+    inline CarProblem walledIn()
+    {
+        CarProblem problem{DiscCarWorld({{-30.0, -30.0}, {30.0, 30.0}}), {{0.0, 0.0, 0.0}}, {{17.0, 17.0, 0.0}}};
+        problem.world.boxes = {{{10.0, 10.0}, {25.0, 10.5}},
+                               {{10.0, 25.0}, {25.0, 25.5}},
+                               {{10.0, 10.0}, {10.5, 25.0}},
+                               {{25.0, 10.0}, {25.5, 25.5}}};
+        return problem;
+    }
+
     inline std::vector<NamedProblem> namedProblems()
     {
         using parking::PI;
-        std::vector<NamedProblem> problems{
-            {"open", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {{5.0, 3.0, 2.0}}}, true},
-            {"doorway", {twoRooms(2.6), {{-9.0, 3.0, 0.0}}, {{6.0, -3.0, PI}}}, true},
-            {"closed door", {twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}}, false},
-            {"slot, nose out", {slot(2.6), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * PI}}}, true},
-            {"slot, nose in", {slot(2.6), {{-8.0, 8.0, 0.0}}, {{0.0, 3.2, -0.5 * PI}}}, true},
-            {"tight slot", tightSlot(), true},
-            {"maze", maze(2), true}};
-        // Too narrow for the body, whatever the rear axle may do.
-        problems.push_back({"too narrow", {twoRooms(1.8), {{-9.0, 3.0, 0.0}}, {{6.0, -3.0, PI}}}, false});
-        return problems;
+        // 15 cm on each side, and an aisle not much longer than the car; 30 cm at each end, parallel to the aisle.
+        CarProblem tight{slot(2.2), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * PI}}};
+        tight.world.boxes.push_back({{-12.0, 9.5}, {12.0, 11.0}});
+        CarProblem parallel{DiscCarWorld({{-12.0, -2.0}, {12.0, 6.0}}), {{-8.0, 3.0, 0.0}}, {{0.0, 0.0, 0.0}}};
+        parallel.world.boxes = {
+            {{-12.0, -2.0}, {-1.25, 1.0}}, {{3.85, -2.0}, {12.0, 1.0}}, {{-12.0, -2.0}, {12.0, -1.0}}};
+        return {{"open", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {{5.0, 3.0, 2.0}}}, true},
+                {"doorway", {twoRooms(2.6), {{-9.0, 3.0, 0.0}}, {{6.0, -3.0, PI}}}, true},
+                {"closed door", {twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {{6.0, 0.0, 0.0}}}, false},
+                {"narrow door", {twoRooms(1.8), {{-9.0, 3.0, 0.0}}, {{6.0, -3.0, PI}}}, false},
+                {"slot, nose out", {slot(2.6), {{-8.0, 8.0, 0.0}}, {{0.0, 0.5, 0.5 * PI}}}, true},
+                {"slot, nose in", {slot(2.6), {{-8.0, 8.0, 0.0}}, {{0.0, 3.2, -0.5 * PI}}}, true},
+                {"tight slot", tight, true},
+                {"tight parallel slot", parallel, true},
+                {"maze", maze(2), true}};
     }
 
-    inline std::vector<TargetProblem> targetProblems()
+    /** \brief A flood of short motions over a fine lattice: how near to a target the rear axle comes, and a path to it.
+     */
+    struct Flood
     {
-        return {{"open", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {}}, {6.0, 5.0, 0.0}},
-                {"outside", {DiscCarWorld({{-12.0, -12.0}, {12.0, 12.0}}), {{-5.0, 0.0, 0.0}}, {}}, {30.0, 0.0, 0.0}},
-                {"closed door", {twoRooms(0.0), {{-9.0, 0.0, 0.0}}, {}}, {6.0, 0.0, 0.0}},
-                {"in a block", {slot(3.0), {{-8.0, 8.0, 0.0}}, {}}, {4.0, 2.0, 0.0}},
-                {"behind walls", maze(3), {19.9, 0.0, 0.0}}};
-    }
+        double nearest{UNREACHED};   ///< metres between the rear axle and the target
+        double cheapest{UNREACHED};  ///< cost of the cheapest path found to exactly the target
 
-    /** \brief How near to \e target the rear axle comes, by flooding a fine lattice with short motions. */
-    inline double nearestByFlooding(DiscCarWorld world, const parking::Pose &start, const parking::Pose &target)
-    {
-        constexpr double SIDE = 0.3, STEP = 0.45, HEADING = parking::PI / 18.0;
-        const auto cell = [](const parking::Pose &pose)
+        /** \brief Nothing of the search is in it. Costs are those without a preferred clearance, all penalties default.
+
+            \param joins whether exact paths are wanted: these end in a free curve to the target */
+        Flood(DiscCarWorld world, const parking::Pose &start, const parking::Pose &target, bool joins)
         {
-            return std::tuple{std::lround(pose.x / SIDE), std::lround(pose.y / SIDE),
-                              std::lround(parking::wrapAngle(pose.yaw) / HEADING)};
-        };
-        std::set<std::tuple<long, long, long>> seen{cell(start)};
-        std::queue<parking::Pose> open({start});
-        double nearest = std::numeric_limits<double>::infinity();
-        while (!open.empty())
-        {
-            const parking::Pose pose = open.front();
-            open.pop();
-            nearest = std::min(nearest, positionDistance(pose, target));
-            for (const double steer : {-1.0, 0.0, 1.0})
-                for (const double gear : {-STEP, STEP})
+            constexpr double SIDE = 0.3, STEP = 0.45, HEADING = parking::PI / 18.0, REACH = 6.0;
+            const parking::ReedsShepp curves(TURNING_RADIUS);
+            parking::search::CostModel model;
+            model.gearChangePenalty = parking::PlannerParameters().gearChangePenalty;
+            model.steeringChangePenalty = parking::PlannerParameters().steeringChangePenalty;
+            model.fullLockCurvature = 1.0 / TURNING_RADIUS;
+            struct Reached
+            {
+                double cost;
+                parking::Pose pose;
+                parking::PathPiece last;
+
+                bool operator<(const Reached &other) const
                 {
-                    const double free = world.freeLength(pose, steer / TURNING_RADIUS, gear);
-                    if (free < STEP)
-                        continue;
-                    const parking::Pose next = advance(pose, steer / TURNING_RADIUS, gear);
-                    if (seen.insert(cell(next)).second)
-                        open.push(next);
+                    return cost > other.cost;
                 }
+            };
+            const auto cell = [](const parking::Pose &pose)
+            {
+                const auto part = [](double value)
+                {
+                    return static_cast<std::uint64_t>(std::lround(value) + 1000);
+                };
+                return (part(pose.x / SIDE) << 40) | (part(pose.y / SIDE) << 20) |
+                       part(parking::wrapAngle(pose.yaw) / HEADING);
+            };
+            std::unordered_set<std::uint64_t> settled;
+            std::priority_queue<Reached> open;
+            open.push({0.0, start, {}});
+            std::vector<parking::ReedsSheppCurve> words;
+            while (!open.empty() && open.top().cost < cheapest)
+            {
+                const Reached from = open.top();
+                open.pop();
+                if (!settled.insert(cell(from.pose)).second)
+                    continue;
+                nearest = std::min(nearest, positionDistance(from.pose, target));
+                if (joins && positionDistance(from.pose, target) < REACH)
+                    curves.candidates(from.pose, target, words, std::min(2.0 * REACH, cheapest - from.cost));
+                else
+                    words.clear();
+                for (const parking::ReedsSheppCurve &word : words)
+                {
+                    const double cost =
+                        from.cost + curveCost(model, word, from.last.length != 0.0 ? &from.last : nullptr);
+                    parking::Pose pose = from.pose;
+                    bool isFree = cost < cheapest;
+                    for (std::size_t i = 0; i < word.count && isFree; ++i)
+                    {
+                        isFree = world.freeLength(pose, word.pieces[i]) >= std::abs(word.pieces[i].length);
+                        pose = advance(pose, word.pieces[i]);
+                    }
+                    cheapest = isFree ? cost : cheapest;
+                }
+                for (const double steer : {-1.0, 0.0, 1.0})
+                    for (const double length : {-STEP, STEP})
+                    {
+                        const parking::Arc motion{steer / TURNING_RADIUS, length};
+                        const parking::Pose next = advance(from.pose, motion);
+                        const double cost = from.cost + model.drive(motion) +
+                                            (from.last.length != 0.0 ? model.join(from.last, motion) : 0.0);
+                        if (cost < cheapest && settled.count(cell(next)) == 0 &&
+                            world.freeLength(from.pose, motion) >= STEP)
+                            open.push({cost, next, motion});
+                    }
+            }
         }
-        return nearest;
-    }
+    };
 }  // namespace parking_test

@@ -37,7 +37,9 @@ namespace parking_test
         double radius{0.95};
         bool tellsRoom{true};
         bool acceptsPaths{true};
-        std::uint64_t questions{0};
+        bool tellsBlocked{false};                                               ///< whether proofs can be had
+        std::uint64_t questions{0};                                             ///< asked so far, of any kind
+        std::uint64_t lastQuestion{std::numeric_limits<std::uint64_t>::max()};  ///< what is asked later is interrupted
 
         /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
         double distanceFrom(double x, double y) const
@@ -61,19 +63,22 @@ namespace parking_test
 
         bool isFree(const parking::Pose &pose) override
         {
-            ++questions;
-            return gap(pose) > 0.0;
+            return isAnswered() && gap(pose) > 0.0;
         }
 
         bool keeps(const parking::Pose &pose, double clearance) override
         {
-            return gap(pose) >= clearance;
+            return isAnswered() && gap(pose) >= clearance;
         }
 
         void freeLengths(const parking::Pose &from, const parking::Arc *arcs, std::size_t count, double clearance,
                          double *lengths) override
         {
-            ++questions;
+            if (!isAnswered())
+            {
+                std::fill(lengths, lengths + count, 0.0);
+                return;
+            }
             double farthest = 0.0;
             for (const double offset : offsets)
                 farthest = std::max(farthest, std::abs(offset));
@@ -105,12 +110,39 @@ namespace parking_test
 
         double roomAt(double x, double y) override
         {
+            ++questions;
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
         }
 
         bool acceptPath(const parking::Path & /*path*/) override
         {
             return acceptsPaths;
+        }
+
+        bool wasInterrupted() const override
+        {
+            return questions > lastQuestion;
+        }
+
+        parking::search::BlockedHeadings blockedHeadings(double side, int headings) override
+        {
+            if (!tellsBlocked)
+                return {};
+            return [this, side, headings](double x, double y)
+            {
+                // The middle is anywhere in the cell, the heading anywhere in its part of the circle.
+                const double middle = 0.5 * (offsets.front() + offsets.back()), part = 2.0 * parking::PI / headings;
+                parking::search::HeadingSet blocked{};
+                for (int i = 0; i < headings; ++i)
+                    for (const double offset : offsets)
+                    {
+                        const double yaw = (i + 0.5) * part - parking::PI, ahead = offset - middle;
+                        const double slack = 0.5 * std::sqrt(2.0) * side + 0.5 * part * std::abs(ahead);
+                        if (distanceFrom(x + ahead * std::cos(yaw), y + ahead * std::sin(yaw)) + slack <= radius)
+                            blocked[static_cast<std::size_t>(i) / 64] |= std::uint64_t{1} << (i % 64);
+                    }
+                return blocked;
+            };
         }
 
         parking::Pose freePose(Random &random)
@@ -124,16 +156,22 @@ namespace parking_test
                     return pose;
             }
         }
+
+    private:
+        bool isAnswered()
+        {
+            return ++questions <= lastQuestion;
+        }
     };
 
-    /** \brief A field of 24 m with boxes thrown into it. */
-    inline DiscCarWorld randomField(std::uint64_t seed, std::uint32_t count = 10)
+    /** \brief A square field with boxes thrown into it. \param half metres: of its side */
+    inline DiscCarWorld randomField(std::uint64_t seed, std::uint32_t count = 10, double half = 12.0)
     {
         Random random(seed);
-        DiscCarWorld world({{-12.0, -12.0}, {12.0, 12.0}});
+        DiscCarWorld world({{-half, -half}, {half, half}});
         for (std::uint32_t i = 0; i < count; ++i)
         {
-            const double x = random.between(-12.0, 12.0), y = random.between(-12.0, 12.0);
+            const double x = random.between(-half, half), y = random.between(-half, half);
             const double w = random.between(0.2, 3.0), h = random.between(0.2, 3.0);
             world.boxes.push_back({{x - w, y - h}, {x + w, y + h}});
         }
