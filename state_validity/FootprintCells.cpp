@@ -25,8 +25,7 @@ namespace parking
         }
     }  // namespace
 
-    FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings)
-      : checker_(checker)
+    FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings) : checker_(checker)
     {
         Require("cells of footprints").positive("side", side, "metres");
         if (headings < 8 || headings > MOST_HEADINGS)

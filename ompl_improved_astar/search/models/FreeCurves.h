@@ -32,8 +32,8 @@ namespace parking::search
         /** \brief Which end of a gap is the one near which a collision is more likely: pieces are swept from there. */
         enum class SweepEnd
         {
-            Start,
-            Goal
+            Start,  ///< the pose at which the curve begins
+            Goal    ///< the pose at which the curve ends
         };
 
         static constexpr std::size_t MAX_CURVES = 64;  ///< more than there are between two poses
