@@ -225,8 +225,8 @@ namespace
             double closest = INFINITE;
             for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.02))
                 closest = std::min(closest, oracle.clearance(state.pose, problem.vehicle));
-            EXPECT_GE(closest, each.min - 1e-9);
-            EXPECT_LE(closest, each.max);
+            EXPECT_GE(closest, each.least - 1e-9);
+            EXPECT_LE(closest, each.most);
         }
     }
 
