@@ -88,6 +88,9 @@ TEST(CostModel, proximityIsTheLengthDrivenNearerThanPreferred)
             model.clearanceCost = random.between(0.5, 5.0);
             const Pose from = world.freePose(random);
             const PathPiece piece{random.between(-0.25, 0.25), random.magnitude(0.02, 6.0)};
+            if (i % 2 == 0)  // hardly nearer anywhere
+                model.preferredClearance =
+                    std::max(0.02, inSteps(world, from, piece, 0.0).least + random.between(1.2e-3, 3e-3));
             const Stepped stepped = inSteps(world, from, piece, model.preferredClearance);
             const double length = piece.driven(), perMetre = model.clearanceCost;
             // Half a sample at each place where it becomes nearer or farther, and one for what lies between samples.
