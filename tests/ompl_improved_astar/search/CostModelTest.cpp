@@ -93,8 +93,8 @@ TEST(CostModel, proximityIsTheLengthDrivenNearerThanPreferred)
                     std::max(0.02, inSteps(world, from, piece, 0.0).least + random.between(1.2e-3, 3e-3));
             const Stepped stepped = inSteps(world, from, piece, model.preferredClearance);
             const double length = piece.driven(), perMetre = model.clearanceCost;
-            // Half a sample at each place where it becomes nearer or farther, and one for what lies between samples.
-            const double tolerance = perMetre * (model.sampleSpacing * (stepped.changes + 1.0) + 0.02);
+            // A sample at each place where it becomes nearer or farther, and what the least stretch counts as.
+            const double tolerance = perMetre * (model.sampleSpacing * stepped.changes + 0.3);
             const Pose to = advance(from, piece);
             for (DiscCarWorld *each : {&world, static_cast<DiscCarWorld *>(&unforeseeing)})
             {
