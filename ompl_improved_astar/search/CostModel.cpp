@@ -23,8 +23,9 @@ namespace parking::search
         if (clear >= length)
             return 0.0;
         const double samples = std::ceil((length - clear) / sampleSpacing), spacing = (length - clear) / samples;
-        // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
-        const double floor = clear > 0.0 ? std::min(MIN_NEARER, length - clear) : 0.0;
+        // It is nearer beyond what is known to be clear, or at its beginning, if only between two samples.
+        const bool isNearer = clear > 0.0 || !environment.keeps(from, preferredClearance);
+        const double floor = isNearer ? std::min(MIN_NEARER, length - clear) : 0.0;
         double nearer = 0.0;
         for (double i = 0.5; i < samples && clearanceCost * std::max(floor, nearer) <= max; i += 1.0)
             if (!environment.keeps(advance(from, piece.curvature, std::copysign(clear + i * spacing, piece.length)),

@@ -37,6 +37,7 @@ namespace parking_test
         double radius{0.95};
         bool tellsRoom{true};
         bool acceptsPaths{true};
+        std::uint64_t roomsAsked{0};                                            ///< how often roomAt() was called
         bool tellsBlocked{false};                                               ///< whether proofs can be had
         std::uint64_t questions{0};                                             ///< asked so far, of any kind
         std::uint64_t roomsAsked{0};

@@ -287,17 +287,17 @@ TEST(GridModel, endsAsNearToAnUnreachableTargetAsAFloodGets)
             ASSERT_TRUE(search.nearestPath(goal, path));
             const std::vector<Pose> poses = posesOf(path);
             ASSERT_EQ(poses.size() > 1 ? faultOf(poses, world, start, poses.back()) : "", "");
-            // The cells of roots stand for these.
-            const auto isIn = [](const Pose &centre, const Pose &root)
-            {
-                return std::floor(root.x) == std::floor(centre.x) && std::floor(root.y) == std::floor(centre.y);
-            };
+            // The cells of roots stand for these: no path leads through that of a goal that it does not reach.
+            GridWorld others = world;
+            others.at(static_cast<int>(goal.x), static_cast<int>(goal.y)) = isTarget ? 0 : 1;
             double nearest = positionDistance(start, goal);
             for (int cell = 0; cell < world.columns * world.rows; ++cell)
             {
-                const Pose centre{cell % world.columns + 0.5, cell / world.columns + 0.5, 0.0};
-                if (world.isPoseFree(centre) && positionDistance(centre, goal) < nearest && !isIn(centre, start) &&
-                    (isTarget || !isIn(centre, goal)) && shortestByDijkstra(world, start, centre, false) < INFINITE)
+                const int column = cell % world.columns, row = cell / world.columns;
+                const Pose centre{column + 0.5, row + 0.5, 0.0};
+                const bool isStart = std::floor(start.x) == column && std::floor(start.y) == row;
+                if (others.isPoseFree(centre) && positionDistance(centre, goal) < nearest && !isStart &&
+                    shortestByDijkstra(others, start, centre, false) < INFINITE)
                     nearest = positionDistance(centre, goal);
             }
             ASSERT_NEAR(positionDistance(poses.back(), goal), nearest, 1e-9);
