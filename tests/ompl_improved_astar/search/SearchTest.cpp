@@ -6,10 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 using namespace parking;
@@ -58,24 +55,6 @@ namespace
         ASSERT_NEAR(search.bestCost(), priced.cost, cost.prefersClearance() ? sampling : 1e-6);
     }
 
-    /** Worlds so small that a flood of all motions is quick, many of them without a path: crowded ones, and two lanes
-        that meet at a corner, which wide lanes let the car pass and narrow ones only a disc. */
-    std::vector<CarProblem> smallProblems()
-    {
-        std::vector<CarProblem> problems;
-        for (std::uint64_t seed = 0; seed < 50; ++seed)
-            problems.push_back(randomProblem(seed, 5 + static_cast<std::uint32_t>(seed % 10), 7.0));
-        for (double width = 2.0; width < 4.5; width += 0.2)
-        {
-            CarProblem corner{DiscCarWorld({{-8.0, 0.0}, {width, 8.0 + width}}), {}, {}};
-            corner.world.boxes.push_back({{-8.0, width}, {0.0, 8.0 + width}});
-            corner.starts.push_back({-6.0, 0.5 * width, 0.0});
-            corner.goals.push_back({0.5 * width, 4.0 + width, 0.5 * PI});
-            problems.push_back(corner);
-        }
-        return problems;
-    }
-
     struct Result
     {
         SearchOutcome outcome;
@@ -103,7 +82,7 @@ namespace
 TEST(Search, everyPathIsFreeDrivableAndPricedRightWhateverTheSwitches)
 {
     std::size_t solved = 0, improved = 0;
-    for (std::uint64_t seed = 0; seed < 200; ++seed)
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
     {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -128,7 +107,7 @@ TEST(Search, everyPathIsFreeDrivableAndPricedRightWhateverTheSwitches)
         }
         ASSERT_EQ(search.bestCost(), last) << "kept";
     }
-    EXPECT_GT(solved, 100u);
+    EXPECT_GT(solved, 75u);
     EXPECT_GT(improved, 50u);
 }
 
@@ -151,45 +130,6 @@ TEST(Search, everyDirectionSolvesTheSameNamedProblems)
                 ASSERT_EQ(problem.faultOf(result.path), "");
             }
         }
-}
-
-TEST(Search, solvesWhatAFloodSolvesAndGivesUpOnlyWhereThatDoes)
-{
-    std::size_t solved = 0, tight = 0, number = 0;
-    std::array<std::size_t, 4> exhausted{};
-    for (CarProblem &problem : smallProblems())
-    {
-        SCOPED_TRACE(number++);
-        problem.world.tellsBlocked = true;
-        const Flood flood(problem.world, problem.starts[0], problem.goals[0], true);
-        for (const double weight : {2.5, 1.0})
-        {
-            PlannerParameters parameters = carParameters();
-            parameters.heuristicWeightFar = parameters.heuristicWeightNear = weight;
-            Search search;
-            const Result result = solve(search, problem, parameters, 20000);
-            if (flood.cheapest < UNREACHED)
-            {
-                ASSERT_EQ(result.outcome, SearchOutcome::Improved);
-            }
-            if (result.outcome == SearchOutcome::Exhausted)
-                ++exhausted[static_cast<std::size_t>(search.exhaustion()) - 1];
-            if (result.outcome != SearchOutcome::Improved)
-                continue;
-            ++solved;
-            ASSERT_EQ(problem.faultOf(result.path), "");
-            while (search.run({}, search.expanded() + 100) == SearchOutcome::Improved)
-            {
-            }
-            ASSERT_LE(search.lowerBound(), std::min(flood.cheapest, search.bestCost()) + 1e-6);
-            tight += search.lowerBound() > 0.6 * std::min(flood.cheapest, search.bestCost());
-        }
-    }
-    EXPECT_GT(solved, 40u);
-    EXPECT_GT(tight, solved / 2) << "a bound that says little is easily right";
-    EXPECT_GT(exhausted[0], 5u) << "walled in";
-    EXPECT_GT(exhausted[1], 1u) << "enclosed";
-    std::printf("%zu %zu | %zu %zu %zu %zu\n", solved, tight, exhausted[0], exhausted[1], exhausted[2], exhausted[3]);
 }
 
 TEST(Search, equalInputGivesEqualPathsAlsoInUsedMemory)
@@ -229,7 +169,6 @@ TEST(Search, asksLittleOnceStoppedAndGoesOnToARightPath)
 {
     // What one expansion and its curves to the other side may ask, generously.
     constexpr std::uint64_t MAX_QUESTIONS = 2000;
-    std::uint64_t most = 0;
     for (const NamedProblem &each : namedProblems())
         for (const int polls : {0, 1, 2, 5, 20, 100})
         {
@@ -249,7 +188,6 @@ TEST(Search, asksLittleOnceStoppedAndGoesOnToARightPath)
                         return stop();
                     });
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
-                most = std::max(most, stop.maxQuestions());
                 if (outcome != SearchOutcome::Stopped)
                     break;
                 ASSERT_LE(search.expanded(), expanded + 1);
@@ -261,7 +199,6 @@ TEST(Search, asksLittleOnceStoppedAndGoesOnToARightPath)
             if (each.isSolvable)
                 expectLawful(search, problem, problem.car());
         }
-    std::printf("most %lu\n", most);
 }
 
 TEST(Search, anInterruptedWorldProvesNothing)
@@ -295,83 +232,6 @@ TEST(Search, anInterruptedWorldProvesNothing)
         }
 }
 
-TEST(Search, staysWithinItsMemory)
-{
-    CarProblem problem = walledIn();
-    problem.world.tellsRoom = false;
-    PlannerParameters parameters = carParameters();
-    parameters.obstacleHeuristic = false;
-    parameters.xyResolution = 0.01;
-    parameters.headingBins = 720;
-    std::uint64_t before = 0;
-    for (const unsigned int megabytes : {16u, 32u})
-    {
-        parameters.maxMemoryMb = megabytes;
-        Search search;
-        problem.begin(search, parameters);
-        ASSERT_EQ(search.run({}), SearchOutcome::Stopped);
-        EXPECT_TRUE(search.isFull());
-        EXPECT_EQ(search.exhaustion(), Exhaustion::None);
-        // Looked at now and then: tables may have grown once more.
-        EXPECT_LE(search.memory(), std::size_t{megabytes} << 21);
-        EXPECT_GT(search.expanded(), before);
-        before = search.expanded();
-        EXPECT_EQ(search.run({}), SearchOutcome::Stopped);
-        EXPECT_LE(search.expanded(), before + 1);
-    }
-}
-
-TEST(Search, rootsAddedLaterAreUsedAndNothingFoundIsLost)
-{
-    std::size_t better = 0;
-    for (std::uint64_t seed = 0; seed < 60; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        CarProblem problem = randomProblem(seed);
-        Random random(seed);
-        Search search;
-        problem.begin(search, carParameters());
-        search.run({}, 300);
-        const double before = search.bestCost();
-        for (int i = 0; i < 4; ++i)
-        {
-            const Pose pose = problem.world.freePose(random);
-            (i % 2 == 0 ? problem.starts : problem.goals).push_back(pose);
-            if (i % 2 == 0)
-                search.addStart(pose);
-            else
-                search.addGoal(pose);
-            ASSERT_LE(search.bestCost(), before);
-            const SearchOutcome outcome = search.run({}, search.expanded() + 300);
-            ASSERT_LE(search.bestCost(), before);
-            if (search.bestCost() < INFINITE)
-                expectLawful(search, problem, problem.car());
-            ASSERT_TRUE(!HasFatalFailure());
-            ASSERT_TRUE(outcome != SearchOutcome::Exhausted || search.bestCost() < INFINITE ||
-                        search.exhaustion() != Exhaustion::None);
-        }
-        better += search.bestCost() < before;
-        for (const Pose &start : problem.starts)
-            for (const Pose &goal : problem.goals)
-            {
-                // The bare curve between any two roots is tried.
-                const Path curve = [&]
-                {
-                    Path path{start, {}};
-                    const ReedsSheppCurve shortest = ReedsShepp(TURNING_RADIUS).shortest(start, goal);
-                    for (std::size_t k = 0; k < shortest.count; ++k)
-                        path.append(shortest.pieces[k]);
-                    return path;
-                }();
-                if (problem.faultOf(curve).empty() && leastGap(problem.world, curve) > 0.01)
-                {
-                    ASSERT_LE(search.bestCost(), price(search.cost(), curve, problem.world).cost + 1e-6);
-                }
-            }
-    }
-    EXPECT_GT(better, 20u);
-}
-
 TEST(Search, reportsOnlyPathsBelowTheCostBoundThatTheWorldAccepts)
 {
     for (std::uint64_t seed = 0; seed < 30; ++seed)
@@ -392,22 +252,5 @@ TEST(Search, reportsOnlyPathsBelowTheCostBoundThatTheWorldAccepts)
         }
         problem.world.acceptsPaths = false;
         ASSERT_NE(solve(search, problem, carParameters(), 300).outcome, SearchOutcome::Improved);
-    }
-}
-
-TEST(Search, switchedOffCurvesJoinNothing)
-{
-    for (const NamedProblem &each : namedProblems())
-    {
-        SCOPED_TRACE(each.name);
-        CarProblem problem = each.problem;
-        PlannerParameters parameters = carParameters();
-        parameters.analyticExpansion = false;
-        Search search;
-        EXPECT_NE(solve(search, problem, parameters, 300).outcome, SearchOutcome::Improved);
-        EXPECT_EQ(search.statistics().connections, 0u);
-        Path path;
-        ASSERT_TRUE(search.nearestPath(problem.goals[0], path));
-        EXPECT_EQ(problem.faultTowards(path), "");
     }
 }

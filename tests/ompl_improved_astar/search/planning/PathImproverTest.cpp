@@ -141,7 +141,6 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
     // Between two polls a few pairs of poses are joined, by up to some dozens of curves each.
     constexpr std::uint64_t MAX_QUESTIONS = 5000;
     const ReedsShepp curves(TURNING_RADIUS);
-    std::uint64_t longest = 0;
     std::size_t stopped = 0, refused = 0;
     for (auto [world, original] : somePaths())
         for (const PathImprover::Pass &pass : {passOf(1.0), passOf(TURNING_RADIUS, 0.3), turningPass(TURNING_RADIUS)})
@@ -160,7 +159,6 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
                 ASSERT_FALSE(improver.improve(path, pass, ANY_NUMBER, std::ref(stop)));
                 ASSERT_TRUE(isUnchanged(path, before));
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
-                longest = std::max(longest, stop.maxQuestions());
                 ++stopped;
             }
             world.acceptsPaths = false;
@@ -180,7 +178,6 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
         }
     EXPECT_GT(stopped, 100u);
     EXPECT_GT(refused, 30u);
-    std::printf("gap %lu\n", longest);
 }
 
 TEST(PathImprover, removesADetour)
