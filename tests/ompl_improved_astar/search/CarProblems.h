@@ -80,6 +80,17 @@ namespace parking_test
         return parameters;
     }
 
+    /** \brief The same with cells so fine that a search without a path soon fills its memory. */
+    inline parking::PlannerParameters hungryParameters()
+    {
+        parking::PlannerParameters parameters = carParameters();
+        parameters.obstacleHeuristic = false;
+        parameters.xyResolution = 0.01;
+        parameters.headingBins = 720;
+        parameters.maxMemoryMb = 16;
+        return parameters;
+    }
+
     /** \brief Stops what is polled more often than that, and always from then on. */
     inline parking::search::StopFunction afterPolls(int count)
     {
@@ -89,38 +100,26 @@ namespace parking_test
         };
     }
 
-    /** \brief The same for what is to be stopped soon: counts the questions asked of the world between two polls, and
-        after the last one. */
-    class MeasuredStop
+    /** \brief The same; counts the questions asked of the world between two polls, and after the last that did not
+        stop. */
+    struct MeasuredStop
     {
-    public:
-        MeasuredStop(const DiscCarWorld &world, int count) : world_(world), stop_(afterPolls(count))
-        {
-        }
+        const DiscCarWorld &world;
+        parking::search::StopFunction stop;
+        bool isStopped{false};
+        std::uint64_t before{world.questions}, most{0};
 
         bool operator()()
         {
-            max_ = maxQuestions();
-            if (!isStopped_)
-                before_ = world_.questions;
-            return isStopped_ = stop_();
-        }
-
-        bool isStopped() const
-        {
-            return isStopped_;
+            most = maxQuestions();
+            before = isStopped ? before : world.questions;
+            return isStopped = stop();
         }
 
         std::uint64_t maxQuestions() const
         {
-            return std::max(max_, world_.questions - before_);
+            return std::max(most, world.questions - before);
         }
-
-    private:
-        const DiscCarWorld &world_;
-        parking::search::StopFunction stop_;
-        std::uint64_t before_{world_.questions}, max_{0};
-        bool isStopped_{false};
     };
 
     /** \brief Are these the same to the last bit? */
@@ -176,6 +175,13 @@ namespace parking_test
                                {{10.0, 10.0}, {10.5, 25.0}},
                                {{25.0, 10.0}, {25.5, 25.5}}};
         return problem;
+    }
+
+    /** \brief Two lanes that meet at a corner, which wide lanes let the car pass and narrow ones only a disc. */
+    inline CarProblem corner(double width)
+    {
+        DiscCarWorld world({{-8.0, 0.0}, {width, 8.0 + width}}, {{{-8.0, width}, {0.0, 8.0 + width}}});
+        return {world, {{-6.0, 0.5 * width, 0.0}}, {{0.5 * width, 4.0 + width, 0.5 * parking::PI}}};
     }
 
     inline std::vector<NamedProblem> namedProblems()

@@ -155,7 +155,7 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
             for (int most = 0; most < polls; most += 1 + polls / 5)
             {
                 path = before;
-                MeasuredStop stop(world, most);
+                MeasuredStop stop{world, afterPolls(most)};
                 ASSERT_FALSE(improver.improve(path, pass, ANY_NUMBER, std::ref(stop)));
                 ASSERT_TRUE(isUnchanged(path, before));
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
