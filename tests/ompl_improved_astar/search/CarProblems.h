@@ -23,6 +23,8 @@ namespace parking_test
     {
         DiscCarWorld world;
         std::vector<parking::Pose> starts, goals;
+        bool forwardOnly{false};
+        std::uint8_t maxCusps{parking::search::ANY_CUSPS};
 
         parking::search::CarInSpace car() const
         {
@@ -30,31 +32,28 @@ namespace parking_test
             car.turningRadius = TURNING_RADIUS;
             car.inscribedRadius = car.bodyRadius = world.radius;
             car.bounds = world.inside;
+            car.forwardOnly = forwardOnly;
+            car.maxCusps = maxCusps;
             car.centreOffset = 0.5 * (world.offsets.front() + world.offsets.back());
             return car;
         }
 
         /** \brief Begins the query of a Search or a PathPlanner; the problem must outlive it. */
         template <class Planner>
-        void begin(Planner &planner, const parking::PlannerParameters &parameters,
-                   const parking::search::CarInSpace &ofCar)
+        void begin(Planner &planner, const parking::PlannerParameters &parameters)
         {
-            planner.begin(world, parameters, ofCar);
+            planner.begin(world, parameters, car());
             for (const parking::Pose &start : starts)
                 planner.addStart(start);
             for (const parking::Pose &goal : goals)
                 planner.addGoal(goal);
         }
 
-        template <class Planner>
-        void begin(Planner &planner, const parking::PlannerParameters &parameters)
-        {
-            begin(planner, parameters, car());
-        }
-
         /** \brief What is wrong with a path from a start to a goal. */
-        std::string faultOf(const parking::Path &path, bool forwardOnly = false) const
+        std::string faultOf(const parking::Path &path) const
         {
+            if (maxCusps < parking::search::ANY_CUSPS && path.cusps() > maxCusps)
+                return "changes direction too often";
             return parking_test::faultOf(path, world, starts, goals, TURNING_RADIUS, forwardOnly);
         }
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,18 +33,9 @@ namespace
         return cost;
     }
 
-    PathImprover::Pass passOf(double spacing, double step = 0.0)
+    PathImprover::Pass passOf(double spacing, double step = 0.0, bool turnsCar = false)
     {
-        PathImprover::Pass pass{spacing};
-        pass.step = step;
-        return pass;
-    }
-
-    PathImprover::Pass turningPass(double spacing)
-    {
-        PathImprover::Pass pass{spacing};
-        pass.turnsCar = true;
-        return pass;
+        return {spacing, 0.0, std::numeric_limits<double>::infinity(), step, FreeCurves::MAX_CURVES, turnsCar};
     }
 
     /** A walk of random arcs that is free. */
@@ -103,8 +96,8 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
     std::size_t improved = 0, kept = 0, cuspsAdded = 0;
     std::uint64_t seed = 0;
     for (auto [world, original] : somePaths())
-        for (const PathImprover::Pass &pass :
-             {passOf(0.5 * TURNING_RADIUS), passOf(1.0), passOf(TURNING_RADIUS, 0.3), turningPass(TURNING_RADIUS)})
+        for (const PathImprover::Pass &pass : {passOf(0.5 * TURNING_RADIUS), passOf(1.0), passOf(TURNING_RADIUS, 0.3),
+                                               passOf(TURNING_RADIUS, 0.0, true)})
             for (const bool isLimited : {true, false})
             {
                 SCOPED_TRACE(++seed);
@@ -143,7 +136,8 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
     const ReedsShepp curves(TURNING_RADIUS);
     std::size_t stopped = 0, refused = 0;
     for (auto [world, original] : somePaths())
-        for (const PathImprover::Pass &pass : {passOf(1.0), passOf(TURNING_RADIUS, 0.3), turningPass(TURNING_RADIUS)})
+        for (const PathImprover::Pass &pass :
+             {passOf(1.0), passOf(TURNING_RADIUS, 0.3), passOf(TURNING_RADIUS, 0.0, true)})
         {
             const CostModel cost = costModel(0.1);
             PathImprover improver(world, curves, cost, CENTRE);
@@ -226,7 +220,7 @@ TEST(PathImprover, turnsTheCarRoundWhereThatIsCheaper)
     PricedPath path = price(cost, {{26.0, 0.0, 0.0}, {{0.0, -52.0}}}, world);
     improveFully(improver, path, passOf(TURNING_RADIUS));
     EXPECT_EQ(path.path.cusps(), 0u) << "curves alone cannot";
-    ASSERT_TRUE(improver.improve(path, turningPass(TURNING_RADIUS), ANY_NUMBER, {}));
+    ASSERT_TRUE(improver.improve(path, passOf(TURNING_RADIUS, 0.0, true), ANY_NUMBER, {}));
     EXPECT_EQ(faultOf(path.path, world, {path.path.start}, {{-26.0, 0.0, 0.0}}, TURNING_RADIUS), "");
     double reverse = 0.0;
     for (const PathPiece &piece : path.path.pieces)
@@ -234,5 +228,5 @@ TEST(PathImprover, turnsTheCarRoundWhereThatIsCheaper)
     EXPECT_LT(reverse, 15.0);
     // With no more cusps than it has, it must stay.
     PricedPath kept = price(cost, {{26.0, 0.0, 0.0}, {{0.0, -52.0}}}, world);
-    EXPECT_FALSE(improver.improve(kept, turningPass(TURNING_RADIUS), 0, {}));
+    EXPECT_FALSE(improver.improve(kept, passOf(TURNING_RADIUS, 0.0, true), 0, {}));
 }
