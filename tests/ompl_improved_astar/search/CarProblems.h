@@ -132,6 +132,14 @@ namespace parking_test
                std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), isSamePiece);
     }
 
+    inline double metresInReverse(const parking::Path &path)
+    {
+        double metres = 0.0;
+        for (const parking::PathPiece &piece : path.pieces)
+            metres += std::max(0.0, -piece.length);
+        return metres;
+    }
+
     /** \brief Metres driven nearer to obstacles than \e clearance, sampled finely. */
     inline double metresNearer(const DiscCarWorld &world, const parking::Path &path, double clearance)
     {
@@ -226,11 +234,10 @@ namespace parking_test
                 double cost;
                 parking::Pose pose;
                 parking::PathPiece last;
-
-                bool operator<(const Reached &other) const
-                {
-                    return cost > other.cost;
-                }
+            };
+            const auto isCostlier = [](const Reached &a, const Reached &b)
+            {
+                return a.cost > b.cost;
             };
             const auto cell = [](const parking::Pose &pose)
             {
@@ -242,7 +249,7 @@ namespace parking_test
                        part(parking::wrapAngle(pose.yaw) / HEADING);
             };
             std::unordered_set<std::uint64_t> settled;
-            std::priority_queue<Reached> open;
+            std::priority_queue<Reached, std::vector<Reached>, decltype(isCostlier)> open(isCostlier);
             open.push({0.0, start, {}});
             std::vector<parking::ReedsSheppCurve> words;
             while (!open.empty() && open.top().cost < cheapest)

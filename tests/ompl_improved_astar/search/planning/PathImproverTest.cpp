@@ -107,17 +107,10 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
                 PathImprover improver(world, curves, cost, CENTRE);
                 const PricedPath before = path;
                 const bool isImproved = improver.improve(path, pass, maxCusps, {});
-                PathImprover again(world, curves, cost, CENTRE);
-                PricedPath other = before;
-                ASSERT_EQ(again.improve(other, pass, maxCusps, {}), isImproved);
-                ASSERT_TRUE(isUnchanged(path, other)) << "deterministic";
+                ASSERT_EQ(isUnchanged(path, before), !isImproved);
+                ++(isImproved ? improved : kept);
                 if (!isImproved)
-                {
-                    ++kept;
-                    ASSERT_TRUE(isUnchanged(path, before));
                     continue;
-                }
-                ++improved;
                 cuspsAdded += path.path.cusps() > original.cusps();
                 ASSERT_LT(path.cost, before.cost);
                 ASSERT_EQ(path.cost, price(cost, path.path, world).cost);
@@ -132,7 +125,7 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
 TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
 {
     // Between two polls a few pairs of poses are joined, by up to some dozens of curves each.
-    constexpr std::uint64_t MAX_QUESTIONS = 5000;
+    constexpr std::uint64_t MAX_QUESTIONS = 3000;
     const ReedsShepp curves(TURNING_RADIUS);
     std::size_t stopped = 0, refused = 0;
     for (auto [world, original] : somePaths())
@@ -161,10 +154,7 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
             ASSERT_TRUE(isUnchanged(path, before));
             // A world that has no more time finds nothing free, and nothing near.
             world.lastQuestion = world.questions + 100 * (refused % 20);
-            if (!improver.improve(path, pass, ANY_NUMBER, {}))
-            {
-                ASSERT_TRUE(isUnchanged(path, before));
-            }
+            ASSERT_TRUE(improver.improve(path, pass, ANY_NUMBER, {}) || isUnchanged(path, before));
             world.lastQuestion = ~std::uint64_t{0};
             ASSERT_EQ(path.cost, price(cost, path.path, world).cost);
             ASSERT_EQ(faultOf(path.path, world, {original.start}, {original.end()}, TURNING_RADIUS), "");
@@ -176,7 +166,7 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
 
 TEST(PathImprover, removesADetour)
 {
-    // Round a circle, round a box that is long gone, and forwards past the goal and back.
+    // Round a circle, round a box that is gone, and forwards past the goal and back.
     const double quarter = 0.5 * PI * TURNING_RADIUS, left = 1.0 / TURNING_RADIUS;
     const Path detours[]{
         {{0.0, 0.0, 0.0}, {{0.0, 2.0}, {left, 4.0 * quarter}, {0.0, 8.0}}},
@@ -196,7 +186,7 @@ TEST(PathImprover, removesADetour)
 
 TEST(PathImprover, movesPosesAsideOfObstacles)
 {
-    // Straight past the corner of a box and back into a bay: only moving the cusp gains room.
+    // Straight past a box: no curve between two poses of the path gains clearance.
     DiscCarWorld world({{-10.0, -10.0}, {20.0, 10.0}}, {{{4.0, 1.0}, {7.0, 3.0}}});
     const CostModel cost = costModel(0.3);
     const ReedsShepp curves(TURNING_RADIUS);
@@ -222,10 +212,7 @@ TEST(PathImprover, turnsTheCarRoundWhereThatIsCheaper)
     EXPECT_EQ(path.path.cusps(), 0u) << "curves alone cannot";
     ASSERT_TRUE(improver.improve(path, passOf(TURNING_RADIUS, 0.0, true), ANY_NUMBER, {}));
     EXPECT_EQ(faultOf(path.path, world, {path.path.start}, {{-26.0, 0.0, 0.0}}, TURNING_RADIUS), "");
-    double reverse = 0.0;
-    for (const PathPiece &piece : path.path.pieces)
-        reverse += std::max(0.0, -piece.length);
-    EXPECT_LT(reverse, 15.0);
+    EXPECT_LT(metresInReverse(path.path), 15.0);
     // With no more cusps than it has, it must stay.
     PricedPath kept = price(cost, {{26.0, 0.0, 0.0}, {{0.0, -52.0}}}, world);
     EXPECT_FALSE(improver.improve(kept, passOf(TURNING_RADIUS, 0.0, true), 0, {}));

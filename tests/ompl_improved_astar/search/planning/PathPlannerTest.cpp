@@ -31,14 +31,6 @@ namespace
         };
     }
 
-    double metresInReverse(const Path &path)
-    {
-        double metres = 0.0;
-        for (const PathPiece &piece : path.pieces)
-            metres += std::max(0.0, -piece.length);
-        return metres;
-    }
-
     /** Names and values of parameters, as users write them. */
     using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -80,31 +72,28 @@ TEST(PathPlanner, everySwitchGivesPathsThatAreFreeAndPricedRight)
             SCOPED_TRACE(testing::Message() << name << ", " << seed);
             CarProblem problem = randomProblem(seed);
             PathPlanner planner;
-            std::vector<double> reported;
+            double reported = INFINITE;
             problem.begin(planner, parameters);
             const Outcome outcome = planner.solve(afterExpanding(planner, 600),
                                                   [&](const Path & /*path*/, double cost)
                                                   {
-                                                      reported.push_back(cost);
+                                                      EXPECT_EQ(reported, INFINITE) << "once";
+                                                      reported = cost;
                                                       return false;
                                                   });
             ASSERT_EQ(planner.hasSolution(), outcome == Outcome::Solved);
-            ASSERT_EQ(reported.size(), planner.hasSolution() ? 1u : 0u);
+            ASSERT_EQ(reported, planner.bestCost());
             // Equal input, equal path, also in memory that has served other problems.
             problem.begin(reused, parameters);
             ASSERT_EQ(reused.solve(afterExpanding(reused, 600), {}), outcome);
             ASSERT_EQ(reused.bestCost(), planner.bestCost());
             ASSERT_TRUE(isSamePath(reused.bestPath(), planner.bestPath()));
+            ASSERT_EQ(planner.suboptimalityBound(planner.bestCost()) < INFINITE, planner.hasSolution());
             if (!planner.hasSolution())
-            {
-                ASSERT_EQ(planner.bestCost(), INFINITE);
-                ASSERT_EQ(planner.suboptimalityBound(planner.bestCost()), INFINITE);
                 continue;
-            }
             ++solved;
             const PricedPath priced = price(planner.search().cost(), planner.bestPath(), problem.world);
             ASSERT_EQ(problem.faultOf(planner.bestPath()), "");
-            ASSERT_EQ(reported[0], planner.bestCost());
             ASSERT_NEAR(planner.bestCost(), priced.cost, 1e-6);
             ASSERT_NEAR(planner.proximityOfBest(), priced.totalProximity(), 1e-6);
             ASSERT_GE(planner.suboptimalityBound(planner.bestCost()), 1.0);
@@ -163,7 +152,7 @@ TEST(PathPlanner, anytimeReportsFallingCostsAndNeverGetsWorse)
 
 TEST(PathPlanner, stopsSoonAndGoesOnToARightPath)
 {
-    constexpr std::uint64_t MAX_QUESTIONS = 10000;  // of a few pairs of poses that are joined, or a path that is priced
+    constexpr std::uint64_t MAX_QUESTIONS = 4000;  // of a few pairs of poses that are joined, or a path that is priced
     for (const NamedProblem &each : namedProblems())
         for (const bool anytime : {false, true})
             for (const int polls : {0, 1, 5, 40, 300})
@@ -183,11 +172,8 @@ TEST(PathPlanner, stopsSoonAndGoesOnToARightPath)
                     ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
                     ASSERT_LE(planner.bestCost(), cost);
                     cost = planner.bestCost();
-                    if (planner.hasSolution())
-                    {
-                        ASSERT_EQ(problem.faultOf(planner.bestPath()), "");
-                        ASSERT_GE(planner.suboptimalityBound(cost), 1.0) << "without the stop function";
-                    }
+                    ASSERT_TRUE(!planner.hasSolution() || problem.faultOf(planner.bestPath()).empty());
+                    ASSERT_GE(planner.suboptimalityBound(cost), 1.0) << "without the stop function";
                 }
                 planner.solve(afterExpanding(planner, planner.expanded() + 2000), {});
                 ASSERT_EQ(planner.hasSolution(), each.isSolvable);
