@@ -23,6 +23,8 @@ namespace parking_test
     {
         DiscCarWorld world;
         std::vector<parking::Pose> starts, goals;
+        bool forwardOnly{false};
+        std::uint8_t maxCusps{parking::search::ANY_CUSPS};
 
         parking::search::CarInSpace car() const
         {
@@ -30,31 +32,28 @@ namespace parking_test
             car.turningRadius = TURNING_RADIUS;
             car.inscribedRadius = car.bodyRadius = world.radius;
             car.bounds = world.inside;
+            car.forwardOnly = forwardOnly;
+            car.maxCusps = maxCusps;
             car.centreOffset = 0.5 * (world.offsets.front() + world.offsets.back());
             return car;
         }
 
         /** \brief Begins the query of a Search or a PathPlanner; the problem must outlive it. */
         template <class Planner>
-        void begin(Planner &planner, const parking::PlannerParameters &parameters,
-                   const parking::search::CarInSpace &ofCar)
+        void begin(Planner &planner, const parking::PlannerParameters &parameters)
         {
-            planner.begin(world, parameters, ofCar);
+            planner.begin(world, parameters, car());
             for (const parking::Pose &start : starts)
                 planner.addStart(start);
             for (const parking::Pose &goal : goals)
                 planner.addGoal(goal);
         }
 
-        template <class Planner>
-        void begin(Planner &planner, const parking::PlannerParameters &parameters)
-        {
-            begin(planner, parameters, car());
-        }
-
         /** \brief What is wrong with a path from a start to a goal. */
-        std::string faultOf(const parking::Path &path, bool forwardOnly = false) const
+        std::string faultOf(const parking::Path &path) const
         {
+            if (maxCusps < parking::search::ANY_CUSPS && path.cusps() > maxCusps)
+                return "changes direction too often";
             return parking_test::faultOf(path, world, starts, goals, TURNING_RADIUS, forwardOnly);
         }
 
@@ -80,6 +79,17 @@ namespace parking_test
         return parameters;
     }
 
+    /** \brief The same with cells so fine that a search without a path soon fills its memory. */
+    inline parking::PlannerParameters hungryParameters()
+    {
+        parking::PlannerParameters parameters = carParameters();
+        parameters.obstacleHeuristic = false;
+        parameters.xyResolution = 0.01;
+        parameters.headingBins = 720;
+        parameters.maxMemoryMb = 16;
+        return parameters;
+    }
+
     /** \brief Stops what is polled more often than that, and always from then on. */
     inline parking::search::StopFunction afterPolls(int count)
     {
@@ -89,38 +99,26 @@ namespace parking_test
         };
     }
 
-    /** \brief The same for what is to be stopped soon: counts the questions asked of the world between two polls, and
-        after the last one. */
-    class MeasuredStop
+    /** \brief The same; counts the questions asked of the world between two polls, and after the last that did not
+        stop. */
+    struct MeasuredStop
     {
-    public:
-        MeasuredStop(const DiscCarWorld &world, int count) : world_(world), stop_(afterPolls(count))
-        {
-        }
+        const DiscCarWorld &world;
+        parking::search::StopFunction stop;
+        bool isStopped{false};
+        std::uint64_t before{world.questions}, most{0};
 
         bool operator()()
         {
-            max_ = maxQuestions();
-            if (!isStopped_)
-                before_ = world_.questions;
-            return isStopped_ = stop_();
-        }
-
-        bool isStopped() const
-        {
-            return isStopped_;
+            most = maxQuestions();
+            before = isStopped ? before : world.questions;
+            return isStopped = stop();
         }
 
         std::uint64_t maxQuestions() const
         {
-            return std::max(max_, world_.questions - before_);
+            return std::max(most, world.questions - before);
         }
-
-    private:
-        const DiscCarWorld &world_;
-        parking::search::StopFunction stop_;
-        std::uint64_t before_{world_.questions}, max_{0};
-        bool isStopped_{false};
     };
 
     /** \brief Are these the same to the last bit? */
@@ -132,6 +130,14 @@ namespace parking_test
         };
         return isSamePose(a.start, b.start, 0.0) &&
                std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), isSamePiece);
+    }
+
+    inline double metresInReverse(const parking::Path &path)
+    {
+        double metres = 0.0;
+        for (const parking::PathPiece &piece : path.pieces)
+            metres += std::max(0.0, -piece.length);
+        return metres;
     }
 
     /** \brief Metres driven nearer to obstacles than \e clearance, sampled finely. */
@@ -178,6 +184,13 @@ namespace parking_test
         return problem;
     }
 
+    /** \brief Two lanes that meet at a corner, which wide lanes let the car pass and narrow ones only a disc. */
+    inline CarProblem corner(double width)
+    {
+        DiscCarWorld world({{-8.0, 0.0}, {width, 8.0 + width}}, {{{-8.0, width}, {0.0, 8.0 + width}}});
+        return {world, {{-6.0, 0.5 * width, 0.0}}, {{0.5 * width, 4.0 + width, 0.5 * parking::PI}}};
+    }
+
     inline std::vector<NamedProblem> namedProblems()
     {
         using parking::PI;
@@ -221,11 +234,10 @@ namespace parking_test
                 double cost;
                 parking::Pose pose;
                 parking::PathPiece last;
-
-                bool operator<(const Reached &other) const
-                {
-                    return cost > other.cost;
-                }
+            };
+            const auto isCostlier = [](const Reached &a, const Reached &b)
+            {
+                return a.cost > b.cost;
             };
             const auto cell = [](const parking::Pose &pose)
             {
@@ -237,7 +249,7 @@ namespace parking_test
                        part(parking::wrapAngle(pose.yaw) / HEADING);
             };
             std::unordered_set<std::uint64_t> settled;
-            std::priority_queue<Reached> open;
+            std::priority_queue<Reached, std::vector<Reached>, decltype(isCostlier)> open(isCostlier);
             open.push({0.0, start, {}});
             std::vector<parking::ReedsSheppCurve> words;
             while (!open.empty() && open.top().cost < cheapest)

@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <iterator>
 #include <limits>
-#include <utility>
 #include <vector>
 
 using namespace parking;
@@ -44,11 +42,10 @@ namespace
     }
 
     /** Expects the best path to obey every law that holds whatever the parameters are. */
-    void expectLawful(Search &search, CarProblem &problem, const CarInSpace &car)
+    void expectLawful(Search &search, CarProblem &problem)
     {
         const Path &path = search.bestPath();
-        ASSERT_EQ(problem.faultOf(path, car.forwardOnly), "");
-        ASSERT_TRUE(car.maxCusps == ANY_CUSPS || path.cusps() <= car.maxCusps);
+        ASSERT_EQ(problem.faultOf(path), "");
         ASSERT_LE(search.lowerBound(), search.bestCost() + 1e-6);
         ASSERT_GE(search.bestCost(), path.length() - 1e-6);
         const PricedPath priced = price(search.cost(), path, problem.world);
@@ -58,198 +55,107 @@ namespace
         ASSERT_NEAR(search.bestCost(), priced.cost, cost.prefersClearance() ? sampling : 1e-6);
     }
 
-    /** Worlds so small that a flood of all motions is quick, many of them without a path: crowded ones, and two lanes
-        that meet at a corner, which wide lanes let the car pass and narrow ones only a disc. */
-    std::vector<CarProblem> smallProblems()
-    {
-        std::vector<CarProblem> problems;
-        for (std::uint64_t seed = 0; seed < 50; ++seed)
-            problems.push_back(randomProblem(seed, 5 + static_cast<std::uint32_t>(seed % 10), 7.0));
-        for (double width = 2.0; width < 4.5; width += 0.2)
-        {
-            CarProblem corner{DiscCarWorld({{-8.0, 0.0}, {width, 8.0 + width}}), {}, {}};
-            corner.world.boxes.push_back({{-8.0, width}, {0.0, 8.0 + width}});
-            corner.starts.push_back({-6.0, 0.5 * width, 0.0});
-            corner.goals.push_back({0.5 * width, 4.0 + width, 0.5 * PI});
-            problems.push_back(corner);
-        }
-        return problems;
-    }
-
-    struct Result
-    {
-        SearchOutcome outcome;
-        double cost;
-        Path path;
-        std::uint64_t generated;
-
-        bool operator==(const Result &other) const
-        {
-            return outcome == other.outcome && cost == other.cost && isSamePath(path, other.path) &&
-                   generated == other.generated;
-        }
-    };
-
     /** Up to the first solution. */
-    Result solve(Search &search, CarProblem &problem, const PlannerParameters &parameters,
-                 std::uint64_t maxExpansions = MAX_EXPANSIONS)
+    SearchOutcome solve(Search &search, CarProblem &problem, const PlannerParameters &parameters)
     {
         problem.begin(search, parameters);
-        const SearchOutcome outcome = search.run({}, maxExpansions);
-        return {outcome, search.bestCost(), search.bestPath(), search.statistics().generated};
+        return search.run({}, 1000);
     }
 }  // namespace
 
 TEST(Search, everyPathIsFreeDrivableAndPricedRightWhateverTheSwitches)
 {
     std::size_t solved = 0, improved = 0;
-    for (std::uint64_t seed = 0; seed < 200; ++seed)
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
     {
         SCOPED_TRACE(seed);
         Random random(seed);
         CarProblem problem = randomProblem(seed, 4 + 3 * static_cast<std::uint32_t>(seed % 4));
         const PlannerParameters parameters = randomParameters(random);
-        CarInSpace car = problem.car();
-        car.forwardOnly = random.chance(0.2);
-        car.maxCusps = random.chance(0.3) ? static_cast<std::uint8_t>(random.index(4)) : ANY_CUSPS;
+        problem.world.acceptsPaths = seed % 10 != 0;
+        problem.forwardOnly = random.chance(0.2);
+        problem.maxCusps = random.chance(0.3) ? static_cast<std::uint8_t>(random.index(4)) : ANY_CUSPS;
         Search search;
-        problem.begin(search, parameters, car);
+        problem.begin(search, parameters);
         double last = INFINITE;
         while (search.run({}, 600) == SearchOutcome::Improved)
         {
+            ASSERT_TRUE(problem.world.acceptsPaths);
             ASSERT_LE(search.bestCost(), last + 1e-9);
             solved += last == INFINITE;
             improved += last < INFINITE;
             last = search.bestCost();
-            expectLawful(search, problem, car);
+            expectLawful(search, problem);
             if (HasFatalFailure())
                 return;
             search.lowerWeights(0.7);
         }
         ASSERT_EQ(search.bestCost(), last) << "kept";
     }
-    EXPECT_GT(solved, 100u);
+    EXPECT_GT(solved, 75u);
     EXPECT_GT(improved, 50u);
 }
 
-TEST(Search, everyDirectionSolvesTheSameNamedProblems)
+TEST(Search, equalInputGivesEqualPathsAlsoInUsedMemoryAndAfterPauses)
 {
-    for (const NamedProblem &each : namedProblems())
-        for (int i = 0; i < 8; ++i)
+    Search reused;
+    for (std::uint64_t seed = 0; seed < 60; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        CarProblem problem = randomProblem(seed, 14);
+        const PlannerParameters parameters = randomParameters(random);
+        Search fresh;
+        const SearchOutcome outcome = solve(fresh, problem, parameters);
+        const auto expectSame = [&, path = fresh.bestPath(), cost = fresh.bestCost(),
+                                 generated = fresh.statistics().generated](const Search &other, SearchOutcome found)
         {
-            SCOPED_TRACE(testing::Message() << each.name << ", switches " << i);
+            ASSERT_EQ(found, outcome);
+            ASSERT_EQ(other.bestCost(), cost);
+            ASSERT_TRUE(isSamePath(other.bestPath(), path));
+            ASSERT_EQ(other.statistics().generated, generated);
+        };
+        expectSame(fresh, solve(fresh, problem, parameters));
+        problem.begin(reused, parameters);
+        SearchOutcome found = SearchOutcome::Stopped;
+        for (std::uint64_t limit = 0; limit <= 1000 && found == SearchOutcome::Stopped; ++limit)
+        {
+            found = reused.run({}, limit);
+            ASSERT_TRUE(found != SearchOutcome::Stopped || reused.expanded() == limit);
+        }
+        expectSame(reused, found);
+        ASSERT_FALSE(HasFatalFailure());
+    }
+}
+
+TEST(Search, askedToStopItDoesAndThenSolvesTheSameInEveryDirection)
+{
+    // What one expansion and its curves to the other side may ask, generously.
+    constexpr std::uint64_t MAX_QUESTIONS = 2000;
+    constexpr int POLLS[]{0, 1, 2, 5, 20, 100, 3, 50};
+    for (const NamedProblem &each : namedProblems())
+        for (std::size_t i = 0; i < std::size(POLLS); ++i)
+        {
+            SCOPED_TRACE(testing::Message() << each.name << ", " << POLLS[i] << " polls");
             CarProblem problem = each.problem;
             problem.world.tellsRoom = i < 4;
             PlannerParameters parameters = carParameters();
             parameters.bidirectional = i % 2 == 0;
             parameters.searchFrom = i % 4 < 2 ? "goal" : "start";
             Search search;
-            const Result result = solve(search, problem, parameters);
-            ASSERT_EQ(result.outcome == SearchOutcome::Improved, each.isSolvable);
-            if (each.isSolvable)
-            {
-                ASSERT_EQ(problem.faultOf(result.path), "");
-            }
-        }
-}
-
-TEST(Search, solvesWhatAFloodSolvesAndGivesUpOnlyWhereThatDoes)
-{
-    std::size_t solved = 0, tight = 0, number = 0;
-    std::array<std::size_t, 4> exhausted{};
-    for (CarProblem &problem : smallProblems())
-    {
-        SCOPED_TRACE(number++);
-        problem.world.tellsBlocked = true;
-        const Flood flood(problem.world, problem.starts[0], problem.goals[0], true);
-        for (const double weight : {2.5, 1.0})
-        {
-            PlannerParameters parameters = carParameters();
-            parameters.heuristicWeightFar = parameters.heuristicWeightNear = weight;
-            Search search;
-            const Result result = solve(search, problem, parameters, 20000);
-            if (flood.cheapest < UNREACHED)
-            {
-                ASSERT_EQ(result.outcome, SearchOutcome::Improved);
-            }
-            if (result.outcome == SearchOutcome::Exhausted)
-                ++exhausted[static_cast<std::size_t>(search.exhaustion()) - 1];
-            if (result.outcome != SearchOutcome::Improved)
-                continue;
-            ++solved;
-            ASSERT_EQ(problem.faultOf(result.path), "");
-            while (search.run({}, search.expanded() + 100) == SearchOutcome::Improved)
-            {
-            }
-            ASSERT_LE(search.lowerBound(), std::min(flood.cheapest, search.bestCost()) + 1e-6);
-            tight += search.lowerBound() > 0.6 * std::min(flood.cheapest, search.bestCost());
-        }
-    }
-    EXPECT_GT(solved, 40u);
-    EXPECT_GT(tight, solved / 2) << "a bound that says little is easily right";
-    EXPECT_GT(exhausted[0], 5u) << "walled in";
-    EXPECT_GT(exhausted[1], 1u) << "enclosed";
-    std::printf("%zu %zu | %zu %zu %zu %zu\n", solved, tight, exhausted[0], exhausted[1], exhausted[2], exhausted[3]);
-}
-
-TEST(Search, equalInputGivesEqualPathsAlsoInUsedMemory)
-{
-    Search reused;
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        Random random(seed);
-        CarProblem problem = randomProblem(seed);
-        const PlannerParameters parameters = randomParameters(random);
-        Search fresh;
-        const Result first = solve(fresh, problem, parameters, 1000);
-        ASSERT_EQ(solve(fresh, problem, parameters, 1000), first) << "begun again";
-        ASSERT_EQ(solve(reused, problem, parameters, 1000), first) << "after other queries";
-    }
-}
-
-TEST(Search, pausedByExpansionsItGoesOnAsIfNothingHadBeen)
-{
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        CarProblem problem = randomProblem(seed, 14);
-        Search whole, paused;
-        const Result result = solve(whole, problem, carParameters(), 1000);
-        problem.begin(paused, carParameters());
-        std::uint64_t limit = 0;
-        SearchOutcome outcome;
-        while ((outcome = paused.run({}, limit)) == SearchOutcome::Stopped && limit < 1000)
-            ASSERT_EQ(paused.expanded(), limit++);
-        ASSERT_EQ((Result{outcome, paused.bestCost(), paused.bestPath(), paused.statistics().generated}), result);
-    }
-}
-
-TEST(Search, asksLittleOnceStoppedAndGoesOnToARightPath)
-{
-    // What one expansion and its curves to the other side may ask, generously.
-    constexpr std::uint64_t MAX_QUESTIONS = 2000;
-    std::uint64_t most = 0;
-    for (const NamedProblem &each : namedProblems())
-        for (const int polls : {0, 1, 2, 5, 20, 100})
-        {
-            SCOPED_TRACE(testing::Message() << each.name << ", " << polls << " polls");
-            CarProblem problem = each.problem;
-            Search search;
-            problem.begin(search, carParameters());
+            problem.begin(search, parameters);
             SearchOutcome outcome = SearchOutcome::Stopped;
             for (int round = 0; round < 40 && outcome == SearchOutcome::Stopped; ++round)
             {
                 std::uint64_t expanded = 0;
-                MeasuredStop stop(problem.world, polls);
+                MeasuredStop stop{problem.world, afterPolls(POLLS[i])};
                 outcome = search.run(
                     [&]
                     {
-                        expanded = stop.isStopped() ? expanded : search.expanded();
+                        expanded = stop.isStopped ? expanded : search.expanded();
                         return stop();
                     });
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
-                most = std::max(most, stop.maxQuestions());
                 if (outcome != SearchOutcome::Stopped)
                     break;
                 ASSERT_LE(search.expanded(), expanded + 1);
@@ -259,9 +165,8 @@ TEST(Search, asksLittleOnceStoppedAndGoesOnToARightPath)
                 outcome = search.run({}, search.expanded() + MAX_EXPANSIONS);
             ASSERT_EQ(outcome == SearchOutcome::Improved, each.isSolvable);
             if (each.isSolvable)
-                expectLawful(search, problem, problem.car());
+                expectLawful(search, problem);
         }
-    std::printf("most %lu\n", most);
 }
 
 TEST(Search, anInterruptedWorldProvesNothing)
@@ -291,123 +196,6 @@ TEST(Search, anInterruptedWorldProvesNothing)
                 outcome = search.run({}, 2 * MAX_EXPANSIONS);
             ASSERT_EQ(outcome == SearchOutcome::Improved, each.isSolvable);
             if (each.isSolvable)
-                expectLawful(search, problem, problem.car());
+                expectLawful(search, problem);
         }
-}
-
-TEST(Search, staysWithinItsMemory)
-{
-    CarProblem problem = walledIn();
-    problem.world.tellsRoom = false;
-    PlannerParameters parameters = carParameters();
-    parameters.obstacleHeuristic = false;
-    parameters.xyResolution = 0.01;
-    parameters.headingBins = 720;
-    std::uint64_t before = 0;
-    for (const unsigned int megabytes : {16u, 32u})
-    {
-        parameters.maxMemoryMb = megabytes;
-        Search search;
-        problem.begin(search, parameters);
-        ASSERT_EQ(search.run({}), SearchOutcome::Stopped);
-        EXPECT_TRUE(search.isFull());
-        EXPECT_EQ(search.exhaustion(), Exhaustion::None);
-        // Looked at now and then: tables may have grown once more.
-        EXPECT_LE(search.memory(), std::size_t{megabytes} << 21);
-        EXPECT_GT(search.expanded(), before);
-        before = search.expanded();
-        EXPECT_EQ(search.run({}), SearchOutcome::Stopped);
-        EXPECT_LE(search.expanded(), before + 1);
-    }
-}
-
-TEST(Search, rootsAddedLaterAreUsedAndNothingFoundIsLost)
-{
-    std::size_t better = 0;
-    for (std::uint64_t seed = 0; seed < 60; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        CarProblem problem = randomProblem(seed);
-        Random random(seed);
-        Search search;
-        problem.begin(search, carParameters());
-        search.run({}, 300);
-        const double before = search.bestCost();
-        for (int i = 0; i < 4; ++i)
-        {
-            const Pose pose = problem.world.freePose(random);
-            (i % 2 == 0 ? problem.starts : problem.goals).push_back(pose);
-            if (i % 2 == 0)
-                search.addStart(pose);
-            else
-                search.addGoal(pose);
-            ASSERT_LE(search.bestCost(), before);
-            const SearchOutcome outcome = search.run({}, search.expanded() + 300);
-            ASSERT_LE(search.bestCost(), before);
-            if (search.bestCost() < INFINITE)
-                expectLawful(search, problem, problem.car());
-            ASSERT_TRUE(!HasFatalFailure());
-            ASSERT_TRUE(outcome != SearchOutcome::Exhausted || search.bestCost() < INFINITE ||
-                        search.exhaustion() != Exhaustion::None);
-        }
-        better += search.bestCost() < before;
-        for (const Pose &start : problem.starts)
-            for (const Pose &goal : problem.goals)
-            {
-                // The bare curve between any two roots is tried.
-                const Path curve = [&]
-                {
-                    Path path{start, {}};
-                    const ReedsSheppCurve shortest = ReedsShepp(TURNING_RADIUS).shortest(start, goal);
-                    for (std::size_t k = 0; k < shortest.count; ++k)
-                        path.append(shortest.pieces[k]);
-                    return path;
-                }();
-                if (problem.faultOf(curve).empty() && leastGap(problem.world, curve) > 0.01)
-                {
-                    ASSERT_LE(search.bestCost(), price(search.cost(), curve, problem.world).cost + 1e-6);
-                }
-            }
-    }
-    EXPECT_GT(better, 20u);
-}
-
-TEST(Search, reportsOnlyPathsBelowTheCostBoundThatTheWorldAccepts)
-{
-    for (std::uint64_t seed = 0; seed < 30; ++seed)
-    {
-        SCOPED_TRACE(seed);
-        CarProblem problem = randomProblem(seed);
-        Search search;
-        if (solve(search, problem, carParameters(), 1000).outcome != SearchOutcome::Improved)
-            continue;
-        const double bound = 0.95 * search.bestCost();
-        search.begin(problem.world, carParameters(), problem.car());
-        search.setCostBound(bound);
-        search.addStart(problem.starts[0]);
-        search.addGoal(problem.goals[0]);
-        if (search.run({}, 300) == SearchOutcome::Improved)
-        {
-            ASSERT_LT(search.bestCost(), bound);
-        }
-        problem.world.acceptsPaths = false;
-        ASSERT_NE(solve(search, problem, carParameters(), 300).outcome, SearchOutcome::Improved);
-    }
-}
-
-TEST(Search, switchedOffCurvesJoinNothing)
-{
-    for (const NamedProblem &each : namedProblems())
-    {
-        SCOPED_TRACE(each.name);
-        CarProblem problem = each.problem;
-        PlannerParameters parameters = carParameters();
-        parameters.analyticExpansion = false;
-        Search search;
-        EXPECT_NE(solve(search, problem, parameters, 300).outcome, SearchOutcome::Improved);
-        EXPECT_EQ(search.statistics().connections, 0u);
-        Path path;
-        ASSERT_TRUE(search.nearestPath(problem.goals[0], path));
-        EXPECT_EQ(problem.faultTowards(path), "");
-    }
 }

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,18 +33,9 @@ namespace
         return cost;
     }
 
-    PathImprover::Pass passOf(double spacing, double step = 0.0)
+    PathImprover::Pass passOf(double spacing, double step = 0.0, bool turnsCar = false)
     {
-        PathImprover::Pass pass{spacing};
-        pass.step = step;
-        return pass;
-    }
-
-    PathImprover::Pass turningPass(double spacing)
-    {
-        PathImprover::Pass pass{spacing};
-        pass.turnsCar = true;
-        return pass;
+        return {spacing, 0.0, std::numeric_limits<double>::infinity(), step, FreeCurves::MAX_CURVES, turnsCar};
     }
 
     /** A walk of random arcs that is free. */
@@ -103,8 +96,8 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
     std::size_t improved = 0, kept = 0, cuspsAdded = 0;
     std::uint64_t seed = 0;
     for (auto [world, original] : somePaths())
-        for (const PathImprover::Pass &pass :
-             {passOf(0.5 * TURNING_RADIUS), passOf(1.0), passOf(TURNING_RADIUS, 0.3), turningPass(TURNING_RADIUS)})
+        for (const PathImprover::Pass &pass : {passOf(0.5 * TURNING_RADIUS), passOf(1.0), passOf(TURNING_RADIUS, 0.3),
+                                               passOf(TURNING_RADIUS, 0.0, true)})
             for (const bool isLimited : {true, false})
             {
                 SCOPED_TRACE(++seed);
@@ -114,17 +107,10 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
                 PathImprover improver(world, curves, cost, CENTRE);
                 const PricedPath before = path;
                 const bool isImproved = improver.improve(path, pass, maxCusps, {});
-                PathImprover again(world, curves, cost, CENTRE);
-                PricedPath other = before;
-                ASSERT_EQ(again.improve(other, pass, maxCusps, {}), isImproved);
-                ASSERT_TRUE(isUnchanged(path, other)) << "deterministic";
+                ASSERT_EQ(isUnchanged(path, before), !isImproved);
+                ++(isImproved ? improved : kept);
                 if (!isImproved)
-                {
-                    ++kept;
-                    ASSERT_TRUE(isUnchanged(path, before));
                     continue;
-                }
-                ++improved;
                 cuspsAdded += path.path.cusps() > original.cusps();
                 ASSERT_LT(path.cost, before.cost);
                 ASSERT_EQ(path.cost, price(cost, path.path, world).cost);
@@ -139,12 +125,12 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
 TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
 {
     // Between two polls a few pairs of poses are joined, by up to some dozens of curves each.
-    constexpr std::uint64_t MAX_QUESTIONS = 5000;
+    constexpr std::uint64_t MAX_QUESTIONS = 3000;
     const ReedsShepp curves(TURNING_RADIUS);
-    std::uint64_t longest = 0;
     std::size_t stopped = 0, refused = 0;
     for (auto [world, original] : somePaths())
-        for (const PathImprover::Pass &pass : {passOf(1.0), passOf(TURNING_RADIUS, 0.3), turningPass(TURNING_RADIUS)})
+        for (const PathImprover::Pass &pass :
+             {passOf(1.0), passOf(TURNING_RADIUS, 0.3), passOf(TURNING_RADIUS, 0.0, true)})
         {
             const CostModel cost = costModel(0.1);
             PathImprover improver(world, curves, cost, CENTRE);
@@ -156,11 +142,10 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
             for (int most = 0; most < polls; most += 1 + polls / 5)
             {
                 path = before;
-                MeasuredStop stop(world, most);
+                MeasuredStop stop{world, afterPolls(most)};
                 ASSERT_FALSE(improver.improve(path, pass, ANY_NUMBER, std::ref(stop)));
                 ASSERT_TRUE(isUnchanged(path, before));
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
-                longest = std::max(longest, stop.maxQuestions());
                 ++stopped;
             }
             world.acceptsPaths = false;
@@ -169,10 +154,7 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
             ASSERT_TRUE(isUnchanged(path, before));
             // A world that has no more time finds nothing free, and nothing near.
             world.lastQuestion = world.questions + 100 * (refused % 20);
-            if (!improver.improve(path, pass, ANY_NUMBER, {}))
-            {
-                ASSERT_TRUE(isUnchanged(path, before));
-            }
+            ASSERT_TRUE(improver.improve(path, pass, ANY_NUMBER, {}) || isUnchanged(path, before));
             world.lastQuestion = ~std::uint64_t{0};
             ASSERT_EQ(path.cost, price(cost, path.path, world).cost);
             ASSERT_EQ(faultOf(path.path, world, {original.start}, {original.end()}, TURNING_RADIUS), "");
@@ -180,12 +162,11 @@ TEST(PathImprover, stoppedOrRefusedItLeavesThePathAsItWas)
         }
     EXPECT_GT(stopped, 100u);
     EXPECT_GT(refused, 30u);
-    std::printf("gap %lu\n", longest);
 }
 
 TEST(PathImprover, removesADetour)
 {
-    // Round a circle, round a box that is long gone, and forwards past the goal and back.
+    // Round a circle, round a box that is gone, and forwards past the goal and back.
     const double quarter = 0.5 * PI * TURNING_RADIUS, left = 1.0 / TURNING_RADIUS;
     const Path detours[]{
         {{0.0, 0.0, 0.0}, {{0.0, 2.0}, {left, 4.0 * quarter}, {0.0, 8.0}}},
@@ -205,7 +186,7 @@ TEST(PathImprover, removesADetour)
 
 TEST(PathImprover, movesPosesAsideOfObstacles)
 {
-    // Straight past the corner of a box and back into a bay: only moving the cusp gains room.
+    // Straight past a box: no curve between two poses of the path gains clearance.
     DiscCarWorld world({{-10.0, -10.0}, {20.0, 10.0}}, {{{4.0, 1.0}, {7.0, 3.0}}});
     const CostModel cost = costModel(0.3);
     const ReedsShepp curves(TURNING_RADIUS);
@@ -229,13 +210,10 @@ TEST(PathImprover, turnsTheCarRoundWhereThatIsCheaper)
     PricedPath path = price(cost, {{26.0, 0.0, 0.0}, {{0.0, -52.0}}}, world);
     improveFully(improver, path, passOf(TURNING_RADIUS));
     EXPECT_EQ(path.path.cusps(), 0u) << "curves alone cannot";
-    ASSERT_TRUE(improver.improve(path, turningPass(TURNING_RADIUS), ANY_NUMBER, {}));
+    ASSERT_TRUE(improver.improve(path, passOf(TURNING_RADIUS, 0.0, true), ANY_NUMBER, {}));
     EXPECT_EQ(faultOf(path.path, world, {path.path.start}, {{-26.0, 0.0, 0.0}}, TURNING_RADIUS), "");
-    double reverse = 0.0;
-    for (const PathPiece &piece : path.path.pieces)
-        reverse += std::max(0.0, -piece.length);
-    EXPECT_LT(reverse, 15.0);
+    EXPECT_LT(metresInReverse(path.path), 15.0);
     // With no more cusps than it has, it must stay.
     PricedPath kept = price(cost, {{26.0, 0.0, 0.0}, {{0.0, -52.0}}}, world);
-    EXPECT_FALSE(improver.improve(kept, turningPass(TURNING_RADIUS), 0, {}));
+    EXPECT_FALSE(improver.improve(kept, passOf(TURNING_RADIUS, 0.0, true), 0, {}));
 }
