@@ -1,12 +1,14 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace parking::search
@@ -76,4 +78,8 @@ namespace parking::search
 
     /** \brief Prices a path piece by piece. The result is meaningless if the environment wasInterrupted(). */
     PricedPath price(const CostModel &model, Path path, MotionEnvironment &environment);
+
+    /** \brief The same; nothing if \e stop says so meanwhile, or the environment was interrupted. */
+    std::optional<PricedPath> price(const CostModel &model, Path path, MotionEnvironment &environment,
+                                    const StopFunction &stop);
 }  // namespace parking::search

@@ -37,7 +37,7 @@ namespace
             }
     }
 
-    // A motion that is interrupted is looked at again as a whole: with a checker of states, for longer each time.
+    // A node whose expansion is interrupted is expanded again: with more polls each time.
     TEST(PlannerQueries, ContinueAfterATimeOut)
     {
         const std::tuple<Space, const char *, bool> CASES[] = {
@@ -58,7 +58,7 @@ namespace
             Status status = Status::TIMEOUT;
             unsigned int calls = 0;
             for (; status == Status::TIMEOUT && calls < 20000; ++calls)
-                status = problem.solveWithPolls(byStates ? 4 + calls : 4);
+                status = problem.solveWithPolls(4 + calls);
             EXPECT_EQ(status, Status::EXACT_SOLUTION);
             EXPECT_GT(calls, 3u);
             EXPECT_TRUE(problem.path().check());

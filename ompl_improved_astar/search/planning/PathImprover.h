@@ -100,7 +100,7 @@ namespace parking::search
             }
         };
 
-        bool cut(const PricedPath &path, const Pass &pass);
+        bool cut(const PricedPath &path, const Pass &pass, const StopFunction &stop);
         void addStates(const Pass &pass);
         void followPath(std::size_t knot);
         void collectOffers(std::size_t knot, std::size_t lane, const Pass &pass, double max);

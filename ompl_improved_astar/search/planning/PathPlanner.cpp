@@ -119,17 +119,20 @@ namespace parking::search
     /** A path of the search with its costs, which are those that the search has summed up if there is no time. */
     PricedPath PathPlanner::priced(const Path &path, double cost) const
     {
-        PricedPath result = price(search_.cost(), path, *environment_);
-        if (environment_->wasInterrupted())
-            result.cost = cost;
+        if (std::optional<PricedPath> result = price(search_.cost(), path, *environment_, stop_))
+            return *result;
+        CostModel bare = search_.cost();
+        bare.clearanceCost = 0.0;
+        PricedPath result = price(bare, path, *environment_);
+        if (!result.proximity.empty())
+            result.proximity.front() = std::max(0.0, cost - result.cost);
+        result.cost = cost;
         return result;
     }
 
     bool PathPlanner::take(const PricedPath &path)
     {
-        // What looks cheaper and cheaper may do so by being near to obstacles between the samples.
-        if (!(path.cost < best_.cost) || (hasSolution() && search_.cost().prefersClearance() &&
-                                          !(finelySampledCost(path.path) < finelySampledCost(best_.path))))
+        if (!(path.cost < best_.cost) || (hasSolution() && !isCheaperFinelySampled(path.path)))
             return false;
         best_ = path;
         search_.setCostBound(best_.cost);
@@ -137,11 +140,17 @@ namespace parking::search
         return true;
     }
 
-    double PathPlanner::finelySampledCost(const Path &path) const
+    /** Is a path cheaper than the best one where both are sampled finely? What looks cheaper and cheaper may do so by
+        being near to obstacles between the samples. Not if there is no time to find out. */
+    bool PathPlanner::isCheaperFinelySampled(const Path &path) const
     {
         CostModel fine = search_.cost();
         fine.sampleSpacing = FINE_SAMPLES;
-        return price(fine, path, *environment_).cost;
+        if (!fine.prefersClearance())
+            return true;
+        const std::optional<PricedPath> other = price(fine, path, *environment_, stop_),
+                                        best = other ? price(fine, best_.path, *environment_, stop_) : std::nullopt;
+        return best && other->cost < best->cost;
     }
 
     bool PathPlanner::isShortestPossible(const PricedPath &path) const

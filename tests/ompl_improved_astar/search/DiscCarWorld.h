@@ -40,7 +40,6 @@ namespace parking_test
         std::uint64_t roomsAsked{0};                                            ///< how often roomAt() was called
         bool tellsBlocked{false};                                               ///< whether proofs can be had
         std::uint64_t questions{0};                                             ///< asked so far, of any kind
-        std::uint64_t roomsAsked{0};
         std::uint64_t lastQuestion{std::numeric_limits<std::uint64_t>::max()};  ///< what is asked later is interrupted
 
         /** \brief Distance from the point to the nearest obstacle; 0 inside of one. */
