@@ -6,7 +6,7 @@
 
 namespace parking_test
 {
-    /** \brief Stops at so many polls, so that a search that never ends fails its test instead of hanging. */
+    /** \brief Stops after that many polls: a search that never ends fails its test instead of hanging. */
     inline parking::search::StopFunction afterAsking(int times = 300000)
     {
         return [times, asked = 0]() mutable

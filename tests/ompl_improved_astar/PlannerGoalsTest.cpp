@@ -1,4 +1,4 @@
-// Several starts and goals, regions that sample goals, and goals that come while the planner runs.
+// Several starts and goals, regions that sample goals, and goals sampled while the planner runs.
 
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
@@ -61,7 +61,7 @@ namespace
         problem.expectSound();
     }
 
-    /** Every third lies in the wall, or all for a count of zero; of \e count one lies in the start's room. */
+    /** One of \e count lies in the start's room; every third, or all for a count of 0, lie in the wall. */
     SampledRegion::Sampler oneInReachOf(unsigned int count)
     {
         return [count](unsigned int sample)
@@ -81,7 +81,7 @@ namespace
         const struct
         {
             const char *name, *settings;
-            unsigned int inReach;  // one of so many
+            unsigned int inReach;  // one of this many, 0: none valid
             Status::StatusType status;
             Outcome outcome;
             unsigned int minSamples, maxSamples;

@@ -69,7 +69,7 @@ namespace
             expected[row.name] = lastValue(row);
             EXPECT_NE(expected, defaults);
             EXPECT_TRUE(params.setParam(row.name, lastValue(row)));
-            // One sets the others, too.
+            // This one sets others, too.
             EXPECT_TRUE(valuesOf(planner) == expected || row.name == "parameter_set");
             EXPECT_TRUE(planner.parameters() != PlannerParameters());
             EXPECT_TRUE(params.setParam(row.name, defaults.at(row.name)));
@@ -235,14 +235,14 @@ namespace
         for (const char *model : {"motion_model=car", "motion_model=grid8", "motion_model=grid16"})
         {
             std::vector<Pose> first;
-            for (const char *way : {"open_list=binary_heap", "open_list=linear", "obstacle_loading=eager"})
+            for (const char *option : {"open_list=binary_heap", "open_list=linear", "obstacle_loading=eager"})
             {
                 PlanningProblem problem(Space::SE2, GAPS, model);
-                problem.set(way);
+                problem.set(option);
                 ASSERT_EQ(problem.from({LEFT}).to({RIGHT}).solve(), Status::EXACT_SOLUTION);
-                EXPECT_EQ(problem.planner->mapLoadingTime() > 0.0, std::string(way) == "obstacle_loading=eager");
+                EXPECT_EQ(problem.planner->mapLoadingTime() > 0.0, std::string(option) == "obstacle_loading=eager");
                 first = first.empty() ? problem.poses() : first;
-                EXPECT_TRUE(areEqual(problem.poses(), first)) << model << ' ' << way;
+                EXPECT_TRUE(areEqual(problem.poses(), first)) << model << ' ' << option;
             }
         }
     }

@@ -37,7 +37,7 @@ namespace
             }
     }
 
-    // A node whose expansion is interrupted is expanded again: with more polls each time.
+    // With a checker of states an interrupted motion is checked again as a whole, so that each call needs more polls.
     TEST(PlannerQueries, ContinueAfterATimeOut)
     {
         const std::tuple<Space, const char *, bool> CASES[] = {
@@ -144,7 +144,7 @@ namespace
             }
     }
 
-    // A map that changes within the checker is not noticed: clearQuery() tells the planner.
+    // The planner does not notice a map that changes within its checker: the user calls clearQuery().
     TEST(PlannerQueries, TakeInAMapChangedInPlaceWhenCleared)
     {
         double radius = 0.0;
@@ -159,7 +159,7 @@ namespace
         }
     }
 
-    // The way round the long wall to the farther goal is computed again when the bound is asked for.
+    // The bound requires the route round the long wall to the farther goal, which is computed lazily.
     TEST(PlannerQueries, NeverPollAConditionOfACallThatHasReturned)
     {
         const Scene scene = square({box(-1.0, -400.0, 1.0, 390.0), box(-20.0, -298.98, -19.0, -298.0)}, 400.0);

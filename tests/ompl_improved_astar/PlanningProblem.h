@@ -98,7 +98,7 @@ namespace parking_test
         SymmetricDubins
     };
 
-    /** \brief Spaces with parameters, that most tests go through. */
+    /** \brief Spaces and parameters that most tests cover. */
     const std::pair<Space, const char *> VARIANTS[] = {
         {Space::SE2, ""}, {Space::ReedsShepp, ""}, {Space::Dubins, ""}, {Space::SE2, "motion_model=grid8"}};
 
@@ -109,8 +109,9 @@ namespace parking_test
         using Rule = std::function<bool(const Pose &)>;
 
         /** \brief The footprint among obstacles, swept; parameters as in settings(). */
-        PlanningProblem(Space kind, const Scene &scene, const std::string &parameters = "")
-          : PlanningProblem(kind, scene.bounds, parameters)
+        PlanningProblem(Space kind, const Scene &scene, const std::string &parameters = "",
+                        const parking::Vehicle &car = {})
+          : PlanningProblem(kind, scene.bounds, parameters, car)
         {
             setObstacles(scene);
         }
@@ -118,7 +119,7 @@ namespace parking_test
         /** \brief Any rule for the validity of states, with OMPL's own motion validator. */
         PlanningProblem(Space kind, const parking::Box &bounds, const Rule &rule, const std::string &parameters = "",
                         double resolution = 0.002)
-          : PlanningProblem(kind, bounds, parameters)
+          : PlanningProblem(kind, bounds, parameters, parking::Vehicle())
         {
             si->setStateValidityChecker([rule](const ob::State *state) { return rule(parking::poseOf(state)); });
             si->setStateValidityCheckingResolution(resolution);
@@ -256,7 +257,10 @@ namespace parking_test
         std::vector<Pose> starts, goals;
 
     private:
-        PlanningProblem(Space kind, const parking::Box &bounds, const std::string &parameters) : kind_(kind)
+        PlanningProblem(Space kind, const parking::Box &bounds, const std::string &parameters,
+                        const parking::Vehicle &car)
+          : vehicle(car),
+            kind_(kind)
         {
             ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
             const double radius = vehicle.minTurningRadius();
@@ -301,7 +305,7 @@ namespace parking_test
                           [](const Pose &p, const Pose &q) { return p.x == q.x && p.y == q.y && p.yaw == q.yaw; });
     }
 
-    /** \brief Valid where the clearance is positive; counts the questions for either. */
+    /** \brief Valid where the clearance is positive; counts the queries of both. */
     class CountingChecker : public ob::StateValidityChecker
     {
     public:
