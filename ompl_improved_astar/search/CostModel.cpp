@@ -23,7 +23,8 @@ namespace parking::search
             clear = environment.freeLength(from, {piece.curvature, piece.length}, preferredClearance);
         if (clear >= length)
             return 0.0;
-        const double samples = std::min(MAX_SAMPLES, std::ceil((length - clear) / sampleSpacing)), spacing = (length - clear) / samples;
+        const double samples = std::min(MAX_SAMPLES, std::ceil((length - clear) / sampleSpacing)),
+                     spacing = (length - clear) / samples;
         // It is nearer beyond what is known to be clear, or at its beginning, if only between two samples.
         const bool isNearer = clear > 0.0 || !environment.keeps(from, preferredClearance);
         const double floor = isNearer ? std::min(MIN_NEARER, length - clear) : 0.0;
@@ -62,8 +63,7 @@ namespace parking::search
         for (std::size_t i = 0; i < pieces.size(); ++i)
         {
             // Long pieces in parts, so that the clock is looked at in between.
-            const double parts =
-                std::max(1.0, std::ceil(pieces[i].driven() / (MAX_SAMPLES * model.sampleSpacing)));
+            const double parts = std::max(1.0, std::ceil(pieces[i].driven() / (MAX_SAMPLES * model.sampleSpacing)));
             double proximity = 0.0;
             for (double part = 0.0; part < parts && model.prefersClearance(); part += 1.0)
             {

@@ -18,7 +18,10 @@ TEST(StateSpaceEnvironment, AsksNoMoreWhenTheTimeIsUp)
     // With the answer as long as there is time.
     const std::pair<std::function<double()>, double> QUERIES[] = {
         {[&] { return environment.isFree(left); }, 1.0},
-        {[&] { return environment.freeLength(left, {0.0, 18.0}); }, 18.0},
+        {[&] {
+             return environment.freeLength(left, {0.0, 18.0});
+         },
+         18.0},
         {[&] { return environment.keeps(left, 0.5) && !environment.keeps(left, 0.51); }, 1.0},
         {[&] {
              return environment.acceptPath({left, {{0.0, 6.0}, {0.1, 6.0}, {0.0, 2.0}}});
