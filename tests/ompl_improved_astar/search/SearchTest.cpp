@@ -154,7 +154,8 @@ TEST(Search, askedToStopItDoesAndThenSolvesTheSameInEveryDirection)
                     {
                         expanded = stop.isStopped ? expanded : search.expanded();
                         return stop();
-                    });
+                    },
+                    search.expanded() + MAX_EXPANSIONS);
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
                 if (outcome != SearchOutcome::Stopped)
                     break;
@@ -172,11 +173,12 @@ TEST(Search, askedToStopItDoesAndThenSolvesTheSameInEveryDirection)
 TEST(Search, anInterruptedWorldProvesNothing)
 {
     for (const NamedProblem &each : namedProblems())
-        for (const std::uint64_t atOnce : {300u, 1000u, 5000u})
+        for (const std::uint64_t atOnce : {5u, 30u, 1000u})
         {
-            SCOPED_TRACE(testing::Message() << each.name << ", " << atOnce << " questions at once");
+            SCOPED_TRACE(testing::Message() << each.name << ", " << atOnce << " questions at once at most");
             CarProblem problem = each.problem;
             problem.world.tellsBlocked = true;
+            problem.world.tellsRoom = atOnce > 30u;  // else the route takes all of them
             PlannerParameters parameters = carParameters();
             parameters.preferredClearance = atOnce == 1000u ? 0.2 : 0.0;
             Search search;
@@ -188,7 +190,7 @@ TEST(Search, anInterruptedWorldProvesNothing)
             };
             for (int round = 0; round < 100 && outcome == SearchOutcome::Stopped; ++round)
             {
-                problem.world.lastQuestion = problem.world.questions + atOnce;
+                problem.world.lastQuestion = problem.world.questions + static_cast<std::uint64_t>(round) * 7 % atOnce;
                 outcome = search.run(interrupted, MAX_EXPANSIONS);
             }
             problem.world.lastQuestion = std::numeric_limits<std::uint64_t>::max();
