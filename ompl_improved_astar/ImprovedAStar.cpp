@@ -1,21 +1,41 @@
 #include "ompl_improved_astar/ImprovedAStar.h"
 
-#include "ompl_improved_astar/ImprovedAStarQuery.h"
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/GridSmoothing.h"
+#include "ompl_improved_astar/search/planning/PathPlanner.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
 #include "state_validity/ompl/CircleValidityChecker.h"
+#include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
+#include "state_validity/ompl/OmplCompatibility.h"
+#include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
 
+#include <ompl/base/OptimizationObjective.h>
+#include <ompl/base/PlannerData.h>
+#include <ompl/base/SpaceInformation.h>
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/goals/GoalStates.h>
+#include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/Exception.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <typeinfo>
+#include <utility>
+#include <vector>
 
 namespace ob = ompl::base;
 
@@ -23,7 +43,12 @@ namespace ompl::geometric
 {
     namespace
     {
+        using parking::Path;
         using parking::Pose;
+        using parking::search::CarInSpace;
+        using parking::search::MotionEnvironment;
+        using parking::search::PathPlanner;
+        using parking::search::PlanOutcome;
 
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
@@ -31,6 +56,11 @@ namespace ompl::geometric
         constexpr double CHECK_STEP = 0.02;
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
         constexpr double FARTHEST_DUBINS = 1e7;   // coordinates in turning radii
+        constexpr double SAME_POSE = 1e-12;       // metres and radians
+        constexpr double AT_GOAL = 1e-3;  // turning radii: what ends nearer to a goal ends there, but for rounding
+        // Between states of a path where OMPL does not interpolate along the path's own arcs, in turning radii: on a
+        // plain SE2 space it keeps the chord within a hundred-thousandth of the radius of the arc.
+        constexpr double DENSE_SPACING = 0.01;
 
         constexpr unsigned int MAX_GOALS = 16;        // of a region that offers ever more of them
         constexpr unsigned int GOAL_ATTEMPTS = 1000;  // to find a first valid one, or one that can be reached
@@ -74,7 +104,176 @@ namespace ompl::geometric
             region->sampleGoal(state.get());
             return parking::poseOf(state.get());
         }
+
+        /** Metres and radians in one sum. */
+        double deviation(const Pose &a, const Pose &b)
+        {
+            return parking::positionDistance(a, b) + std::abs(parking::wrapAngle(a.yaw - b.yaw));
+        }
+
+        /** In the form that OMPL.app reads: "0,1" for a switch, "min:step:max", or names with commas. */
+        std::string rangeSuggestion(const parking::Parameter &row)
+        {
+            if (std::holds_alternative<bool parking::PlannerParameters::*>(row.member))
+                return "0,1";
+            const parking::ParameterValues &values = row.values;
+            if (values.names == nullptr)
+                return parking::formatNumber(values.allowsZero ? 0.0 : values.min) + ":" +
+                       parking::formatNumber(values.step) + ":" + parking::formatNumber(values.max);
+            std::string names;
+            for (const std::string &name : values.names())
+                names += (names.empty() ? "" : ",") + name;
+            return names;
+        }
     }  // namespace
+
+    /** What belongs to one query, and the memory that outlives it. */
+    struct ImprovedAStar::Query
+    {
+        std::optional<parking::CurveSpace> space;  ///< set by setup()
+
+        /** \brief With an FclFootprintChecker and a model that does not turn on the spot; otherwise null. */
+        std::unique_ptr<parking::FootprintEnvironment> footprintEnvironment;
+
+        /** \brief The world where there is no footprintEnvironment, and for its last word. */
+        std::unique_ptr<parking::StateSpaceEnvironment> stateEnvironment;
+
+        PathPlanner planner;                        ///< does the planning
+        CarInSpace car;                             ///< what the planner has to know of car and space
+        bool turnsOnTheSpot{false};                 ///< the motion model's paths do
+        bool begun{false};                          ///< whether the planner was told of this query
+        parking::PlannerParameters parameters;      ///< those that the query was begun with
+        base::GoalPtr goal;                         ///< the one that the query was begun for
+        base::StateValidityCheckerPtr checker;      ///< likewise; the environments ask it
+        base::MotionValidatorPtr validator;         ///< likewise
+        std::vector<Pose> starts,                   ///< valid ones, as far as they were read
+            goals;                                  ///< likewise
+        unsigned int otherGoals{0};                 ///< asked of a region since none of the first can be reached
+        std::optional<Pose> fallbackTarget;         ///< a goal to come near to when none is valid
+        PlanOutcome outcome{PlanOutcome::Timeout};  ///< of the last solve()
+        std::string reason;                         ///< why there is no solution, where known
+        bool hasSolution{false};                    ///< there is an exact one: path
+        Path path;                                  ///< the best one by the problem's objective
+        double plannedCost{INFINITE};               ///< of path, by the planner's own model
+        double proximity{0.0};                      ///< of that, for being near to obstacles
+        std::vector<Pose> states;                   ///< of it, for OMPL
+        base::Cost bestCost{INFINITE};              ///< of path
+        base::OptimizationObjectivePtr objective;   ///< that bestCost is of; none: length and proximity, in metres
+        std::vector<Pose> solution;                 ///< what was reported last, when it was exact
+        base::SpaceInformationPtr si;               ///< that of the planner
+        std::array<std::vector<base::State *>, 3> dataStates;  ///< of both frontiers and of the solution
+
+        /** \brief A query that has not begun. */
+        explicit Query(base::SpaceInformationPtr information) : si(std::move(information))
+        {
+        }
+
+        Query(const Query &) = delete;
+        Query &operator=(const Query &) = delete;
+
+        ~Query()
+        {
+            freeDataStates();
+        }
+
+        /** \brief Is the space a plain SE2 space? */
+        bool isPlain() const
+        {
+            return space->kind() == parking::SpaceKind::SE2;
+        }
+
+        /** \brief Smallest turning radius in metres: the space's own or, on a plain SE2 space, the parameter. */
+        double turningRadius() const
+        {
+            return isPlain() ? parameters.turningRadius : space->turningRadius();
+        }
+
+        /** \brief How far apart the states of a path may be in this space. */
+        parking::StateSpacing stateSpacing() const
+        {
+            const double radius = turningRadius();
+            if (turnsOnTheSpot)
+                return {parking::search::SMOOTH_STATE_SPACING, parking::search::SMOOTH_STATE_SPACING, 1.0 / radius,
+                        &*space};
+            return {isPlain() ? DENSE_SPACING * radius : 0.0, DENSE_SPACING * radius, 1.0 / radius, &*space};
+        }
+
+        /** \brief Ends the query; what depends on the space only is kept, and memory too. */
+        void forget()
+        {
+            freeDataStates();
+            begun = false;
+            goal.reset();
+            starts.clear();
+            goals.clear();
+            otherGoals = 0;
+            fallbackTarget.reset();
+            hasSolution = false;
+            outcome = PlanOutcome::Timeout;
+            reason.clear();
+            solution.clear();
+            bestCost = base::Cost(INFINITE);
+            objective.reset();
+        }
+
+        /** \brief Frees the states that planner data was given. */
+        void freeDataStates()
+        {
+            for (std::vector<base::State *> &group : dataStates)
+            {
+                for (base::State *state : group)
+                    if (state != nullptr)
+                        si->freeState(state);
+                group.clear();
+            }
+        }
+
+        /** The state that stands for a node in planner data: the same one each time, so that data handed out before
+            stays valid until the query ends. */
+        base::State *dataState(std::size_t group, std::size_t index, const Pose &pose)
+        {
+            std::vector<base::State *> &known = dataStates[group];
+            if (known.size() <= index)
+                known.resize(index + 1, nullptr);
+            if (known[index] == nullptr)
+                known[index] = si->allocState();
+            parking::setPose(known[index], pose);
+            return known[index];
+        }
+    };
+
+    void ImprovedAStar::setParameters(const parking::PlannerParameters &parameters)
+    {
+        try
+        {
+            parking::checkParameters(parameters);
+        }
+        catch (const parking::Error &error)
+        {
+            throw Exception(getName(), error.what());
+        }
+        parameters_ = parameters;
+    }
+
+    void ImprovedAStar::declareParameters()
+    {
+        const auto declare = [this](const parking::Parameter &row, const auto member)
+        {
+            using Value = std::decay_t<decltype(parameters_.*member)>;
+            const auto set = [this, member, isSet = row.name == "parameter_set"](Value value)
+            {
+                parking::PlannerParameters changed = parameters_;
+                changed.*member = std::move(value);
+                setParameters(changed);
+                if (isSet)
+                    parameters_ = parking::parameterSet(parameters_.parameterSet, parameters_);
+            };
+            params_.declareParam<Value>(row.name, set, [this, member] { return parameters_.*member; });
+            params_[row.name].setRangeSuggestion(rangeSuggestion(row));
+        };
+        for (const parking::Parameter &row : parking::parameterTable())
+            std::visit([&](const auto member) { declare(row, member); }, row.member);
+    }
 
     ImprovedAStar::ImprovedAStar(const ob::SpaceInformationPtr &si)
       : ob::Planner(si, "ImprovedAStar"),
@@ -168,11 +367,11 @@ namespace ompl::geometric
             });
         query_->footprintEnvironment.reset();
 
-        parking::search::CarInSpace &car = query_->car;
+        CarInSpace &car = query_->car;
         car = {};
         car.bounds = bounds;
         query_->turnsOnTheSpot = parking::search::turnsOnTheSpot(parameters_.motionModel);
-        parking::search::MotionEnvironment *environment = query_->stateEnvironment.get();
+        MotionEnvironment *environment = query_->stateEnvironment.get();
         if (footprint && !query_->turnsOnTheSpot)
         {
             const parking::FootprintChecker &checker = footprint->footprint();
@@ -219,7 +418,7 @@ namespace ompl::geometric
         {
             OMPL_ERROR("%s: There are no valid initial states", getName().c_str());
             failure = ob::PlannerStatus::INVALID_START;
-            query_->outcome = parking::search::PlanOutcome::InvalidStart;
+            query_->outcome = PlanOutcome::InvalidStart;
             return false;
         }
         const GoalReading reading = readGoals(*region, ptc);
@@ -231,7 +430,7 @@ namespace ompl::geometric
         if (reading == GoalReading::NoneValid)
         {
             query_->fallbackTarget = anyGoal(*pdef_->getGoal(), si_);
-            query_->outcome = parking::search::PlanOutcome::InvalidGoal;
+            query_->outcome = PlanOutcome::InvalidGoal;
             query_->reason = "no goal is valid";
             if (!query_->fallbackTarget || !parameters_.approximate)
             {
@@ -321,7 +520,7 @@ namespace ompl::geometric
         checkValidity();
         if (query_->begun && !isSameQuery())
             clearQuery();
-        query_->outcome = parking::search::PlanOutcome::Timeout;
+        query_->outcome = PlanOutcome::Timeout;
         query_->reason.clear();
         if (ptc && !query_->hasSolution)
             return ob::PlannerStatus::TIMEOUT;
@@ -359,12 +558,12 @@ namespace ompl::geometric
         return query_->footprintEnvironment ? query_->footprintEnvironment->counts().byContactTest : 0;
     }
 
-    const parking::Path *ImprovedAStar::solutionPath() const
+    const Path *ImprovedAStar::solutionPath() const
     {
         return query_->hasSolution ? &query_->path : nullptr;
     }
 
-    parking::search::PlanOutcome ImprovedAStar::outcome() const
+    PlanOutcome ImprovedAStar::outcome() const
     {
         return query_->outcome;
     }
@@ -376,7 +575,272 @@ namespace ompl::geometric
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return query_->hasSolution ? query_->planner.suboptimalityBound(query_->plannedCost)
-                                   : std::numeric_limits<double>::infinity();
+        return query_->hasSolution ? query_->planner.suboptimalityBound(query_->plannedCost) : INFINITE;
+    }
+
+    Path ImprovedAStar::smoothed(const Path &path, const ob::PlannerTerminationCondition &ptc) const
+    {
+        Path result = path;
+        if (query_->turnsOnTheSpot && parameters_.smoothing == "bspline")
+            parking::search::smoothGridPath(result, *query_->stateEnvironment, query_->car.turningRadius,
+                                            [&ptc] { return ptc(); });
+        return result;
+    }
+
+    std::shared_ptr<PathGeometric> ImprovedAStar::geometricPath(const std::vector<Pose> &poses) const
+    {
+        auto path = std::make_shared<PathGeometric>(si_);
+        ob::ScopedState<> state(si_);
+        for (const Pose &pose : poses)
+        {
+            parking::setPose(state.get(), pose);
+            path->append(state.get());
+        }
+        return path;
+    }
+
+    ob::Cost ImprovedAStar::costOf(const Path &path, const PathGeometric &geometric, double proximity) const
+    {
+        if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
+            return geometric.cost(objective);
+        // Without an objective of the problem's, room to the obstacles counts as the parameters say. No objective is
+        // stored in the problem definition, where it would change what other planners do with it. On a curve space OMPL
+        // would look for each piece's shortest curve to find out what is known here.
+        const double length = query_->isPlain() ? geometric.length() : path.length();
+        return ob::Cost(length + proximity);
+    }
+
+    void ImprovedAStar::priceAnew()
+    {
+        if (!query_->hasSolution || query_->objective == pdef_->getOptimizationObjective())
+            return;
+        query_->objective = pdef_->getOptimizationObjective();
+        query_->bestCost = costOf(query_->path, *geometricPath(query_->states), query_->proximity);
+        bestCost_.store(query_->bestCost.value(), std::memory_order_relaxed);
+    }
+
+    bool ImprovedAStar::takeImprovement(const Path &found, double plannedCost,
+                                        const ob::PlannerTerminationCondition &ptc)
+    {
+        const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
+        const Path path = smoothed(found, ptc);
+        const std::vector<Pose> states = parking::pathStates(path, query_->stateSpacing());
+        const std::shared_ptr<PathGeometric> geometric = geometricPath(states);
+        const double proximity = query_->planner.proximityOfBest();
+        const ob::Cost cost = costOf(path, *geometric, proximity);
+        if (query_->hasSolution && !(objective ? objective->isCostBetterThan(cost, query_->bestCost)
+                                               : cost.value() < query_->bestCost.value()))
+            return false;
+        query_->hasSolution = true;
+        query_->path = path;
+        query_->plannedCost = plannedCost;
+        query_->proximity = proximity;
+        query_->states = states;
+        query_->bestCost = cost;
+        query_->objective = objective;
+        bestCost_.store(cost.value(), std::memory_order_relaxed);
+        if (const ob::ReportIntermediateSolutionFn &report = pdef_->getIntermediateSolutionCallback())
+        {
+            // Goal first, without the ends, as OMPL's planners do.
+            std::vector<const ob::State *> reported;
+            for (std::size_t i = geometric->getStateCount(); i-- > 0;)
+                reported.push_back(geometric->getState(i));
+            report(this, reported, cost);
+        }
+        return objective && objective->isSatisfied(cost);
+    }
+
+    ob::PlannerStatus ImprovedAStar::search(const ob::PlannerTerminationCondition &ptc)
+    {
+        const auto stop = [this, &ptc]
+        {
+            expanded_.store(query_->planner.expanded(), std::memory_order_relaxed);
+            return ptc();
+        };
+        const auto improved = [this, &ptc](const Path &path, double cost)
+        {
+            return takeImprovement(path, cost, ptc);
+        };
+        using Outcome = PathPlanner::Outcome;
+        Outcome outcome = query_->goals.empty() ? Outcome::Stopped : query_->planner.solve(stop, improved);
+        // That one goal cannot be reached says nothing of those that nobody has asked for yet.
+        while (outcome == Outcome::Exhausted && readAnotherGoal(ptc))
+            outcome = query_->planner.solve(stop, improved);
+        if (outcome == Outcome::Exhausted && mayHaveOtherGoals())
+            query_->reason = "none of the " + std::to_string(query_->goals.size()) +
+                             " goals that were sampled can be reached; others may be";
+        else if (outcome == Outcome::Exhausted)
+        {
+            query_->outcome = PlanOutcome::Infeasible;
+            query_->reason = parking::search::reasonOf(query_->planner.search().exhaustion(), query_->car);
+        }
+        else if (query_->planner.search().isFull())
+            query_->reason = parking::search::outOfMemory(parameters_);
+        expanded_ = query_->planner.expanded();
+        if (query_->hasSolution)
+        {
+            query_->outcome = PlanOutcome::Solved;
+            query_->reason.clear();
+            return report(query_->states, false);
+        }
+        if (parameters_.approximate)
+            if (const ob::PlannerStatus status = approach(ptc, stop))
+                return status;
+        return query_->outcome == PlanOutcome::Infeasible
+                   ? parking::ompl_compatibility::infeasible<ob::PlannerStatus>(0)
+                   : ob::PlannerStatus(ob::PlannerStatus::TIMEOUT);
+    }
+
+    ob::PlannerStatus ImprovedAStar::approach(const ob::PlannerTerminationCondition &ptc,
+                                              const parking::search::StopFunction &stop)
+    {
+        Path nearest;
+        const Pose target = query_->goals.empty() ? *query_->fallbackTarget : query_->goals.front();
+        const bool hasPath = query_->planner.approximate(target, stop, nearest);
+        expanded_ = query_->planner.expanded();
+        if (!hasPath)
+            return ob::PlannerStatus::TIMEOUT;
+        std::vector<Pose> states = parking::pathStates(smoothed(nearest, ptc), query_->stateSpacing());
+        // Up to where the motion validator agrees. With a checker that takes long there is no time for that once the
+        // planner has been told to stop.
+        if (!query_->turnsOnTheSpot && (query_->footprintEnvironment || !ptc))
+            for (std::size_t i = 1; i < states.size(); ++i)
+                if (!query_->stateEnvironment->isMotionFree(states[i - 1], states[i]))
+                    states.resize(i);
+        if (query_->outcome == PlanOutcome::Timeout)
+            query_->outcome = PlanOutcome::Approximate;
+        return report(states, true);
+    }
+
+    double ImprovedAStar::differenceFromGoal(const ob::State *state) const
+    {
+        double difference = INFINITE;
+        const ob::Goal &goal = *pdef_->getGoal();
+        if (!goal.hasType(ob::GOAL_STATE) && !goal.hasType(ob::GOAL_STATES))
+        {
+            goal.isSatisfied(state, &difference);
+            return difference;
+        }
+        // Asked itself, the goal would measure the distance to all of its states, at which OMPL ends the program where
+        // one is out of bounds. A yaw of just pi is.
+        const std::vector<Pose> targets =
+            query_->goals.empty() ? std::vector<Pose>{*query_->fallbackTarget} : query_->goals;
+        ob::ScopedState<> target(si_);
+        for (const Pose &pose : targets)
+        {
+            parking::setPose(target.get(), pose);
+            si_->enforceBounds(target.get());
+            difference = std::min(difference, si_->distance(state, target.get()));
+        }
+        return difference;
+    }
+
+    bool ImprovedAStar::isAtGoal(const Pose &pose) const
+    {
+        return std::any_of(query_->goals.begin(), query_->goals.end(),
+                           [&](const Pose &goal) { return deviation(goal, pose) < AT_GOAL * query_->turningRadius(); });
+    }
+
+    void ImprovedAStar::endAtGoal(std::vector<Pose> &poses) const
+    {
+        // The exact goal; the path ends there up to rounding.
+        const Pose end = poses.back();
+        const Pose goal =
+            *std::min_element(query_->goals.begin(), query_->goals.end(),
+                              [&end](const Pose &a, const Pose &b) { return deviation(a, end) < deviation(b, end); });
+        if (poses.size() == 1)
+            poses.push_back(end);
+        // Turns on the spot there begin at the same place. (Of a car's path the last piece may be as short, but OMPL
+        // must not take it for a turn on the spot.)
+        for (std::size_t i = poses.size();
+             i-- > 1 && query_->turnsOnTheSpot && positionDistance(poses[i], goal) <= 1e-6;)
+            poses[i] = {goal.x, goal.y, poses[i].yaw};
+        poses.back() = goal;
+        // With the last digits of another end.
+        poses = parking::straightened(std::move(poses), *query_->space);
+    }
+
+    ob::PlannerStatus ImprovedAStar::report(std::vector<Pose> poses, bool approximate)
+    {
+        if (!approximate)
+            endAtGoal(poses);
+        const std::shared_ptr<PathGeometric> path = geometricPath(poses);
+        query_->solution.clear();
+        if (!approximate)
+            query_->solution = std::move(poses);
+        double difference = 0.0;
+        if (approximate)
+            difference = differenceFromGoal(path->getState(path->getStateCount() - 1));
+        // OMPL would look for each piece's shortest curve to find out the length, which is known here.
+        ob::PlannerSolution solution(nullptr);
+        solution.path_ = path;
+        solution.length_ = approximate || query_->isPlain() ? path->length() : query_->path.length();
+        solution.setPlannerName(getName());
+        if (approximate)
+            solution.setApproximate(difference);
+        if (const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective())
+        {
+            // Of a solution it is known already, and takes its time on a curve space.
+            const bool known = !approximate && query_->objective == objective;
+            const ob::Cost cost = known ? query_->bestCost : path->cost(objective);
+            solution.setOptimized(objective, cost, !approximate && objective->isSatisfied(cost));
+        }
+        pdef_->addSolutionPath(solution);
+        OMPL_DEBUG("%s: %s path of %zu states after %llu expansions", getName().c_str(),
+                   approximate ? "approximate" : "exact", path->getStateCount(),
+                   static_cast<unsigned long long>(expanded_.load()));
+        return approximate ? ob::PlannerStatus::APPROXIMATE_SOLUTION : ob::PlannerStatus::EXACT_SOLUTION;
+    }
+
+    void ImprovedAStar::getPlannerData(ob::PlannerData &data) const
+    {
+        Planner::getPlannerData(data);
+        if (!query_->begun)
+            return;
+        // Nodes may be cheaper ones in the place of others, so that a parent may come after its child.
+        struct Node
+        {
+            ob::State *state;
+            std::uint32_t parent;
+        };
+        std::vector<Node> frontiers[2];
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+        {
+            const parking::search::Search &search = std::as_const(query_->planner).search();
+            const auto &nodes =
+                search.frontier(side == 0 ? parking::search::Side::Start : parking::search::Side::Goal).nodes();
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                frontiers[side].push_back({query_->dataState(side, i, nodes[i].pose), nodes[i].parent});
+        }
+
+        ob::State *ends[2] = {nullptr, nullptr};
+        for (int side = 0; side < 2; ++side)
+            for (const Node &node : frontiers[side])
+            {
+                if (node.state == nullptr)
+                    continue;
+                const ob::PlannerDataVertex vertex(node.state, side + 1);
+                if (node.parent == parking::search::NO_NODE)
+                {
+                    side == 0 ? data.addStartVertex(vertex) : data.addGoalVertex(vertex);
+                    const std::vector<Pose> &solution = query_->solution;
+                    if (!solution.empty() && parking::isSamePose(side == 0 ? solution.front() : solution.back(),
+                                                                 parking::poseOf(node.state), SAME_POSE))
+                        ends[side] = node.state;
+                    continue;
+                }
+                const ob::PlannerDataVertex parent(frontiers[side][node.parent].state, side + 1);
+                side == 0 ? data.addEdge(parent, vertex) : data.addEdge(vertex, parent);
+            }
+        // The solution itself, whose curves are in neither frontier.
+        if (ends[0] == nullptr || ends[1] == nullptr)
+            return;
+        for (std::size_t i = 1; i < query_->solution.size(); ++i)
+        {
+            const bool last = i + 1 == query_->solution.size();
+            ob::State *next = last ? ends[1] : query_->dataState(2, i, query_->solution[i]);
+            data.addEdge(ob::PlannerDataVertex(ends[0]), ob::PlannerDataVertex(next));
+            ends[0] = next;
+        }
     }
 }  // namespace ompl::geometric

@@ -110,14 +110,19 @@ namespace parking
 
     bool StateSpaceEnvironment::isTimeUp()
     {
-        if (questions_++ % QUESTIONS_BETWEEN_STOPS == 0)
-            interrupted_ = interrupted_ || (stop_ && stop_());
+        interrupted_ = interrupted_ || (stop_ && stop_());
         return interrupted_;
+    }
+
+    /** Is it time to stop before another question that takes no longer than the validity of a state? */
+    bool StateSpaceEnvironment::isTimeUpNowAndThen()
+    {
+        return questions_++ % QUESTIONS_BETWEEN_STOPS == 0 ? isTimeUp() : interrupted_;
     }
 
     bool StateSpaceEnvironment::isFree(const Pose &pose)
     {
-        if (isTimeUp())
+        if (isTimeUpNowAndThen())
             return false;
         ++checkedStates_;
         setPose(state_.get(), pose);
@@ -126,7 +131,7 @@ namespace parking
 
     bool StateSpaceEnvironment::keeps(const Pose &pose, double clearance)
     {
-        if (!clearanceKnown_ || isTimeUp())
+        if (!clearanceKnown_ || isTimeUpNowAndThen())
             return false;
         setPose(state_.get(), pose);
         return si_->getStateValidityChecker()->clearance(state_.get()) >= clearance;

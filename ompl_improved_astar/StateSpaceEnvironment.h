@@ -101,6 +101,7 @@ namespace parking
 
     private:
         bool isTimeUp();
+        bool isTimeUpNowAndThen();
 
         ompl::base::SpaceInformationPtr si_;
         double step_;

@@ -13,7 +13,6 @@ namespace parking
     {
         // On the size of cells: rounding of coordinates within a few kilometres of the frame, with room to spare.
         constexpr double HAIR = 1e-9;
-        constexpr double HALF_DIAGONAL = 0.70710678118654753;  // of a square, in sides
 
         /** How far a point of the body is moved at the most, along either of its axes, by where the body stands in the
             cell. */
@@ -26,15 +25,14 @@ namespace parking
         }
     }  // namespace
 
-    FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings)
-      : checker_(checker),
-        halfLength_(0.5 * checker.vehicle().length() + checker.margin()),
-        halfWidth_(0.5 * checker.vehicle().width + checker.margin())
+    FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings) : checker_(checker)
     {
         Require("cells of footprints").positive("side", side, "metres");
         if (headings < 8 || headings > MOST_HEADINGS)
             throw Error("cells of footprints need 8 to " + std::to_string(MOST_HEADINGS) + " headings, not " +
                         std::to_string(headings));
+        const double halfLength = 0.5 * checker.vehicle().length() + checker.margin(),
+                     halfWidth = 0.5 * checker.vehicle().width + checker.margin();
         const double halfTurn = PI / headings + HAIR, sine = std::sin(halfTurn);
         circumradius_ = inradius_ = 0.0;
         for (int i = 0; i < headings; ++i)
@@ -43,8 +41,8 @@ namespace parking
             // A point of the box is seen from a body that stands and points elsewhere in the cell as moved by the
             // distance along the body's axes, and as turned about its middle.
             const double shift = shiftIn(side, yaw, halfTurn);
-            const double length = halfLength_ - shift - halfWidth_ * sine;
-            const double width = halfWidth_ - shift - halfLength_ * sine;
+            const double length = halfLength - shift - halfWidth * sine;
+            const double width = halfWidth - shift - halfLength * sine;
             cannotTell_ = cannotTell_ || length <= 0.0 || width <= 0.0;
             const double local = yaw - checker.obstacles().frame().yaw;
             Body body{std::cos(local), std::sin(local), {}};
@@ -85,38 +83,5 @@ namespace parking
             if (anywhere || isBlocked(bodies_[i], local.x, local.y))
                 bits[i / 64] |= std::uint64_t{1} << (i % 64);
         return bits;
-    }
-
-    /** The body at the cell's middle, in local coordinates, larger (\e sign of 1) or smaller (-1) on all sides by what
-        its points move within the cell. */
-    OrientedBox FootprintCells::boxIn(const PoseCell &cell, double sign) const
-    {
-        const double halfTurn = cell.halfTurn + HAIR, sine = std::sin(std::min(halfTurn, 0.5 * PI));
-        const double shift = shiftIn(cell.side, cell.middle.yaw, halfTurn);
-        const Pose local = checker_.obstacles().toLocal(cell.middle);
-        return bodyAt(local, 0.0, halfLength_ + sign * (shift + halfWidth_ * sine),
-                      halfWidth_ + sign * (shift + halfLength_ * sine));
-    }
-
-    bool FootprintCells::touchThroughout(const PoseCell &cell) const
-    {
-        if (!isFinite(cell.middle))
-            return true;
-        const OrientedBox box = boxIn(cell, -1.0);
-        const double inscribed = std::min(halfLength_, halfWidth_);
-        if (checker_.field().upperBound(box.x, box.y) + HALF_DIAGONAL * cell.side + HAIR < inscribed)
-            return true;
-        return box.halfLength > 0.0 && box.halfWidth > 0.0 && checker_.side(box) < 0;
-    }
-
-    bool FootprintCells::areFreeThroughout(const PoseCell &cell) const
-    {
-        if (!isFinite(cell.middle))
-            return false;
-        const OrientedBox box = boxIn(cell, 1.0);
-        const DistanceField::Bounds room = checker_.field().bounds(box.x, box.y);
-        if (room.lower - HALF_DIAGONAL * cell.side - HAIR > std::hypot(halfLength_, halfWidth_))
-            return true;
-        return room.upper >= std::min(box.halfLength, box.halfWidth) && checker_.side(box) > 0;
     }
 }  // namespace parking

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "parking_geometry/PoseCell.h"
 #include "state_validity/FootprintChecker.h"
 
 #include <array>
@@ -34,16 +33,6 @@ namespace parking
             the problem. All are blocked for coordinates that are not finite. */
         Headings blocked(double x, double y) const;
 
-        /** \brief Does the body touch an obstacle wherever it is in the cell? A yes is proven; a no says nothing.
-
-            By the edges of the obstacles, not by circles: closer than blocked(), and dearer for a single cell.
-            \param cell of the body's middle, of any size, in the coordinates of the problem; yes for one whose middle
-            is not finite */
-        bool touchThroughout(const PoseCell &cell) const;
-
-        /** \brief Is the body free of obstacles wherever it is in the cell? A yes is proven; a no says nothing. */
-        bool areFreeThroughout(const PoseCell &cell) const;
-
     private:
         struct Circle
         {
@@ -59,10 +48,8 @@ namespace parking
         };
 
         bool isBlocked(const Body &body, double x, double y) const;
-        OrientedBox boxIn(const PoseCell &cell, double sign) const;
 
         const FootprintChecker &checker_;
-        double halfLength_, halfWidth_;  // of the body, margin included
         std::vector<Body> bodies_;
         bool cannotTell_{false};  // the cells are as wide as the body
         double circumradius_, inradius_;

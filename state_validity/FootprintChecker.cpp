@@ -192,14 +192,6 @@ namespace parking
         return obstacles_.covers(box.x, box.y);
     }
 
-    int FootprintChecker::side(const OrientedBox &local) const
-    {
-        const int side = edges_.side(local, CONTACT_BAND);
-        if (side > 0 && isInsideObstacle(local))
-            return -1;
-        return side > 0 && std::hypot(local.halfLength, local.halfWidth) > edges_.reach() ? 0 : side;
-    }
-
     double FootprintChecker::clearance(const Pose &pose) const
     {
         CheckCounts counts;
@@ -273,32 +265,6 @@ namespace parking
         return clearance <= CLEARANCE_REACH && edges_.isSeparate(box, clearance + ROUNDING) && !isInsideObstacle(box);
     }
 
-    std::size_t FootprintChecker::countNearer(const Pose &from, const Arc &arc, const ArcSamples &samples,
-                                              double clearance, std::size_t most, CheckCounts &counts) const
-    {
-        if (samples.count == 0)
-            return 0;
-        const Pose first = advance(from, arc.curvature, std::copysign(samples.first, arc.length));
-        if (!isFinite(first) || !std::isfinite(samples.apart))
-        {
-            counts.states += samples.count;
-            return samples.count;
-        }
-        OrientedBox box = boxAt(obstacles_.toLocal(first));
-        const double apart = std::copysign(samples.apart, arc.length), half = 0.5 * arc.curvature * apart;
-        const double cosine = std::cos(half), sine = std::sin(half);
-        const double chord = std::abs(half) < 1e-6 ? apart : apart * sine / half;
-        std::size_t nearer = 0;
-        for (std::size_t i = 0;;)
-        {
-            if (!keeps(box, clearance, counts))
-                ++nearer;
-            if (++i == samples.count || nearer > most)
-                return nearer;
-            drive(box, chord, cosine, sine);
-        }
-    }
-
     double FootprintChecker::exactClearance(const Pose &pose) const
     {
         if (!isFree(pose))
@@ -353,13 +319,6 @@ namespace parking
         start.enlargement =
             separation <= CONTACT_BAND || isInsideObstacle(box) ? -1.0 : std::min(tolerance, separation / CORNER);
         return start;
-    }
-
-    FootprintChecker::SweepStart FootprintChecker::clearSweepStart(const Pose &from, double tolerance,
-                                                                   CheckCounts &counts) const
-    {
-        ++counts.states;
-        return {boxAt(obstacles_.toLocal(from)), tolerance, tolerance, -1.0};
     }
 
     double FootprintChecker::freeLength(const SweepStart &start, double curvature, double length,

@@ -103,27 +103,6 @@ namespace parking
         /** \brief Is clearance() at least so many metres? Cheaper than asking how large it is. */
         bool keeps(const Pose &pose, double clearance, CheckCounts &counts) const;
 
-        /** \brief Poses along an arc, each as far from the one before. */
-        struct ArcSamples
-        {
-            double first;       ///< metres driven up to the first of them, not negative
-            double apart;       ///< metres from one to the next
-            std::size_t count;  ///< of them
-        };
-
-        /** \brief How many of the poses along an arc do not keep a clearance; see keeps().
-
-            \param most more than so many need not be counted */
-        std::size_t countNearer(const Pose &from, const Arc &arc, const ArcSamples &samples, double clearance,
-                                std::size_t most, CheckCounts &counts) const;
-
-        /** \brief On which side of contact a box is that is larger or smaller than the body: 1 when it touches no
-            obstacle, -1 when it does, 0 when that cannot be told.
-
-            \param local in the local frame; how far from its centre obstacles are looked for is enough for boxes whose
-            corners are up to a metre farther out than the body's, and larger ones are never found to touch nothing */
-        int side(const OrientedBox &local) const;
-
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
            reports: dear where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;
@@ -161,9 +140,6 @@ namespace parking
 
         /** \brief Prepares a pose. \param tolerance as for freeLength() */
         SweepStart sweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
-
-        /** \brief Prepares a pose at which the body, enlarged by the tolerance, is known to touch nothing. */
-        SweepStart clearSweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
 
         /** \brief freeLength() from a prepared pose: the same result, without looking at the pose again. */
         double freeLength(const SweepStart &start, double curvature, double length, CheckCounts &counts) const;

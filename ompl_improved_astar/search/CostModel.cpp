@@ -6,6 +6,13 @@
 
 namespace parking::search
 {
+    namespace
+    {
+        constexpr double MAX_SAMPLES = 512.0;  // of one piece, between two polls of a stop function
+        constexpr double MIN_NEARER =
+            0.25;  // metres that count as nearer than preferred where the clearance is not kept
+    }              // namespace
+
     double CostModel::proximity(const Pose &from, const PathPiece &piece, MotionEnvironment &environment, double clear,
                                 double max) const
     {
@@ -16,15 +23,16 @@ namespace parking::search
             clear = environment.freeLength(from, {piece.curvature, piece.length}, preferredClearance);
         if (clear >= length)
             return 0.0;
-        const double samples = std::ceil((length - clear) / sampleSpacing), spacing = (length - clear) / samples;
-        // Where the environment knows how far it is clear, it is nearer beyond, if only between two samples.
-        const double floor = clear > 0.0 ? 1.0 : 0.0, perSample = clearanceCost * spacing;
+        const double samples = std::min(MAX_SAMPLES, std::ceil((length - clear) / sampleSpacing)), spacing = (length - clear) / samples;
+        // It is nearer beyond what is known to be clear, or at its beginning, if only between two samples.
+        const bool isNearer = clear > 0.0 || !environment.keeps(from, preferredClearance);
+        const double floor = isNearer ? std::min(MIN_NEARER, length - clear) : 0.0;
         double nearer = 0.0;
-        for (double i = 0.5; i < samples && std::max(floor, nearer) * perSample <= max; i += 1.0)
+        for (double i = 0.5; i < samples && clearanceCost * std::max(floor, nearer) <= max; i += 1.0)
             if (!environment.keeps(advance(from, piece.curvature, std::copysign(clear + i * spacing, piece.length)),
                                    preferredClearance))
-                nearer += 1.0;
-        return std::max(floor, nearer) * perSample;
+                nearer += spacing;
+        return clearanceCost * std::max(floor, nearer);
     }
 
     double curveCost(const CostModel &model, const ReedsSheppCurve &curve, const PathPiece *before,
@@ -45,18 +53,34 @@ namespace parking::search
         return std::accumulate(proximity.begin(), proximity.end(), 0.0);
     }
 
-    PricedPath price(const CostModel &model, Path path, MotionEnvironment &environment)
+    std::optional<PricedPath> price(const CostModel &model, Path path, MotionEnvironment &environment,
+                                    const StopFunction &stop)
     {
         PricedPath priced{std::move(path), {}, 0.0};
         Pose pose = priced.path.start;
         const std::vector<PathPiece> &pieces = priced.path.pieces;
         for (std::size_t i = 0; i < pieces.size(); ++i)
         {
-            priced.proximity.push_back(model.proximity(pose, pieces[i], environment));
-            priced.cost += model.drive(pieces[i]) + priced.proximity.back() +
-                           (i > 0 ? model.join(pieces[i - 1], pieces[i]) : 0.0);
+            // Long pieces in parts, so that the clock is looked at in between.
+            const double parts =
+                std::max(1.0, std::ceil(pieces[i].driven() / (MAX_SAMPLES * model.sampleSpacing)));
+            double proximity = 0.0;
+            for (double part = 0.0; part < parts && model.prefersClearance(); part += 1.0)
+            {
+                if (stop && stop())
+                    return std::nullopt;
+                const Pose begin = advance(pose, pieces[i], pieces[i].driven() * part / parts);
+                proximity += model.proximity(begin, {pieces[i].curvature, pieces[i].length / parts}, environment);
+            }
+            priced.proximity.push_back(proximity);
+            priced.cost += model.drive(pieces[i]) + proximity + (i > 0 ? model.join(pieces[i - 1], pieces[i]) : 0.0);
             pose = advance(pose, pieces[i]);
         }
-        return priced;
+        return environment.wasInterrupted() && stop ? std::nullopt : std::optional(std::move(priced));
+    }
+
+    PricedPath price(const CostModel &model, Path path, MotionEnvironment &environment)
+    {
+        return *price(model, std::move(path), environment, {});
     }
 }  // namespace parking::search

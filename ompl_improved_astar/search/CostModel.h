@@ -1,12 +1,14 @@
 #pragma once
 
 #include "ompl_improved_astar/search/MotionEnvironment.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 #include "parking_geometry/Pose.h"
 #include "parking_geometry/curves/Path.h"
 #include "parking_geometry/curves/ReedsShepp.h"
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace parking::search
@@ -22,7 +24,7 @@ namespace parking::search
         double fullLockCurvature{1.0};      ///< 1/m, of full lock
         double preferredClearance{0.0};     ///< metres that the car keeps from obstacles where that is cheap; 0: none
         double clearanceCost{0.0};          ///< extra cost per metre driven nearer than that
-        double sampleSpacing{0.25};         ///< metres between the poses at which the clearance is sampled
+        double sampleSpacing{0.1};          ///< metres between the poses at which the clearance is sampled
 
         /** \brief Cost of driving \e piece in the direction in which the car will drive, wherever it is. */
         double drive(const PathPiece &piece) const
@@ -76,4 +78,8 @@ namespace parking::search
 
     /** \brief Prices a path piece by piece. The result is meaningless if the environment wasInterrupted(). */
     PricedPath price(const CostModel &model, Path path, MotionEnvironment &environment);
+
+    /** \brief The same; nothing if \e stop says so meanwhile, or the environment was interrupted. */
+    std::optional<PricedPath> price(const CostModel &model, Path path, MotionEnvironment &environment,
+                                    const StopFunction &stop);
 }  // namespace parking::search

@@ -15,8 +15,8 @@
 
 namespace parking::search
 {
-    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and its open nodes: a
-        queue, with a list for each level of resolution.
+    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and its open nodes:
+       a queue, with a list for each level of resolution.
 
         A side that is stuck gets further queues, which order the open nodes by other estimates and take turns with the
         first one. Every open node is in the first queue, whatever the others hold. */
@@ -149,8 +149,8 @@ namespace parking::search
         /** \brief The node whose position is nearest to that of \e target; NO_NODE when there is none. */
         NodeIndex nearestTo(const Pose &target) const;
 
-        NodeIndex bestClosed{NO_NODE};  ///< the closed node that the other side is joined with, or aims at
-        double bestClosedCost{0.0};     ///< by which it is the best
+        NodeIndex bestClosed{NO_NODE};             ///< the closed node that the other side is joined with, or aims at
+        double bestClosedCost{0.0};                ///< by which it is the best
         std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
         ExpansionDensity density;                  ///< of the nodes expanded until there was a solution
 

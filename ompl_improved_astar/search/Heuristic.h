@@ -8,8 +8,8 @@
 
 namespace parking::search
 {
-    /** \brief An estimate of the cost from a pose to the nearest of some targets: an interchangeable part of the search.
-        One object for each side. */
+    /** \brief An estimate of the cost from a pose to the nearest of some targets: an interchangeable part of the
+       search. One object for each side. */
     class Heuristic
     {
     public:

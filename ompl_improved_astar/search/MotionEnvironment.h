@@ -63,9 +63,8 @@ namespace parking::search
 
         /** \brief What cells of the body's middle are blocked, for a proof that there is no path.
 
-            \param side of a cell in metres
-            \param headings equal parts of the circle, 8 to 128
-            \return empty when it is not known where the body surely collides */
+            The first argument is the side of a cell in metres, the second the number of equal parts of the circle, 8 to
+            128. Returns an empty function when it is not known where the body surely collides. */
         virtual BlockedHeadings blockedHeadings(double /*side*/, int /*headings*/)
         {
             return {};

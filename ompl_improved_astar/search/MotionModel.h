@@ -96,7 +96,8 @@ namespace parking::search
             return true;
         }
 
-        /** \brief Receives the pieces between two nodes and the cost of the whole path. Returns whether they are taken. */
+        /** \brief Receives the pieces between two nodes and the cost of the whole path. Returns whether they are taken.
+         */
         using Offer = std::function<bool(const PathPiece *pieces, std::size_t count, double cost)>;
 
         /** \brief Offers free connections between a node of the start's side and one of the goal's, the cheapest first,

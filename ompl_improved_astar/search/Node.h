@@ -48,15 +48,15 @@ namespace parking::search
     /** \brief A pose that a search has reached, and how. */
     struct Node
     {
-        Pose pose;                  ///< exact, of the rear axle
-        double g{0.0};              ///< cost of the path between root and node
-        Motion motion;              ///< from the parent
-        float h{0.0f};              ///< estimated cost of the rest of the path
+        Pose pose;                   ///< exact, of the rear axle
+        double g{0.0};               ///< cost of the path between root and node
+        Motion motion;               ///< from the parent
+        float h{0.0f};               ///< estimated cost of the rest of the path
         float densityPenalty{0.0f};  ///< part of its priority, for expansions that were in its place
-        NodeIndex parent{NO_NODE};  ///< NO_NODE for a root
-        std::uint8_t cusps{0};      ///< between root and node, at most ANY_CUSPS
-        std::uint8_t level{0};      ///< the coarsest level on which its cell was free
-        std::uint8_t next{0};       ///< the level on which it is expanded next
+        NodeIndex parent{NO_NODE};   ///< NO_NODE for a root
+        std::uint8_t cusps{0};       ///< between root and node, at most ANY_CUSPS
+        std::uint8_t level{0};       ///< the coarsest level on which its cell was free
+        std::uint8_t next{0};        ///< the level on which it is expanded next
         bool fixed{false};     ///< others may hang on it before it is expanded: a cheaper node must not replace it
         bool farthest{false};  ///< the motion ended for want of reach, not because a shorter step was wanted
 

@@ -164,8 +164,7 @@ namespace parking::search
         if (!parameters_.obstacleHeuristic || !traits_.drivesCurves)
             return;
         Guide &own = guide(side);
-        own.route.begin(context_->environment,
-                        routeResolution(car_.turningRadius, car_.bodyRadius, roots, own.targets),
+        own.route.begin(context_->environment, routeResolution(car_.turningRadius, car_.bodyRadius, roots, own.targets),
                         {car_.inscribedRadius, 0.0, 1.0}, {roots.front().x, roots.front().y}, stop_,
                         tuning::MAX_ROUTE_CELLS);
         for (const Pose &target : own.targets)
@@ -199,8 +198,8 @@ namespace parking::search
         Guide &own = guide(confined_);
         const std::vector<Pose> roots = frontier(confined_).rootPoses();
         return own.hasRoute && !target_ && !roots.empty() &&
-               std::all_of(roots.begin(), roots.end(), [&](const Pose &root)
-                           { return own.route.provesUnreachable(root) && !isStopped(); });
+               std::all_of(roots.begin(), roots.end(),
+                           [&](const Pose &root) { return own.route.provesUnreachable(root) && !isStopped(); });
     }
 
     // Choosing
@@ -477,11 +476,11 @@ namespace parking::search
     {
         const double radius = car_.turningRadius;
         const Pose from = own.node(index).pose;
-        const auto place =
+        const std::optional<Pose> place =
             route.placeOnRoute(from.x, from.y, tuning::LOOKAHEAD * radius, tuning::LOOKAHEAD_HEADING * radius);
         if (!place)
             return NO_NODE;
-        Pose to{place->place.x(), place->place.y(), std::atan2(place->heading.y(), place->heading.x())};
+        Pose to = *place;
         const bool inReverse = std::cos(from.yaw) * (to.x - from.x) + std::sin(from.yaw) * (to.y - from.y) < 0.0;
         if (inReverse)
             to.yaw = wrapAngle(to.yaw + PI);
@@ -491,12 +490,12 @@ namespace parking::search
             return NO_NODE;
         std::vector<Successor> motions;
         model_->moveTowards(own.side(), from, to, motions);
-        const bool hasCusp = std::any_of(motions.begin(), motions.end(), [&](const Successor &each)
-                                         { return (each.motion.length < 0.0) != inReverse; });
+        const bool hasCusp =
+            std::any_of(motions.begin(), motions.end(),
+                        [&](const Successor &each) { return (each.motion.length < 0.0) != inReverse; });
         // Where obstacles are near, driving up to them is no better than anything else. Pieces too short to be driven
         // are left out.
-        if (motions.empty() || hasCusp ||
-            positionDistance(motions.back().pose, to) > 3.0 * tuning::MIN_MOTION * radius)
+        if (motions.empty() || hasCusp || positionDistance(motions.back().pose, to) > 3.0 * tuning::MIN_MOTION * radius)
             return NO_NODE;
         for (const Successor &successor : motions)
         {
@@ -559,9 +558,8 @@ namespace parking::search
                              path.append(pieces[i]);
                          frontier(Side::Goal).appendToRoot(fromGoal, path);
                          // Where nodes meet in a cell, every motion has been checked by itself.
-                         if (traits_.drivesCurves &&
-                             ((car_.maxCusps != ANY_CUSPS && path.cusps() > car_.maxCusps) ||
-                              !context_->environment.acceptPath(path)))
+                         if (traits_.drivesCurves && ((car_.maxCusps != ANY_CUSPS && path.cusps() > car_.maxCusps) ||
+                                                      !context_->environment.acceptPath(path)))
                              return false;
                          bestPath_ = std::move(path);
                          bestCost_ = costBound_ = cost;
@@ -763,8 +761,8 @@ namespace parking::search
                (stuck.isExhausted() || stuck.turns() >= progress_.since + tuning::STALL_EXPANSIONS);
     }
 
-    /** What lies ahead along the detour. Where its route is not known yet it is guessed, unless it \e looksFurther: each
-        look floods a part of the map. */
+    /** What lies ahead along the detour. Where its route is not known yet it is guessed, unless it \e looksFurther:
+       each look floods a part of the map. */
     double Search::Detour::estimate(const Node &node, bool looksFurther)
     {
         // Back to the root, and on from there.
@@ -792,10 +790,9 @@ namespace parking::search
                               [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
         const Pose root = stuck.node(nearest).pose;
         Detour &detour = *detours_[number];
-        detour.route.begin(context_->environment,
-                           routeResolution(car_.turningRadius, car_.bodyRadius, stuck.rootPoses(), targets),
-                           {car_.inscribedRadius, wide, disc.costFactor}, {root.x, root.y}, stop_,
-                           tuning::MAX_DETOUR_CELLS);
+        detour.route.begin(
+            context_->environment, routeResolution(car_.turningRadius, car_.bodyRadius, stuck.rootPoses(), targets),
+            {car_.inscribedRadius, wide, disc.costFactor}, {root.x, root.y}, stop_, tuning::MAX_DETOUR_CELLS);
         for (const Pose &target : targets)
             detour.route.addTarget(target.x, target.y);
         detour.best = NO_NODE;

@@ -206,8 +206,8 @@ namespace parking::search
         struct Detour
         {
             RouteHeuristic route;
-            double fromRoot{0.0};      // metres of that route from the nearest root; 0 or infinite: unknown
-            NodeIndex best{NO_NODE};   // the closed node that is farthest along it
+            double fromRoot{0.0};     // metres of that route from the nearest root; 0 or infinite: unknown
+            NodeIndex best{NO_NODE};  // the closed node that is farthest along it
             double nearest{std::numeric_limits<double>::infinity()};  // estimate of that node
 
             double estimate(const Node &node, bool looksFurther);
@@ -302,8 +302,8 @@ namespace parking::search
         std::array<Guide, 2> guides_;
         Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
         std::optional<Pose> target_;
-        Progress progress_;             // of the confined side, or towards the target
-        double nearestOfDisc_{0.0};     // metres from the target to the nearest place that the inscribed disc reaches
+        Progress progress_;          // of the confined side, or towards the target
+        double nearestOfDisc_{0.0};  // metres from the target to the nearest place that the inscribed disc reaches
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was added
         BlockedHeadings blocked_;                       // while a proof is under way

@@ -22,11 +22,12 @@ namespace parking::search::tuning
     constexpr double NEAR_TARGET = 1.0 / 3.0;        ///< no farther than the inscribed disc gets, but for that much
 
     // Route round the obstacles (see RouteHeuristic)
-    constexpr double ROUTE_CELL = 1.0 / 6.0;             ///< side of a cell: smaller sees narrower gaps, and costs more
-    constexpr double ROUTE_CELL_LONG = 1.0 / 120.0;      ///< the same as a share of the distance on long routes,
-    constexpr double ROUTE_CELL_RATIO = 2.5;             ///< but at most that many times the usual side
-    constexpr std::uint64_t MAX_ROUTE_CELLS = 4000000;   ///< settled: bounds memory in a world without walls
-    constexpr std::uint64_t MAX_DETOUR_CELLS = 400000;   ///< the same for the route of a wider disc
+    constexpr double ROUTE_CELL = 1.0 / 6.0;            ///< side of a cell: smaller sees narrower gaps, and costs more
+    constexpr double MIN_ROUTE_CELL = 0.35;             ///< radii of the largest disc within the car, at least
+    constexpr double ROUTE_CELL_LONG = 1.0 / 120.0;     ///< the same as a share of the distance on long routes,
+    constexpr double ROUTE_CELL_RATIO = 2.5;            ///< but at most that many times the usual side
+    constexpr std::uint64_t MAX_ROUTE_CELLS = 4000000;  ///< settled: bounds memory in a world without walls
+    constexpr std::uint64_t MAX_DETOUR_CELLS = 400000;  ///< the same for the route of a wider disc
 
     // Looking ahead along the route
     constexpr double LOOKAHEAD = 3.0;            ///< along the route to the place that is driven to
@@ -40,11 +41,11 @@ namespace parking::search::tuning
     constexpr double MIN_DEFERRAL = 4.0;       ///< growth of the penalty from which a node waits again
 
     // Detours when the search is stuck
-    constexpr std::uint64_t MIN_EXPANSIONS = 60;     ///< before a search counts as stuck,
-    constexpr std::uint64_t STALL_EXPANSIONS = 20;   ///< and of the confined side since it came nearer
-    constexpr double MIN_PROGRESS = 0.25;            ///< by which an estimate falls to count as nearer
-    constexpr std::uint64_t DETOUR_EXPANSIONS = 150; ///< before the next detour is added
-    constexpr double UNKNOWN_ROUTE_RATIO = 1.2;      ///< factor on the estimate where a detour's route is not known
+    constexpr std::uint64_t MIN_EXPANSIONS = 60;      ///< before a search counts as stuck,
+    constexpr std::uint64_t STALL_EXPANSIONS = 20;    ///< and of the confined side since it came nearer
+    constexpr double MIN_PROGRESS = 0.25;             ///< by which an estimate falls to count as nearer
+    constexpr std::uint64_t DETOUR_EXPANSIONS = 150;  ///< before the next detour is added
+    constexpr double UNKNOWN_ROUTE_RATIO = 1.2;       ///< factor on the estimate where a detour's route is not known
 
     /** \brief A wider disc, whose route leads where a car can turn. */
     struct DetourDisc
@@ -58,28 +59,30 @@ namespace parking::search::tuning
     constexpr DetourDisc DETOURS[]{{0.45, 0.67, 10.0}, {0.3, 1.0, 60.0}, {0.17, 0.43, 600.0}};
 
     // Proof that there is no path
-    constexpr std::uint64_t PROOF_EXPANSIONS = 400;  ///< with detours before the proof begins
-    constexpr std::uint64_t PROOF_PACE = 10;         ///< expansions that make it one column of cells a step quicker
+    constexpr std::uint64_t PROOF_EXPANSIONS = 400;    ///< with detours before the proof begins
+    constexpr std::uint64_t PROOF_PACE = 10;           ///< expansions that make it one column of cells a step quicker
     constexpr std::size_t MAX_PROOF_COLUMNS = 500000;  ///< at each end: bounds its memory
-    constexpr double PROOF_CELL = 0.5;               ///< side in radii of the largest disc within the car
-    constexpr int PROOF_HEADINGS = 32;               ///< parts of the circle: more close narrower gaps
+    constexpr double PROOF_CELL = 0.5;                 ///< side in radii of the largest disc within the car
+    constexpr int PROOF_HEADINGS = 32;                 ///< parts of the circle: more close narrower gaps
 
     // Searching on after a solution
-    constexpr double POST_SEARCH_SHARE = 0.3;        ///< expansions after the first solution to those before,
+    constexpr double POST_SEARCH_SHARE = 0.5;        ///< expansions after the first solution to those before,
     constexpr double POST_SEARCH_EXPANSIONS = 8.0;   ///< and at least that many,
-    constexpr double POST_SEARCH_PER_EXCESS = 35.0;  ///< and more for a path twice as long as expected
+    constexpr double POST_SEARCH_PER_EXCESS = 70.0;  ///< and more for a path twice as long as expected
     constexpr double WEIGHT_DECAY = 0.7;             ///< factor on the weights whenever the search goes on
     constexpr double NEAR_OPTIMAL = 1.1;             ///< cost to expected cost up to which a path is left as it is
     constexpr std::uint64_t ROUND_EXPANSIONS = 200;  ///< of a round of anytime
 
     // Improving a path
-    constexpr double KNOT_SPACING = 0.5;   ///< between the knots of a path: smaller finds more, and costs its square
-    constexpr double MAX_KNOTS = 20.0;     ///< on long paths
-    constexpr double MIN_GAIN = 0.01;      ///< of cost that a curve must save: smaller finds more, and takes longer
-    constexpr double TURN_RATIO = 1.15;    ///< cost to expected cost from which parts are driven the other way round
-    constexpr double TURN_REACH = 4.0;     ///< within which, and for which, the car turns round
-    constexpr double MOVE_RATIO = 1.2;     ///< cost to expected cost from which poses are moved,
-    constexpr double MOVE_STEP = 0.2;      ///< first by this, then by a quarter of it
-    constexpr int MAX_MOVES = 3;           ///< passes with each of the two: more find little
-    constexpr double MOVE_REACH = 3.0;     ///< of the path that a curve to or from a moved pose replaces
+    constexpr double KNOT_SPACING = 0.5;  ///< between the knots of a path: smaller finds more, and costs its square
+    constexpr double MAX_KNOTS = 20.0;    ///< on long paths
+    constexpr double MIN_GAIN = 0.01;     ///< of cost that a curve must save: smaller finds more, and takes longer
+    constexpr double TURN_RATIO = 1.15;   ///< cost to expected cost from which parts are driven the other way round
+    constexpr double TURN_REACH = 4.0;    ///< within which, and for which, the car turns round
+    constexpr double MOVE_RATIO = 1.2;    ///< cost to expected cost from which poses are moved,
+    constexpr double MOVE_STEP = 0.2;     ///< first by this, then by a quarter of it
+    constexpr double IMPROVEMENT_EFFORT = 500.0;  ///< pairs of poses joined by curves to improve a first path,
+    constexpr double IMPROVEMENT_EFFORT_PER_EXPANSION = 20.0;  ///< and more of them for each expansion of the search
+    constexpr int MAX_MOVES = 3;                               ///< passes with each of the two: more find little
+    constexpr double MOVE_REACH = 3.0;  ///< of the path that a curve to or from a moved pose replaces
 }  // namespace parking::search::tuning

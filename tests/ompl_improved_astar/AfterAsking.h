@@ -1,13 +1,12 @@
 #pragma once
 
-#include "ompl_improved_astar/search/SearchParameters.h"
+#include "ompl_improved_astar/search/StopFunction.h"
 
 #include <cstdint>
 
 namespace parking_test
 {
-    /** \brief Stops what is asked for the so-many-th time and always from then on, so that a search that would never
-        end fails its test instead of hanging. What ends by itself asks far less often than by default. */
+    /** \brief Stops after that many polls: a search that never ends fails its test instead of hanging. */
     inline parking::search::StopFunction afterAsking(int times = 300000)
     {
         return [times, asked = 0]() mutable
@@ -16,7 +15,7 @@ namespace parking_test
         };
     }
 
-    /** \brief Stops once \e planner, which must outlive it, has expanded more nodes than that, or as afterAsking(). */
+    /** \brief Stops once \e planner, which must outlive it, has expanded more nodes, or as afterAsking(). */
     template <class Planner>
     parking::search::StopFunction afterExpanding(const Planner &planner, std::uint64_t most)
     {

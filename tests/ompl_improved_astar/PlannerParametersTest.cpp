@@ -1,15 +1,14 @@
-// Every parameter of the planner: by name, out of range, in sets, and its effect.
+// Parameters by name: set, read, refused, in sets, and what each promises.
 
-#include "parking_geometry/text/Text.h"
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <iomanip>
 #include <map>
-#include <set>
+#include <sstream>
 #include <string>
-#include <type_traits>
+#include <tuple>
 #include <variant>
 
 #include <ompl/util/Exception.h>
@@ -19,248 +18,248 @@ namespace
     using namespace parking_test;
     using parking::Parameter;
     using parking::PlannerParameters;
-    using parking::Pose;
-    using Status = ob::PlannerStatus;
+    using Values = std::map<std::string, std::string>;
 
-    class PlannerParametersByName : public Silent<testing::Test>
+    bool isSwitch(const Parameter &row)
     {
-    protected:
-        PlannerParametersByName()
-        {
-            problem.planner->setParameters({});
-        }
-
-        PlanningProblem problem{Space::SE2, slotSite()};
-        ob::ParamSet &params{problem.planner->params()};
-    };
-
-    /** Every parameter with a value other than the default, as ParamSet writes it. */
-    std::map<std::string, std::string> others()
-    {
-        std::map<std::string, std::string> values;
-        for (const Parameter &row : parking::parameterTable())
-            std::visit(
-                [&](const auto member)
-                {
-                    using Value = std::decay_t<decltype(PlannerParameters().*member)>;
-                    if constexpr (std::is_same_v<Value, bool>)
-                        values[row.name] = PlannerParameters().*member ? "0" : "1";
-                    else if constexpr (std::is_same_v<Value, std::string>)
-                        values[row.name] = row.values.names().back();
-                    else
-                        values[row.name] = parking::formatNumber(row.values.max);
-                },
-                row.member);
-        values.erase("parameter_set");  // which sets the others
-        return values;
+        return std::holds_alternative<bool PlannerParameters::*>(row.member);
     }
 
-    TEST_F(PlannerParametersByName, AllAreThereAndNoneElse)
+    /** The last value of a row, which is never the default, as ParamSet writes it. */
+    std::string lastValue(const Parameter &row)
     {
-        std::set<std::string> names, expected;
-        for (const auto &[name, parameter] : params.getParams())
-            names.insert(name);
-        for (const Parameter &row : parking::parameterTable())
-            expected.insert(row.name);
-        EXPECT_EQ(names, expected);
-        EXPECT_EQ(params["preferred_clearance"].getRangeSuggestion(), "0:0.01:10");
-        EXPECT_EQ(params["xy_resolution"].getRangeSuggestion(), "0:0.05:100");
-        EXPECT_EQ(params["steering_angles"].getRangeSuggestion(), "3:2:21");
-        EXPECT_EQ(params["anytime"].getRangeSuggestion(), "0,1");
-        EXPECT_EQ(params["open_list"].getRangeSuggestion(), "binary_heap,linear");
+        if (isSwitch(row))
+            return PlannerParameters().*std::get<bool PlannerParameters::*>(row.member) ? "0" : "1";
+        return row.values.names ? row.values.names().back() : parking::formatNumber(row.values.max);
     }
 
-    // They are an interface: configurations of others use them.
-    TEST_F(PlannerParametersByName, NamesAndDefaultsStay)
+    std::string rangeOf(const Parameter &row)
     {
-        const std::map<std::string, std::string> expected{{"adaptive_resolution", "1"},
-                                                          {"analytic_expansion", "1"},
-                                                          {"anytime", "0"},
-                                                          {"approximate", "1"},
-                                                          {"bidirectional", "1"},
-                                                          {"clearance_cost", "10"},
-                                                          {"detours", "1"},
-                                                          {"gear_change_penalty", "0.5"},
-                                                          {"heading_bins", "72"},
-                                                          {"heuristic_weight_far", "2.5"},
-                                                          {"heuristic_weight_near", "2.5"},
-                                                          {"motion_model", "car"},
-                                                          {"near_goal_distance", "5"},
-                                                          {"obstacle_heuristic", "1"},
-                                                          {"obstacle_loading", "lazy"},
-                                                          {"open_list", "binary_heap"},
-                                                          {"parameter_set", "default"},
-                                                          {"preferred_clearance", "0.1"},
-                                                          {"reverse_penalty", "0"},
-                                                          {"search_from", "goal"},
-                                                          {"shortening", "1"},
-                                                          {"smoothing", "bspline"},
-                                                          {"steering_angles", "3"},
-                                                          {"turning_radius", "3"},
-                                                          {"xy_resolution", "0"}};
-        std::map<std::string, std::string> values;
-        params.getParams(values);
-        for (const auto &[name, value] : expected)
-            EXPECT_EQ(values[name], value) << name;
-        EXPECT_DOUBLE_EQ(std::stod(values["tie_break"]), 1e-3);
-        EXPECT_DOUBLE_EQ(std::stod(values["steering_change_penalty"]), 0.1);
+        std::ostringstream range;
+        if (isSwitch(row))
+            range << "0,1";
+        else if (row.values.names)
+            for (const std::string &name : row.values.names())
+                range << (range.str().empty() ? "" : ",") << name;
+        else
+            range << (row.values.allowsZero ? 0.0 : row.values.min) << ':' << row.values.step << ':'
+                  << std::setprecision(9) << row.values.max;
+        return range.str();
     }
 
-    TEST_F(PlannerParametersByName, EachIsSetAndReadAndChangesNoOther)
+    Values valuesOf(const og::ImprovedAStar &planner)
     {
-        for (const auto &[changed, value] : others())
-        {
-            og::ImprovedAStar planner(problem.si);
-            std::map<std::string, std::string> before, after;
-            planner.params().getParams(before);
-            ASSERT_TRUE(planner.params().setParam(changed, value)) << changed;
-            planner.params().getParams(after);
-            for (const auto &[name, text] : before)
-                EXPECT_TRUE(name == changed || after[name] == text) << changed << " changed " << name;
-            EXPECT_EQ(after[changed], value);
-            EXPECT_NE(after[changed], before[changed]) << changed;
-            // Back again, by what was read.
-            ASSERT_TRUE(planner.params().setParam(changed, before[changed]));
-            EXPECT_TRUE(planner.parameters() == PlannerParameters()) << changed;
-        }
+        Values result;
+        planner.params().getParams(result);
+        return result;
     }
 
-    // What else there is to refuse, the table's own tests have.
-    TEST_F(PlannerParametersByName, OutOfRangeIsAnErrorThatSaysSo)
+    TEST(PlannerParameters, HaveRangeAndValueOfEveryRowAndRefuseOthers)
     {
+        og::ImprovedAStar planner(PlanningProblem(Space::SE2, square()).si);
+        ob::ParamSet &params = planner.params();
+        const Values defaults = valuesOf(planner);
+        EXPECT_EQ(defaults.size(), parking::parameterTable().size());
         for (const Parameter &row : parking::parameterTable())
         {
-            if (std::holds_alternative<bool PlannerParameters::*>(row.member))
-                continue;  // has no values out of range
-            const std::string bad =
-                row.values.names != nullptr ? "hovercraft" : parking::formatNumber(row.values.max + 1.0);
+            SCOPED_TRACE(row.name);
+            ASSERT_TRUE(params.hasParam(row.name));
+            EXPECT_EQ(params[row.name].getRangeSuggestion(), rangeOf(row));
+            Values expected = defaults;
+            expected[row.name] = lastValue(row);
+            EXPECT_NE(expected, defaults);
+            EXPECT_TRUE(params.setParam(row.name, lastValue(row)));
+            // This one sets others, too.
+            EXPECT_TRUE(valuesOf(planner) == expected || row.name == "parameter_set");
+            EXPECT_TRUE(planner.parameters() != PlannerParameters());
+            EXPECT_TRUE(params.setParam(row.name, defaults.at(row.name)));
+            EXPECT_TRUE(planner.parameters() == PlannerParameters());
+            if (isSwitch(row))
+                continue;
+            const std::string wrong = row.values.names ? "hovercraft" : parking::formatNumber(row.values.max + 1.0);
             try
             {
-                params.setParam(row.name, bad);
-                ADD_FAILURE() << row.name << " = " << bad << " was taken";
+                params.setParam(row.name, wrong);
+                ADD_FAILURE() << "not refused";
             }
             catch (const ompl::Exception &error)
             {
-                const std::string text = error.what();
-                EXPECT_NE(text.find(row.name), std::string::npos) << text;
-                EXPECT_NE(text.find(bad), std::string::npos) << text;
-                EXPECT_NE(text.find(row.allowed()), std::string::npos) << text;
-                EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+                const std::string message = error.what();
+                for (const std::string &part : {row.name, wrong, row.allowed()})
+                    EXPECT_NE(message.find(part), std::string::npos) << message;
+                EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             }
-            EXPECT_TRUE(problem.planner->parameters() == PlannerParameters()) << row.name;
         }
-    }
-
-    TEST_F(PlannerParametersByName, WhatIsNoNumberOrNoParameterIsRefused)
-    {
-        // OMPL answers false or throws, by the release and the type.
-        const auto isRefused = [this](const char *name, const char *value)
-        {
+        // OMPL answers false or throws for these, depending on the release and the type.
+        for (const auto &[name, value] : settings("turning_radius=wide heading_bins=many steering=3"))
             try
             {
-                return !params.setParam(name, value);
+                EXPECT_FALSE(params.setParam(name, value)) << name;
             }
             catch (const std::exception &)
             {
-                return true;
             }
+        PlannerParameters bad;
+        bad.headingBins = 36;
+        bad.reversePenalty = std::nan("");
+        EXPECT_THROW(planner.setParameters(bad), ompl::Exception);
+        EXPECT_EQ(valuesOf(planner), defaults) << "what is refused changes nothing";
+        // Names that users' configurations have.
+        for (const auto &[name, range] : settings("xy_resolution=0:0.05:100 steering_angles=3:2:21 anytime=0,1 "
+                                                  "open_list=binary_heap,linear gear_change_penalty=0:0.1:100"))
+            EXPECT_EQ(params[name].getRangeSuggestion(), range);
+    }
+
+    // The sets of the paper (its section "Discussion"), told apart by what their names leave out.
+    TEST(PlannerParameters, HaveNamedSets)
+    {
+        og::ImprovedAStar planner(PlanningProblem(Space::SE2, square()).si), wanted(planner.getSpaceInformation());
+        const std::string unweighted = " heuristic_weight_far=1 heuristic_weight_near=1 tie_break=0";
+        const std::string weighted = " heuristic_weight_far=1.5 heuristic_weight_near=0.9",
+                          grid8 = "motion_model=grid8";
+        const std::string fromStart = " bidirectional=0 search_from=start",
+                          simple = grid8 + fromStart + " open_list=linear";
+        const std::map<std::string, std::string> expected{
+            {"default", "motion_model=car bidirectional=1 open_list=binary_heap"},
+            {"improved_astar", grid8 + weighted + " smoothing=bspline obstacle_loading=lazy bidirectional=1"},
+            {"basic_astar", simple + unweighted + " obstacle_loading=eager smoothing=none approximate=0"},
+            {"experiment_1", grid8 + unweighted + " smoothing=bspline obstacle_loading=lazy bidirectional=1"},
+            {"experiment_2", grid8 + weighted + " obstacle_loading=eager"},
+            {"experiment_3", simple + weighted + " smoothing=bspline"},
+            {"experiment_4", "motion_model=grid16" + weighted},
+            {"experiment_5", grid8 + weighted + " smoothing=none bidirectional=1"},
+            {"experiment_6", simple + weighted + " smoothing=none"},
+            {"hybrid_astar", "motion_model=car detours=0 shortening=0 adaptive_resolution=0" + fromStart},
         };
-        EXPECT_TRUE(isRefused("turning_radius", "wide"));
-        EXPECT_TRUE(isRefused("turning_radius", "nan"));
-        EXPECT_TRUE(isRefused("heading_bins", "many"));
-        EXPECT_TRUE(isRefused("steering", "3"));
-        EXPECT_FALSE(params.hasParam("steering"));
-        EXPECT_TRUE(problem.planner->parameters() == PlannerParameters());
-    }
-
-    TEST_F(PlannerParametersByName, AllAtOnceAreCheckedToo)
-    {
-        PlannerParameters good;
-        good.headingBins = 36;
-        good.heuristicWeightFar = 2.0;
-        problem.planner->setParameters(good);
-        EXPECT_TRUE(problem.planner->parameters() == good);
-        for (const double wrong : {-1.0, std::nan("")})
-        {
-            PlannerParameters bad = good;
-            bad.anytime = true;
-            bad.preferredClearance = wrong;
-            EXPECT_THROW(problem.planner->setParameters(bad), ompl::Exception);
-            EXPECT_TRUE(problem.planner->parameters() == good);
-        }
-    }
-
-    void weigh(PlannerParameters &set, const parking::search::HeuristicWeights &weights)
-    {
-        set.heuristicWeightFar = weights.far;
-        set.heuristicWeightNear = weights.near;
-        set.nearGoalDistance = weights.nearDistance;
-        set.tieBreak = weights.tieBreak;
-    }
-
-    // The sets of the paper (its section "Discussion"), told apart from the full one by what their names leave out.
-    TEST_F(PlannerParametersByName, NamedSetsChangeWhatTheySay)
-    {
-        PlannerParameters improved;
-        improved.motionModel = "grid8";
-        weigh(improved, {1.5, 0.9, 5.0, 1e-3});
-        std::map<std::string, PlannerParameters> expected{{"default", {}}, {"improved_astar", improved}};
-
-        PlannerParameters set = improved;
-        weigh(set, {1.0, 1.0, 0.0, 0.0});
-        expected["experiment_1"] = set;
-        set = improved;
-        set.obstacleLoading = "eager";
-        expected["experiment_2"] = set;
-        set = improved;
-        set.bidirectional = false;
-        set.searchFrom = "start";
-        set.openList = "linear";
-        expected["experiment_3"] = set;
-        set.smoothing = "none";
-        expected["experiment_6"] = set;
-        weigh(set, {1.0, 1.0, 0.0, 0.0});
-        set.obstacleLoading = "eager";
-        set.approximate = false;
-        expected["basic_astar"] = set;
-        set = improved;
-        set.motionModel = "grid16";
-        expected["experiment_4"] = set;
-        set = improved;
-        set.smoothing = "none";
-        expected["experiment_5"] = set;
-        set = {};
-        set.bidirectional = set.adaptiveResolution = set.shortening = false;
-        set.searchFrom = "start";
-        set.detours = false;
-        expected["hybrid_astar"] = set;
-
         EXPECT_EQ(parking::parameterSetNames().size(), expected.size());
         for (const std::string &name : parking::parameterSetNames())
         {
-            // Whatever was set before, but for what belongs to the problem.
-            for (const auto &[other, value] : others())
-                params.setParam(other, value);
-            ASSERT_TRUE(params.setParam("parameter_set", name));
-            ASSERT_TRUE(expected.count(name)) << name;
-            PlannerParameters wanted = expected[name];
-            wanted.parameterSet = name;
-            wanted.turningRadius = 1000.0;
-            wanted.xyResolution = 100.0;
-            wanted.headingBins = 1440;
-            EXPECT_TRUE(problem.planner->parameters() == wanted) << name;
+            SCOPED_TRACE(name);
+            planner.setParameters({});
+            ASSERT_TRUE(planner.params().setParam("parameter_set", name));
+            Values set = valuesOf(planner);
+            ASSERT_TRUE(wanted.params().setParams(settings(expected.at(name))));
+            for (const auto &[parameter, value] : settings(expected.at(name)))
+                EXPECT_EQ(set[parameter], wanted.params()[parameter].getValue()) << parameter;
+            // It replaces whatever was set before, except what belongs to the problem.
+            for (const Parameter &row : parking::parameterTable())
+                planner.params().setParam(row.name, lastValue(row));
+            planner.params().setParam("parameter_set", name);
+            for (const char *kept : {"turning_radius", "xy_resolution", "heading_bins"})
+                set[kept] = lastValue(parking::parameterNamed(kept));
+            EXPECT_EQ(valuesOf(planner), set);
+
+            PlanningProblem open(Space::SE2, square(), "parameter_set=" + name);
+            ASSERT_EQ(open.from({{-8.0, -3.0, 0.0}}).to({{8.0, 5.0, 0.5}}).solve(), Status::EXACT_SOLUTION);
+            open.expectSound();
         }
     }
 
-    TEST_F(PlannerParametersByName, EverySetPlansInTheOpen)
+    struct Totals
     {
-        for (const std::string &name : parking::parameterSetNames())
+        double length{0.0}, reverse{0.0}, gearChanges{0.0}, steering{0.0};
+    };
+
+    // Not on every path, but in total.
+    TEST(PlannerParameters, LessenWhatTheyPenalise)
+    {
+        const std::tuple<const char *, const char *, double Totals::*> CASES[] = {
+            {"reverse_penalty=5", "reverse_penalty=0", &Totals::reverse},
+            {"gear_change_penalty=20", "gear_change_penalty=0", &Totals::gearChanges},
+            {"steering_change_penalty=10", "steering_change_penalty=0", &Totals::steering},
+            {"shortening=1 clearance_cost=0", "shortening=0 clearance_cost=0", &Totals::length},
+            {"turning_radius=2", "turning_radius=5", &Totals::length}};
+        for (const auto &[set, unset, what] : CASES)
         {
-            PlanningProblem open(Space::SE2, openSite(15.0));
-            open.set("parameter_set", name);
-            open.from({-8.0, -3.0, 0.0}).to({{8.0, 5.0, 0.5}});
-            EXPECT_EQ(open.solve(), Status::EXACT_SOLUTION) << name;
-            EXPECT_TRUE(open.path().check()) << name;
+            Totals with, without;
+            for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            {
+                Random random(seed);
+                const Pose start{-9.0, random.between(-9.0, 9.0), random.between(-3.0, 3.0)};
+                const Pose goal{9.0, random.between(-9.0, 9.0), random.between(-3.0, 3.0)};
+                for (Totals *totals : {&with, &without})
+                {
+                    PlanningProblem problem(Space::SE2, GAPS, totals == &with ? set : unset);
+                    ASSERT_EQ(problem.from({start}).to({goal}).solve(), Status::EXACT_SOLUTION);
+                    const parking::Path &path = *problem.planner->solutionPath();
+                    totals->gearChanges += static_cast<double>(path.cusps());
+                    double curvature = 0.0;
+                    for (const parking::PathPiece &piece : path.pieces)
+                    {
+                        totals->length += piece.driven();
+                        totals->reverse += std::max(0.0, -piece.length);
+                        totals->steering += std::abs(piece.curvature - std::exchange(curvature, piece.curvature));
+                    }
+                }
+            }
+            EXPECT_LT(with.*what, without.*what) << set;
+        }
+    }
+
+    TEST(PlannerParameters, PreferredClearanceIsKeptWhereItIsCheap)
+    {
+        const double half = 0.5 * parking::Vehicle().width;
+        const Scene beside = square({box(-2.0, half + 0.02, 2.0, 4.0)});
+        const Scene between = square({box(-2.0, half + 0.1, 2.0, 15.0), box(-2.0, -15.0, 2.0, -half)});
+        const struct
+        {
+            const char *settings;
+            Scene scene;
+            double least, most;  // of the path's clearance
+        } CASES[] = {
+            {"anytime=0", beside, 0.1, 1.0},
+            {"anytime=1", beside, 0.1, 1.0},
+            {"preferred_clearance=0.5", beside, 0.5, 2.0},
+            {"preferred_clearance=0", beside, 0.0, 0.03},
+            {"clearance_cost=0", beside, 0.0, 0.03},
+            {"preferred_clearance=1", between, 0.0, 0.05},
+            {"preferred_clearance=10", between, 0.0, 0.05},
+        };
+        for (const auto &each : CASES)
+        {
+            SCOPED_TRACE(each.settings);
+            PlanningProblem problem(Space::ReedsShepp, each.scene, each.settings);
+            problem.from({{-9.0, 0.0, 0.0}}).to({{9.0, 0.0, 0.0}});
+            ASSERT_EQ(problem.solveWithPolls(20000), Status::EXACT_SOLUTION);
+            const PolygonOracle oracle(each.scene.obstacles, each.scene.bounds);
+            double closest = INFINITE;
+            for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.02))
+                closest = std::min(closest, oracle.clearance(state.pose, problem.vehicle));
+            EXPECT_GE(closest, each.least - 1e-9);
+            EXPECT_LE(closest, each.most);
+        }
+    }
+
+    TEST(PlannerParameters, OpenListAndLoadingOfObstaclesDoNotChangeThePath)
+    {
+        for (const char *model : {"motion_model=car", "motion_model=grid8", "motion_model=grid16"})
+        {
+            std::vector<Pose> first;
+            for (const char *option : {"open_list=binary_heap", "open_list=linear", "obstacle_loading=eager"})
+            {
+                PlanningProblem problem(Space::SE2, GAPS, model);
+                problem.set(option);
+                ASSERT_EQ(problem.from({LEFT}).to({RIGHT}).solve(), Status::EXACT_SOLUTION);
+                EXPECT_EQ(problem.planner->mapLoadingTime() > 0.0, std::string(option) == "obstacle_loading=eager");
+                first = first.empty() ? problem.poses() : first;
+                EXPECT_TRUE(areEqual(problem.poses(), first)) << model << ' ' << option;
+            }
+        }
+    }
+
+    TEST(PlannerParameters, SmoothingRoundsTheCornersOfGridPaths)
+    {
+        for (const char *smoothing : {"smoothing=none", "smoothing=bspline"})
+        {
+            PlanningProblem problem(Space::SE2, square(), "motion_model=grid8 turning_radius=1.5");
+            problem.set(smoothing);
+            ASSERT_EQ(problem.from({{-9.0, -5.0, 0.0}}).to({{9.0, 4.0, 0.0}}).solve(), Status::EXACT_SOLUTION);
+            problem.expectSound();
+            const std::vector<Pose> poses = problem.poses();
+            double sharpest = 0.0;
+            for (std::size_t i = 2; i + 1 < poses.size(); ++i)
+                sharpest = std::max(sharpest, std::abs(parking::wrapAngle(poses[i].yaw - poses[i - 1].yaw)));
+            EXPECT_EQ(sharpest > 0.3, std::string(smoothing) == "smoothing=none");
         }
     }
 }  // namespace

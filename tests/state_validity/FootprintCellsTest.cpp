@@ -76,77 +76,6 @@ TEST(FootprintCells, blockOnlyWhatCollidesThroughout)
     EXPECT_GT(deepAndBlocked, 0.6 * deep);
 }
 
-/** Cells of any size, looked at one by one: by the polygons themselves the body collides wherever it is, or nowhere. A
-   cell is not both, the small ones are nearly always one of them, and none that circles close is missed. */
-TEST(FootprintCells, tellWhatHoldsThroughoutACell)
-{
-    int touching = 0, free = 0, small = 0, decided = 0, byCircles = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-    {
-        Random random(seed + 70);
-        const Vehicle vehicle;
-        const double margin = random.chance(0.5) ? 0.0 : random.between(0.0, 0.3);
-        const World world = seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle, margin, {}, FIELD_RESOLUTION);
-        for (int i = 0; i < 600; ++i)
-        {
-            const Pose near = i % 3 == 0 ? world.anywhere(random) : world.touching(random, vehicle, 0.6);
-            const bool isSmall = random.chance(0.3);
-            const double side = isSmall ? 0.004 : std::exp(random.between(-6.0, 1.6));
-            const int headings = isSmall ? 2048 : 4 << random.below(9);
-            const int heading = random.below(headings);
-            const PoseCell cell{{near.x, near.y, 2.0 * PI * (heading + 0.5) / headings - PI}, side, PI / headings};
-            const FootprintCells cells(checker, side, std::clamp(headings, 8, 128));
-            const bool touches = cells.touchThroughout(cell), isFree = cells.areFreeThroughout(cell);
-            ASSERT_FALSE(touches && isFree);
-            touching += touches;
-            free += isFree;
-            small += isSmall;
-            decided += isSmall && (touches || isFree);
-            if (headings >= 8 && headings <= 128 &&
-                has(cells.blocked(cell.middle.x, cell.middle.y), static_cast<std::size_t>(heading)))
-            {
-                ++byCircles;
-                ASSERT_TRUE(touches) << world.name;
-            }
-            for (int k = 0; k < 24; ++k)
-            {
-                // Corners of the cell first.
-                const auto within = [&](int bit)
-                {
-                    return k < 8 ? (k >> bit & 1) * 2.0 - 1.0 : random.between(-1.0, 1.0);
-                };
-                const Pose body = rearAxle({near.x + 0.5 * side * within(0), near.y + 0.5 * side * within(1),
-                                            cell.middle.yaw + cell.halfTurn * within(2)},
-                                           vehicle);
-                const bool isBodyFree = world.oracle.isFree(body, vehicle, margin);
-                ASSERT_FALSE(touches && isBodyFree) << world.name << ", side " << side;
-                ASSERT_TRUE(isBodyFree || !isFree) << world.name << ", side " << side;
-            }
-        }
-    }
-    EXPECT_GT(touching, 5000);
-    EXPECT_GT(free, 3000);
-    EXPECT_GT(small, 6000);
-    EXPECT_GT(decided, 0.97 * small);
-    EXPECT_GT(byCircles, 1000);
-}
-
-/** In a large cell an obstacle may be farther from the middle than the checker looks for it. */
-TEST(FootprintCells, areNotFreeOfWhatIsFarFromTheirMiddle)
-{
-    const Vehicle vehicle;
-    const Pose post{8.0, 0.0, 0.0};
-    const ObstacleSet obstacles =
-        ObstacleSet::fromPolygons({rectangle(0.02, 0.02, post)}, {{-60.0, -60.0}, {60.0, 60.0}});
-    const FootprintChecker checker(obstacles, vehicle);
-    const FootprintCells cells(checker, 0.2, 72);
-    for (const double side : {1.0, 5.0})
-        EXPECT_TRUE(cells.areFreeThroughout({{}, side, PI / 72})) << side;
-    for (const double side : {11.5, 20.0})
-        EXPECT_FALSE(cells.areFreeThroughout({{}, side, PI / 72})) << side;
-}
-
 /** A post 0.3 m beside the body's middle line closes the cell as long as the cell moves the side by less than that. */
 TEST(FootprintCells, sayNothingWhenTheyAreWide)
 {
@@ -178,6 +107,4 @@ TEST(FootprintCells, refuseWhatIsNoCell)
     EXPECT_EQ(cells.blocked(0.0, 0.0), FootprintCells::Headings());
     EXPECT_TRUE(has(cells.blocked(nan, 0.0), 71));
     EXPECT_FALSE(has(cells.blocked(nan, 0.0), 72)) << "there are 72 only";
-    EXPECT_TRUE(cells.touchThroughout({{0.0, nan, 0.0}, 0.2, 0.1}));
-    EXPECT_FALSE(cells.areFreeThroughout({{0.0, 0.0, nan}, 0.2, 0.1}));
 }

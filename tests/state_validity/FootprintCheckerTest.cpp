@@ -95,48 +95,6 @@ TEST(FootprintChecker, ClearanceOnGridsIsALowerBound)
     }
 }
 
-TEST(FootprintChecker, CountsPosesOnAnArcAsOneByOne)
-{
-    const Vehicle vehicle;
-    int none = 0, some = 0, all = 0;
-    for (std::uint64_t seed = 0; seed < 12; ++seed)
-    {
-        const World world = seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle);
-        Random random(seed);
-        for (int i = 0; i < 500; ++i)
-        {
-            const Pose from = world.anywhere(random);
-            const Arc arc{random.chance(0.3) ? 0.0 : random.between(-0.3, 0.3), random.magnitude(0.5, 9.0)};
-            const FootprintChecker::ArcSamples samples{random.between(0.0, 0.5), random.between(0.05, 0.4),
-                                                       static_cast<std::size_t>(random.between(0.0, 20.0))};
-            const double clearance = random.between(0.0, 0.5);
-            CheckCounts counts;
-            std::size_t nearer = 0;
-            for (std::size_t k = 0; k < samples.count; ++k)
-            {
-                const double driven = samples.first + samples.apart * static_cast<double>(k);
-                nearer +=
-                    checker.keeps(advance(from, arc.curvature, std::copysign(driven, arc.length)), clearance, counts)
-                        ? 0
-                        : 1;
-            }
-            ASSERT_EQ(checker.countNearer(from, arc, samples, clearance, samples.count, counts), nearer);
-            // More than was asked for need not be counted, but it must be told from less.
-            const std::size_t most = samples.count / 3;
-            ASSERT_EQ(checker.countNearer(from, arc, samples, clearance, most, counts), std::min(nearer, most + 1));
-            ++(nearer == 0 ? none : nearer < samples.count ? some : all);
-        }
-    }
-    EXPECT_GT(none, 300);
-    EXPECT_GT(some, 300);
-    EXPECT_GT(all, 300);
-    const FootprintChecker checker(box(), vehicle);
-    CheckCounts counts;
-    EXPECT_EQ(checker.countNearer({NOT_A_NUMBER, 0.0, 0.0}, {0.0, 1.0}, {0.1, 0.1, 7}, 0.1, 7, counts), 7u);
-    EXPECT_EQ(checker.countNearer({0.0, 0.0, 0.0}, {0.0, 1.0}, {0.1, INFINITE, 7}, 0.1, 7, counts), 7u);
-}
-
 /** The lower bound of a circle that covers part of the body is tight for an obstacle on the diagonal. An obstacle that
    pokes into the body by a thousandth of the radius must be seen: with a radius or an error bound 1 % smaller it is
    not. */
@@ -305,24 +263,6 @@ TEST(FootprintChecker, KnowsTheInsideOfLargeObstacles)
     EXPECT_FALSE(checker.isFree({100.0, 0.0, 1.0})) << "outside of the world";
     EXPECT_EQ(checker.clearance({100.0, 0.0, 1.0}), 0.0);
     EXPECT_EQ(checker.freeLength({100.0, 0.0, 1.0}, 0.0, 1.0), 0.0);
-}
-
-TEST(FootprintChecker, KnowsOnWhichSideOfContactOtherBoxesAre)
-{
-    const Vehicle vehicle;
-    const FootprintChecker checker(box({rectangle(4.0, 4.0, {6.0, 0.0, 0.0})}), vehicle);
-    const auto side = [&](double x, double halfLength, double halfWidth)
-    {
-        const Pose local = checker.obstacles().toLocal({x, 0.0, 0.0});
-        return checker.side({local.x, local.y, 1.0, 0.0, halfLength, halfWidth});
-    };
-    EXPECT_EQ(side(3.0, 0.999, 0.1), 1);
-    EXPECT_EQ(side(3.0, 1.001, 0.1), -1);
-    EXPECT_EQ(side(3.0, 1.0, 0.1), 0) << "touching";
-    EXPECT_EQ(side(6.0, 0.1, 0.1), -1) << "inside of the obstacle";
-    EXPECT_EQ(side(0.0, 2.6, 2.0), 1) << "larger than the body";
-    EXPECT_EQ(side(-4.0, 4.0, 4.0), 0) << "so large that not all is looked at";
-    EXPECT_EQ(side(-4.0, 30.0, 30.0), 0);
 }
 
 TEST(FootprintChecker, AsksTheContactTestOnlyWithinTheBand)

@@ -9,8 +9,8 @@
 
 namespace parking::search
 {
-    /** \brief Counts how often a search has expanded nodes in a place with about the same heading: in squares of a grid,
-        and eight sectors of the circle. */
+    /** \brief Counts how often a search has expanded nodes in a place with about the same heading: in squares of a
+       grid, and eight sectors of the circle. */
     class ExpansionDensity
     {
     public:

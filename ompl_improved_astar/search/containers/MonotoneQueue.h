@@ -8,13 +8,12 @@
 
 namespace parking::search
 {
-    /** \brief A priority queue for whole priorities that do not fall below the one taken last, as those of A* with a
+    /** \brief A priority queue for whole priorities that do not fall below the one popped last, as those of A* with a
         consistent heuristic.
 
-        A radix heap (R. K. Ahuja, K. Mehlhorn, J. Orlin, R. E. Tarjan, "Faster algorithms for the shortest path
-        problem", 1990): the bucket of an item is the highest bit in which its priority differs from the one taken last.
-        When bucket 0 is empty, the first other bucket is distributed over those before it, so that an item moves 32
-        times at most. Of equal priorities the latest item usually comes first. Memory is kept by clear(). */
+        A radix heap (R. K. Ahuja et al., "Faster algorithms for the shortest path problem", 1990): an item's bucket is
+        the highest bit in which its priority differs from the one popped last, so that it moves to lower buckets only.
+        Of equal priorities the latest usually comes first. */
     template <class Item>
     class MonotoneQueue
     {
@@ -34,11 +33,10 @@ namespace parking::search
         /** \brief Upper limit of the bytes of the items, old and new arrays of growing buckets together. */
         std::size_t bytes() const
         {
-            constexpr std::size_t GROWING = 3;
-            return GROWING * size_ * sizeof(Entry);
+            return 3 * size_ * sizeof(Entry);
         }
 
-        /** \brief Removes all items; the next priorities may be small again. */
+        /** \brief Removes all items; the next priorities may be small again. Memory is kept. */
         void clear()
         {
             for (std::vector<Entry> &bucket : buckets_)
@@ -47,9 +45,7 @@ namespace parking::search
             last_ = 0;
         }
 
-        /** \brief Adds an item.
-
-            \param priority raised to the priority taken last if it is below that */
+        /** \brief Adds an item. A priority below the one popped last counts as equal to it. */
         void push(std::uint32_t priority, const Item &item)
         {
             place({std::max(priority, last_), item});
@@ -67,20 +63,16 @@ namespace parking::search
             return item;
         }
 
-        /** \brief Changes the priorities of all items, also to smaller ones than that taken last.
-
-            \param renew gets an item and its priority, to be set; returns whether the item is kept */
-        template <class Renew>
-        void renewAll(const Renew &renew)
+        /** \brief Removes and returns all items; the next priorities may be small again. */
+        std::vector<Item> takeAll()
         {
-            std::vector<Entry> entries;
-            entries.reserve(size_);
+            std::vector<Item> items;
+            items.reserve(size_);
             for (const std::vector<Entry> &bucket : buckets_)
-                entries.insert(entries.end(), bucket.begin(), bucket.end());
+                for (const Entry &each : bucket)
+                    items.push_back(each.item);
             clear();
-            for (Entry &each : entries)
-                if (renew(each.item, each.priority))
-                    push(each.priority, each.item);
+            return items;
         }
 
     private:
@@ -98,11 +90,14 @@ namespace parking::search
 
         void fillFirstBucket()
         {
-            std::vector<Entry> &bucket = *std::find_if(buckets_.begin(), buckets_.end(),
-                                                       [](const std::vector<Entry> &each) { return !each.empty(); });
-            last_ = std::min_element(bucket.begin(), bucket.end(),
-                                     [](const Entry &a, const Entry &b) { return a.priority < b.priority; })
-                        ->priority;
+            const auto isUsed = [](const std::vector<Entry> &bucket)
+            {
+                return !bucket.empty();
+            };
+            std::vector<Entry> &bucket = *std::find_if(buckets_.begin(), buckets_.end(), isUsed);
+            last_ = bucket.front().priority;
+            for (const Entry &each : bucket)
+                last_ = std::min(last_, each.priority);
             for (const Entry &each : bucket)
                 place(each);
             bucket.clear();
@@ -110,6 +105,6 @@ namespace parking::search
 
         std::array<std::vector<Entry>, 33> buckets_;
         std::size_t size_{0};
-        std::uint32_t last_{0};  // the priority taken last
+        std::uint32_t last_{0};  // the priority popped last
     };
 }  // namespace parking::search

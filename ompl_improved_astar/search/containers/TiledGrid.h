@@ -10,7 +10,7 @@ namespace parking::search
 {
     /** \brief A grid of cells of type T, of no fixed origin, whose memory grows with the area that is touched.
 
-        Cells live in square tiles made when one of their cells is first asked for. clear() keeps the tiles for reuse.
+        Cells live in square tiles, made when one of their cells is first accessed. clear() keeps the tiles for reuse.
         Columns and rows reach from -REACH to REACH - 1. */
     template <class T>
     class TiledGrid
@@ -24,14 +24,9 @@ namespace parking::search
         {
         }
 
-        /** \brief Does the cell lie within reach? False for what is no number. */
-        static bool contains(double column, double row)
-        {
-            return column >= -REACH && row >= -REACH && column < REACH && row < REACH;
-        }
-
-        /** \brief Does the cell lie within reach? */
-        static bool contains(std::int32_t column, std::int32_t row)
+        /** \brief Does the cell lie within reach? False for numbers that are not finite. */
+        template <class Number>
+        static bool contains(Number column, Number row)
         {
             return column >= -REACH && row >= -REACH && column < REACH && row < REACH;
         }
@@ -52,54 +47,18 @@ namespace parking::search
             return entry == 0 ? nullptr : &(*tiles_[entry - 1])[placeInTile(column, row)];
         }
 
-        /** \brief What lies round a cell. */
-        class Neighbours
-        {
-        public:
-            /** \brief Of the cell at \e column and \e row, which must be contained. */
-            Neighbours(TiledGrid &grid, std::int32_t column, std::int32_t row)
-              : grid_(grid),
-                column_(column),
-                row_(row),
-                cell_(&grid.at(column, row))
-            {
-                const auto c = static_cast<std::uint32_t>(column + REACH) % TILE,
-                           r = static_cast<std::uint32_t>(row + REACH) % TILE;
-                isWithin_ = c > 0 && r > 0 && c + 1 < TILE && r + 1 < TILE;
-            }
-
-            /** \brief The cell so many columns and rows away, -1 to 1; none beyond the reach of the grid. */
-            T *at(std::int32_t columns, std::int32_t rows) const
-            {
-                // Inside of a tile the neighbours lie at fixed distances in memory.
-                if (isWithin_)
-                    return cell_ + rows * TILE + columns;
-                const bool isContained = contains(column_ + columns, row_ + rows);
-                return isContained ? &grid_.at(column_ + columns, row_ + rows) : nullptr;
-            }
-
-        private:
-            TiledGrid &grid_;
-            std::int32_t column_, row_;
-            T *cell_;
-            bool isWithin_;
-        };
-
-        /** \brief Calls visit(column, row, cell) for every cell of the tiles in use. */
+        /** \brief Calls visit(column, row, cell) for all cells of the tiles in use. */
         template <class Visit>
         void forEach(const Visit &visit) const
         {
             for (std::size_t tile = 0; tile < touched_.size(); ++tile)
-                for (std::int32_t place = 0; place < TILE * TILE; ++place)
-                {
-                    const auto number = static_cast<std::int32_t>(touched_[tile]);
-                    visit(number % DIRECTORY * TILE + place % TILE - REACH,
-                          number / DIRECTORY * TILE + place / TILE - REACH,
-                          (*tiles_[tile])[static_cast<std::size_t>(place)]);
-                }
+                for (std::uint32_t place = 0; place < TILE * TILE; ++place)
+                    visit(static_cast<std::int32_t>(touched_[tile] % DIRECTORY * TILE + place % TILE) - REACH,
+                          static_cast<std::int32_t>(touched_[tile] / DIRECTORY * TILE + place / TILE) - REACH,
+                          (*tiles_[tile])[place]);
         }
 
-        /** \brief Of the tiles in use. */
+        /** \brief Bytes of the tiles in use. */
         std::size_t bytes() const
         {
             return touched_.size() * sizeof(Tile);

@@ -39,8 +39,7 @@ namespace parking::search
 
             double lowerBound(const Pose &pose) override
             {
-                return least(targets_,
-                             [&](const Pose &target)
+                return least(targets_, [&](const Pose &target)
                              { return isBackward_ ? curves_.distance(target, pose) : curves_.distance(pose, target); });
             }
 
@@ -50,8 +49,8 @@ namespace parking::search
             std::vector<Pose> targets_;
         };
 
-        /** Distances between positions by some metric, of which the straight one is a bound (paper, "Heuristic Evaluation
-            Function" and "Heuristic Function Optimization"). */
+        /** Distances between positions by some metric, of which the straight one is a bound (paper, "Heuristic
+           Evaluation Function" and "Heuristic Function Optimization"). */
         template <double (*metric)(double dx, double dy)>
         class PositionHeuristic final : public Heuristic
         {
@@ -68,8 +67,8 @@ namespace parking::search
 
             double estimate(const Pose &pose) override
             {
-                return least(aims_, [&](const Pose &aim)
-                             { return metric(std::abs(pose.x - aim.x), std::abs(pose.y - aim.y)); });
+                return least(
+                    aims_, [&](const Pose &aim) { return metric(std::abs(pose.x - aim.x), std::abs(pose.y - aim.y)); });
             }
 
             double lowerBound(const Pose &pose) override

@@ -206,12 +206,12 @@ namespace parking::search
                                   fromGoal.parent != NO_NODE ? &after : nullptr,
                                   bound - outside,
                                   sweptFrom == Side::Start ? FreeCurves::SweepEnd::Start : FreeCurves::SweepEnd::Goal};
-        return freeCurves_->connect(
-            gap,
-            [&](const ReedsSheppCurve &curve, double cost)
-            {
-                pieces_.assign(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
-                return offer(pieces_.data(), pieces_.size(), outside + cost);
-            });
+        return freeCurves_->connect(gap,
+                                    [&](const ReedsSheppCurve &curve, double cost)
+                                    {
+                                        pieces_.assign(curve.pieces.begin(),
+                                                       curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count));
+                                        return offer(pieces_.data(), pieces_.size(), outside + cost);
+                                    });
     }
 }  // namespace parking::search

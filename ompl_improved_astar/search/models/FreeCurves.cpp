@@ -64,9 +64,9 @@ namespace parking::search
             const double rest = std::copysign(length - clear, piece.length);
             const auto isRestFree = [&]
             {
-                return (gap.end == SweepEnd::Start ? environment_.freeLength(at, {piece.curvature, rest})
-                                                   : environment_.freeLength(joints[k + 1], {piece.curvature, -rest})) >=
-                       std::abs(rest);
+                return (gap.end == SweepEnd::Start
+                            ? environment_.freeLength(at, {piece.curvature, rest})
+                            : environment_.freeLength(joints[k + 1], {piece.curvature, -rest})) >= std::abs(rest);
             };
             // Few samples show that most of what is left is too costly; where nothing is known to be clear a sweep
             // shows sooner that most of it collides.

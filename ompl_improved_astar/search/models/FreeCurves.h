@@ -32,8 +32,8 @@ namespace parking::search
         /** \brief Which end of a gap is the one near which a collision is more likely: pieces are swept from there. */
         enum class SweepEnd
         {
-            Start,
-            Goal
+            Start,  ///< the pose at which the curve begins
+            Goal    ///< the pose at which the curve ends
         };
 
         static constexpr std::size_t MAX_CURVES = 64;  ///< more than there are between two poses
@@ -41,12 +41,12 @@ namespace parking::search
         /** \brief Two poses, both free, between which a curve is wanted. */
         struct Gap
         {
-            Pose from;                       ///< where the curve begins
-            Pose to;                         ///< where it ends
-            const PathPiece *before;         ///< what is driven before it, null for nothing
-            const PathPiece *after;          ///< what is driven after it, null for nothing
-            double maxCost;                  ///< of the curve with its joins: what costs as much is not wanted
-            SweepEnd end{SweepEnd::Start};  ///< from which pieces are swept
+            Pose from;                          ///< where the curve begins
+            Pose to;                            ///< where it ends
+            const PathPiece *before;            ///< what is driven before it, null for nothing
+            const PathPiece *after;             ///< what is driven after it, null for nothing
+            double maxCost;                     ///< of the curve with its joins: what costs as much is not wanted
+            SweepEnd end{SweepEnd::Start};      ///< from which pieces are swept
             std::size_t maxCurves{MAX_CURVES};  ///< that are tried, the cheapest ones
         };
 

@@ -44,8 +44,7 @@ namespace parking::search
         if (!(size.maxCoeff() <= MAX))
             throw Error("a grid has at most " + formatNumber(MAX) + " cells along x and y: for bounds of " +
                         formatNumber(bounds_.size().maxCoeff()) + " m xy_resolution must be at least " +
-                        formatNumber(bounds_.size().maxCoeff() / MAX) + " m, not " +
-                        formatNumber(resolution_));
+                        formatNumber(bounds_.size().maxCoeff() / MAX) + " m, not " + formatNumber(resolution_));
         const auto cellsAlong = [](double length)
         {
             return static_cast<std::int32_t>(std::max(1.0, std::ceil(length)));
@@ -77,8 +76,8 @@ namespace parking::search
 
     Pose GridModel::centre(const Place &place) const
     {
-        return {bounds_.min.x() + (place.column + 0.5) * resolution_,
-                bounds_.min.y() + (place.row + 0.5) * resolution_, 0.0};
+        return {bounds_.min.x() + (place.column + 0.5) * resolution_, bounds_.min.y() + (place.row + 0.5) * resolution_,
+                0.0};
     }
 
     GridModel::Cell &GridModel::cellAt(const Place &place)

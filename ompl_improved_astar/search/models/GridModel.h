@@ -60,7 +60,7 @@ namespace parking::search
 
         struct Cell
         {
-            Occupancy occupancy{Occupancy::Unknown};        // whatever the heading
+            Occupancy occupancy{Occupancy::Unknown};       // whatever the heading
             std::array<Occupancy, MAX_STEPS> byHeading{};  // by the step that arrives with it
         };
 

@@ -12,8 +12,8 @@ namespace parking::search
 {
     namespace
     {
-        /** The eight neighbours; with 16 the knight's moves between them, too (paper, "Neighborhood Expansion"); with 32
-            also a step of three cells between each two of these, so that headings are 7 to 11 degrees apart. */
+        /** The eight neighbours; with 16 the knight's moves between them, too (paper, "Neighborhood Expansion"); with
+           32 also a step of three cells between each two of these, so that headings are 7 to 11 degrees apart. */
         template <std::size_t count>
         std::unique_ptr<MotionModel> newGrid()
         {

@@ -152,7 +152,7 @@ namespace parking
              "guide the search round obstacles (car model)"},
             {"detours", &P::detours, YES_OR_NO, "",
              "while no path is known, drive ahead along the route round obstacles and spread out the search; when "
-             "stuck, try routes through wider gaps, explore, and look for a proof that there is none (car model)"},
+             "stuck, try routes through wider gaps and look for a proof that there is none (car model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
              "when to find out which cells are free: as the search asks, or all of them beforehand"},
             {"adaptive_resolution", &P::adaptiveResolution, YES_OR_NO, "",

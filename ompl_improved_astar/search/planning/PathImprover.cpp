@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace parking::search
@@ -14,7 +15,6 @@ namespace parking::search
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr std::size_t DENSE_KNOTS = 6;   // before a knot: a curve may begin at any of them
         constexpr std::size_t TURNED_KNOTS = 3;  // that one curve passes while the car is turned
-        constexpr std::size_t CONNECTIONS_BETWEEN_STOPS = 8;
 
         /** A move of a pose in steps: forwards, to the left, turned to the left. */
         struct Move
@@ -36,7 +36,7 @@ namespace parking::search
     }  // namespace
 
     /** Cuts the path into knots with its costs. Says no if these are not known for want of time. */
-    bool PathImprover::cut(const PricedPath &path, const Pass &pass)
+    bool PathImprover::cut(const PricedPath &path, const Pass &pass, const StopFunction &stop)
     {
         knots_.assign(1, {0.0, 0.0, {}, 0.0, false});
         states_.clear();
@@ -54,6 +54,8 @@ namespace parking::search
             double next = pass.offset > 0.0 ? pass.offset : pass.spacing;
             for (double done = 0.0; done < length; next += pass.spacing)
             {
+                if (stop && stop())
+                    return false;
                 // No slivers at the end of a piece.
                 const bool isLast = length - next < 0.2 * pass.spacing;
                 const double end = isLast ? length : next;
@@ -145,8 +147,7 @@ namespace parking::search
         };
         if (pass.turnsCar && lane == 1 && isNear(knot, 0))
             add(knot, 0);
-        for (std::size_t earlier = knot;
-             earlier-- > 0 && knots_[knot].driven - knots_[earlier].driven <= pass.reach;)
+        for (std::size_t earlier = knot; earlier-- > 0 && knots_[knot].driven - knots_[earlier].driven <= pass.reach;)
         {
             // Long parts are tried from every few knots only: most of them cannot be replaced, and what is missed by a
             // knot is found by a shorter part.
@@ -171,12 +172,8 @@ namespace parking::search
     void PathImprover::connect(std::size_t from, std::size_t to, const Pass &pass, double max, const PathPiece *after)
     {
         const State &source = states_[from];
-        const FreeCurves::Gap gap{source.pose,
-                                  states_[to].pose,
-                                  from == 0 ? nullptr : &source.last,
-                                  after,
-                                  max - source.cost,
-                                  FreeCurves::SweepEnd::Start,
+        const FreeCurves::Gap gap{source.pose,   states_[to].pose,  from == 0 ? nullptr : &source.last,
+                                  after,         max - source.cost, FreeCurves::SweepEnd::Start,
                                   pass.maxCurves};
         ++connections_;
         freeCurves_.connect(gap,
@@ -216,7 +213,7 @@ namespace parking::search
             if (!(offer.bound < max()))
                 break;
             connect(offer.from, knot * lanes_ + lane, pass, max(), after);
-            if (connections_ % CONNECTIONS_BETWEEN_STOPS == 0 && stop && stop())
+            if (stop && stop())
                 return false;
         }
         return true;
@@ -242,7 +239,7 @@ namespace parking::search
 
     bool PathImprover::improve(PricedPath &path, const Pass &pass, std::size_t maxCusps, const StopFunction &stop)
     {
-        if (path.path.pieces.empty() || (stop && stop()) || !cut(path, pass))
+        if (path.path.pieces.empty() || (stop && stop()) || !cut(path, pass, stop))
             return false;
         addStates(pass);
         taken_.clear();
@@ -261,10 +258,10 @@ namespace parking::search
         if (cheaper.cusps() > maxCusps || !environment_.acceptPath(cheaper))
             return false;
         // Proximity is sampled: the cost of the whole is not quite the sum of its parts'.
-        PricedPath priced = price(cost_, std::move(cheaper), environment_);
-        if (environment_.wasInterrupted() || !(priced.cost < path.cost - 0.5 * gain))
+        std::optional<PricedPath> priced = price(cost_, std::move(cheaper), environment_, stop);
+        if (!priced || !(priced->cost < path.cost - 0.5 * gain))
             return false;
-        path = std::move(priced);
+        path = std::move(*priced);
         return true;
     }
 }  // namespace parking::search

@@ -34,7 +34,7 @@ namespace parking::search
             double spacing;      ///< largest distance between knots
             double offset{0.0};  ///< of the first knot within each piece, so that passes differ; 0: as spacing
             double reach{std::numeric_limits<double>::infinity()};  ///< of the path that one curve replaces at most
-            double step{0.0};      ///< by which poses at the ends of pieces are moved; 0: they are not
+            double step{0.0};  ///< by which poses at the ends of pieces are moved; 0: they are not
             std::size_t maxCurves{FreeCurves::MAX_CURVES};  ///< that are tried between two poses, the cheapest ones
             bool turnsCar{false};  ///< try the car turned round at all knots, instead of moved poses
         };
@@ -71,11 +71,11 @@ namespace parking::search
         /** A place of the path where it is cut, and its piece that leads there. */
         struct Knot
         {
-            double driven;    // metres along the path
-            double cost;      // of the path up to there
-            Arc piece;        // from the knot before
-            double drive;     // cost of that piece without the join at its beginning
-            bool isJoint;     // a piece of the path ends there
+            double driven;  // metres along the path
+            double cost;    // of the path up to there
+            Arc piece;      // from the knot before
+            double drive;   // cost of that piece without the join at its beginning
+            bool isJoint;   // a piece of the path ends there
         };
 
         /** A pose at a knot, and the cheapest path to it. */
@@ -100,7 +100,7 @@ namespace parking::search
             }
         };
 
-        bool cut(const PricedPath &path, const Pass &pass);
+        bool cut(const PricedPath &path, const Pass &pass, const StopFunction &stop);
         void addStates(const Pass &pass);
         void followPath(std::size_t knot);
         void collectOffers(std::size_t knot, std::size_t lane, const Pass &pass, double max);

@@ -119,17 +119,20 @@ namespace parking::search
     /** A path of the search with its costs, which are those that the search has summed up if there is no time. */
     PricedPath PathPlanner::priced(const Path &path, double cost) const
     {
-        PricedPath result = price(search_.cost(), path, *environment_);
-        if (environment_->wasInterrupted())
-            result.cost = cost;
+        if (std::optional<PricedPath> result = price(search_.cost(), path, *environment_, stop_))
+            return *result;
+        CostModel bare = search_.cost();
+        bare.clearanceCost = 0.0;
+        PricedPath result = price(bare, path, *environment_);
+        if (!result.proximity.empty())
+            result.proximity.front() = std::max(0.0, cost - result.cost);
+        result.cost = cost;
         return result;
     }
 
     bool PathPlanner::take(const PricedPath &path)
     {
-        // What looks cheaper and cheaper may do so by being near to obstacles between the samples.
-        if (!(path.cost < best_.cost) || (hasSolution() && search_.cost().prefersClearance() &&
-                                          !(finelySampledCost(path.path) < finelySampledCost(best_.path))))
+        if (!(path.cost < best_.cost) || (hasSolution() && !isCheaperFinelySampled(path.path)))
             return false;
         best_ = path;
         search_.setCostBound(best_.cost);
@@ -137,11 +140,17 @@ namespace parking::search
         return true;
     }
 
-    double PathPlanner::finelySampledCost(const Path &path) const
+    /** Is a path cheaper than the best one where both are sampled finely? What looks cheaper and cheaper may do so by
+        being near to obstacles between the samples. Not if there is no time to find out. */
+    bool PathPlanner::isCheaperFinelySampled(const Path &path) const
     {
         CostModel fine = search_.cost();
         fine.sampleSpacing = FINE_SAMPLES;
-        return price(fine, path, *environment_).cost;
+        if (!fine.prefersClearance())
+            return true;
+        const std::optional<PricedPath> other = price(fine, path, *environment_, stop_),
+                                        best = other ? price(fine, best_.path, *environment_, stop_) : std::nullopt;
+        return best && other->cost < best->cost;
     }
 
     bool PathPlanner::isShortestPossible(const PricedPath &path) const
@@ -171,9 +180,13 @@ namespace parking::search
             pass.step = step * radius;
             return pass;
         };
+        // What the search has cost is worth as much improving: tight places take long to improve by little.
+        const double effort = tuning::IMPROVEMENT_EFFORT +
+                              tuning::IMPROVEMENT_EFFORT_PER_EXPANSION * static_cast<double>(search_.expanded());
+        const std::uint64_t end = improver_->connections() + static_cast<std::uint64_t>(effort);
         const auto isCostly = [&](double ratio)
         {
-            return path.cost > ratio * expected;
+            return path.cost > ratio * expected && improver_->connections() < end;
         };
         const auto shorten = [&]
         {
@@ -195,11 +208,10 @@ namespace parking::search
             if (improve(path, turn))
                 shorten();
         }
-        if (isCostly(tuning::MOVE_RATIO))
-            for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
-                for (int pass = 0; pass < tuning::MAX_MOVES; ++pass)
-                    if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
-                        break;
+        for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
+            for (int pass = 0; pass < tuning::MAX_MOVES && isCostly(tuning::MOVE_RATIO); ++pass)
+                if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
+                    break;
     }
 
     bool PathPlanner::improveBest()

@@ -110,7 +110,7 @@ namespace parking::search
         Outcome planAnytime();
         PricedPath priced(const Path &path, double cost) const;
         bool take(const PricedPath &path);
-        double finelySampledCost(const Path &path) const;
+        bool isCheaperFinelySampled(const Path &path) const;
         bool isShortestPossible(const PricedPath &path) const;
         bool improve(PricedPath &path, const PathImprover::Pass &pass);
         void improveFirst(PricedPath &path, double expected);

@@ -117,7 +117,8 @@ namespace parking::search
         Column &column = columns_.at(place.first, place.second);
         if (!column.asked)
         {
-            const Eigen::Vector2d middle = origin_ + cells_.side * Eigen::Vector2d(place.first + 0.5, place.second + 0.5);
+            const Eigen::Vector2d middle =
+                origin_ + cells_.side * Eigen::Vector2d(place.first + 0.5, place.second + 0.5);
             column.blocked = (*blocked_)(middle.x(), middle.y());
         }
         column.asked = true;

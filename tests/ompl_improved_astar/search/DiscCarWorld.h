@@ -37,6 +37,7 @@ namespace parking_test
         double radius{0.95};
         bool tellsRoom{true};
         bool acceptsPaths{true};
+        std::uint64_t roomsAsked{0};                                            ///< how often roomAt() was called
         bool tellsBlocked{false};                                               ///< whether proofs can be had
         std::uint64_t questions{0};                                             ///< asked so far, of any kind
         std::uint64_t lastQuestion{std::numeric_limits<std::uint64_t>::max()};  ///< what is asked later is interrupted
@@ -110,6 +111,7 @@ namespace parking_test
 
         double roomAt(double x, double y) override
         {
+            ++roomsAsked;
             ++questions;
             return tellsRoom ? distanceFrom(x, y) : std::numeric_limits<double>::infinity();
         }

@@ -127,6 +127,10 @@ namespace parking_test
         }
 
         // What only cars ask.
+        bool knowsClearance() const override
+        {
+            return false;
+        }
         void freeLengths(const parking::Pose & /*from*/, const parking::Arc * /*arcs*/, std::size_t count,
                          double /*clearance*/, double *lengths) override
         {

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <iostream>
 
+#include <ompl_improved_astar/search/CarInSpace.h>
 #include <ompl_improved_astar/search/planning/FootprintEnvironment.h>
+#include <ompl_improved_astar/search/planning/Parameters.h>
 #include <ompl_improved_astar/search/planning/PathPlanner.h>
 #include <parking_geometry/Vehicle.h>
 #include <state_validity/FootprintChecker.h>
@@ -24,11 +26,8 @@ int main()
     }
 
     parking::FootprintEnvironment environment(checker, bounds, 1e-3);
-    parking::search::PathPlannerParameters parameters;
-    parameters.search.turningRadius = car.minTurningRadius();
-    parameters.search.inscribedRadius = car.inscribedRadius();
     parking::search::PathPlanner planner;
-    planner.begin(environment, parameters);
+    planner.begin(environment, parking::PlannerParameters(), parking::search::carInSpace(car, 0.0, bounds));
     planner.addStart(start);
     planner.addGoal(goal);
     planner.solve([] { return false; }, [](const parking::Path &, double) { return true; });

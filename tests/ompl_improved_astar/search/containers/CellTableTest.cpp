@@ -6,69 +6,38 @@
 #include <gtest/gtest.h>
 
 #include <unordered_map>
-#include <vector>
 
 using parking::search::CellTable;
 using parking_test::Random;
 
-TEST(CellTable, isEmptyAtFirst)
-{
-    const CellTable table;
-    EXPECT_EQ(table.find(0), CellTable::NONE);
-    EXPECT_EQ(table.find(~0ull), CellTable::NONE);
-}
-
 TEST(CellTable, matchesUnorderedMapThroughGenerations)
 {
     Random random(3);
-    CellTable table;
-    for (int generation = 0; generation < 20; ++generation)
+    for (const std::size_t slots : {2u, 256u, 4096u})
     {
-        std::unordered_map<std::uint64_t, std::uint32_t> oracle;
-        std::vector<std::uint64_t> keys;
-        // Some generations fill the table beyond where it grows, some hardly touch it.
-        const int operations = generation % 3 == 0 ? 30000 : 300;
-        for (int i = 0; i < operations; ++i)
+        CellTable table(slots);
+        for (int generation = 0; generation < 20; ++generation)
         {
-            std::uint64_t key;
-            switch (random.index(4))
+            std::unordered_map<std::uint64_t, std::uint32_t> oracle;
+            // Some generations fill the table beyond where it grows, some hardly touch it.
+            for (int i = generation % 3 == 0 ? 30000 : 300; i > 0; --i)
             {
-                case 0:  // neighbours, as cells are
-                    key = (std::uint64_t{random.index(200)} << 36) | (std::uint64_t{random.index(200)} << 12);
-                    break;
-                case 1:  // differ in the high bits only
-                    key = random.bits() << 48;
-                    break;
-                case 2:
-                    key = keys.empty() ? 0 : keys[random.index(keys.size())];
-                    break;
-                default:
-                    key = random.bits();
+                // Neighbours, as cells are; what differs in the high bits only; anything.
+                const std::uint64_t kinds[] = {random.index(200) << 36 | random.index(200) << 12, random.bits() << 48,
+                                               random.bits(), 0, ~std::uint64_t{0}};
+                const std::uint64_t key = kinds[random.index(std::size(kinds))];
+                const auto known = oracle.find(key);
+                ASSERT_EQ(table.find(key), known == oracle.end() ? CellTable::NONE : known->second);
+                if (random.chance(0.7))
+                    table.set(key, oracle[key] = static_cast<std::uint32_t>(random.index(1000000)));
+                ASSERT_GE(table.bytes(), oracle.size() * (sizeof(std::uint64_t) + sizeof(std::uint32_t)));
             }
-            const auto known = oracle.find(key);
-            ASSERT_EQ(table.find(key), known == oracle.end() ? CellTable::NONE : known->second);
-            if (random.chance(0.7))
-            {
-                const std::uint32_t value = random.index(1000000);
-                table.set(key, value);
-                oracle[key] = value;
-                keys.push_back(key);
-            }
+            for (const auto &[key, value] : oracle)
+                ASSERT_EQ(table.find(key), value);
+            table.clear();
+            EXPECT_EQ(table.bytes(), 0u);
+            for (const auto &each : oracle)
+                ASSERT_EQ(table.find(each.first), CellTable::NONE) << "of an earlier generation";
         }
-        for (const auto &[key, value] : oracle)
-            ASSERT_EQ(table.find(key), value);
-        table.clear();
-        for (const auto &each : oracle)
-            ASSERT_EQ(table.find(each.first), CellTable::NONE) << "of an earlier generation";
     }
-}
-
-TEST(CellTable, growsFarBeyondItsFirstSize)
-{
-    CellTable table;
-    for (std::uint32_t i = 0; i < 200000; ++i)
-        table.set(std::uint64_t{i} << 20, i);
-    for (std::uint32_t i = 0; i < 200000; ++i)
-        ASSERT_EQ(table.find(std::uint64_t{i} << 20), i);
-    EXPECT_EQ(table.find(std::uint64_t{200000} << 20), CellTable::NONE);
 }

@@ -5,12 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
-
-using parking::search::TiledGrid;
-using parking_test::Random;
 
 namespace
 {
@@ -19,108 +16,59 @@ namespace
         int value{17};
     };
 
-    using Grid = TiledGrid<Content>;
+    using Grid = parking::search::TiledGrid<Content>;
 }  // namespace
 
 TEST(TiledGrid, containsExactlyItsReach)
 {
-    const std::int32_t last = Grid::REACH - 1;
-    EXPECT_TRUE(Grid::contains(-Grid::REACH, last));
-    EXPECT_TRUE(Grid::contains(last, -Grid::REACH));
-    EXPECT_FALSE(Grid::contains(-Grid::REACH - 1, 0));
-    EXPECT_FALSE(Grid::contains(0, -Grid::REACH - 1));
-    EXPECT_FALSE(Grid::contains(Grid::REACH, 0));
-    EXPECT_FALSE(Grid::contains(0, Grid::REACH));
-    EXPECT_TRUE(Grid::contains(-1.0 * Grid::REACH, 1.0 * last));
-    EXPECT_FALSE(Grid::contains(1.0 * Grid::REACH, 0.0));
-    EXPECT_FALSE(Grid::contains(1e300, 0.0));
+    const std::int32_t reach = Grid::REACH;
+    for (const std::int32_t inside : {-reach, 0, reach - 1})
+    {
+        EXPECT_TRUE(Grid::contains(inside, -1 - inside));
+        EXPECT_TRUE(Grid::contains(1.0 * inside, -1.0 - inside));
+        for (const std::int32_t outside : {-reach - 1, reach})
+            EXPECT_FALSE(Grid::contains(inside, outside) || Grid::contains(outside, inside) ||
+                         Grid::contains(1.0 * inside, 1.0 * outside));
+    }
+    EXPECT_FALSE(Grid::contains(1e300, 0.0) || Grid::contains(0.0, std::nan("")));
 }
 
-TEST(TiledGrid, matchesAMapAndForgetsOnClear)
+TEST(TiledGrid, isAMapUntilCleared)
 {
-    Random random(4);
+    parking_test::Random random(4);
     Grid grid;
+    const Content *const kept = &grid.at(0, 0);
     for (int round = 0; round < 5; ++round)
     {
-        std::map<std::pair<std::int32_t, std::int32_t>, int> oracle;
-        for (int i = 0; i < 20000; ++i)
+        std::map<std::pair<std::int32_t, std::int32_t>, Content> baseline;
+        const auto coordinate = [&]
         {
             // Across the borders of tiles near the middle, and at the four corners.
-            std::int32_t column = static_cast<std::int32_t>(random.index(200)) - 100;
-            std::int32_t row = static_cast<std::int32_t>(random.index(200)) - 100;
-            if (random.chance(0.1))
-            {
-                column = random.chance(0.5) ? Grid::REACH - 1 : -Grid::REACH;
-                row = random.chance(0.5) ? Grid::REACH - 1 : -Grid::REACH;
-            }
-            const auto known = oracle.find({column, row});
-            const auto *const found = std::as_const(grid).find(column, row);
-            ASSERT_TRUE(known == oracle.end() ? found == nullptr || found->value == 17
-                                              : found != nullptr && found->value == known->second);
-            ASSERT_EQ(grid.at(column, row).value, known == oracle.end() ? 17 : known->second);
-            const int value = static_cast<int>(random.index(1000));
-            grid.at(column, row).value = value;
-            oracle[{column, row}] = value;
+            const std::int32_t corner = random.chance(0.5) ? Grid::REACH - 1 : -Grid::REACH;
+            return random.chance(0.1) ? corner : random.below(200) - 100;
+        };
+        for (int i = 0; i < 20000; ++i)
+        {
+            const std::int32_t column = coordinate(), row = coordinate();
+            const Content *const found = std::as_const(grid).find(column, row);
+            Content &expected = baseline[{column, row}];
+            ASSERT_EQ(found == nullptr ? 17 : found->value, expected.value);
+            ASSERT_EQ(grid.at(column, row).value, expected.value);
+            grid.at(column, row).value = expected.value = random.below(1000);
+            ASSERT_TRUE(round > 0 || &grid.at(0, 0) == kept);
         }
+        std::size_t visited = 0, cells = 0;
+        const auto visit = [&](std::int32_t column, std::int32_t row, const Content &content)
+        {
+            const auto found = baseline.find({column, row});
+            ASSERT_EQ(content.value, found == baseline.end() ? 17 : found->second.value);
+            visited += found != baseline.end() ? 1 : 0;
+            ++cells;
+        };
+        grid.forEach(visit);
+        EXPECT_EQ(visited, baseline.size());
+        EXPECT_EQ(cells * sizeof(Content), grid.bytes());
         grid.clear();
+        EXPECT_EQ(grid.bytes(), 0u);
     }
-}
-
-TEST(TiledGrid, referencesHoldWhileOthersAreMade)
-{
-    Grid grid;
-    Content &kept = grid.at(0, 0);
-    kept.value = 1;
-    for (std::int32_t i = 1; i < Grid::DIRECTORY / 2; ++i)
-        grid.at(i * Grid::TILE, -i * Grid::TILE).value = i;
-    EXPECT_EQ(kept.value, 1);
-    EXPECT_EQ(&kept, &grid.at(0, 0));
-}
-
-TEST(TiledGrid, neighboursAreTheEightAroundRowByRow)
-{
-    Random random(5);
-    Grid grid;
-    const auto number = [](std::int32_t column, std::int32_t row)
-    {
-        return 10000 * row + column;
-    };
-    for (int i = 0; i < 3000; ++i)
-    {
-        // On both sides of the borders of tiles, and away from them.
-        const auto column = static_cast<std::int32_t>(random.index(100)) - 50;
-        const auto row = static_cast<std::int32_t>(random.index(100)) - 50;
-        for (std::int32_t r = row - 1; r <= row + 1; ++r)
-            for (std::int32_t c = column - 1; c <= column + 1; ++c)
-                grid.at(c, r).value = number(c, r);
-        const Grid::Neighbours neighbours(grid, column, row);
-        for (std::int32_t r = -1; r <= 1; ++r)
-            for (std::int32_t c = -1; c <= 1; ++c)
-            {
-                ASSERT_EQ(neighbours.at(c, r), &grid.at(column + c, row + r)) << column << " " << row;
-                ASSERT_EQ(neighbours.at(c, r)->value, number(column + c, row + r));
-            }
-    }
-}
-
-TEST(TiledGrid, neighboursBeyondTheReachAreNone)
-{
-    Grid grid;
-    const std::int32_t last = Grid::REACH - 1;
-    const auto count = [&grid](std::int32_t column, std::int32_t row)
-    {
-        const Grid::Neighbours neighbours(grid, column, row);
-        int known = 0;
-        for (std::int32_t r = -1; r <= 1; ++r)
-            for (std::int32_t c = -1; c <= 1; ++c)
-            {
-                EXPECT_EQ(neighbours.at(c, r) != nullptr, Grid::contains(column + c, row + r));
-                known += neighbours.at(c, r) != nullptr ? 1 : 0;
-            }
-        return known;
-    };
-    EXPECT_EQ(count(last, last), 4);
-    EXPECT_EQ(count(-Grid::REACH, 0), 6);
-    EXPECT_EQ(count(0, last), 6);
-    EXPECT_EQ(count(last - 1, -Grid::REACH + 1), 9);
 }

@@ -1,5 +1,4 @@
-// Somebody else's motion model: a robot with two driven wheels, which turns on the spot. Nothing of the search knows
-// it.
+// A motion model that the project does not bring: a robot with two driven wheels, which turns on the spot.
 
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
@@ -9,6 +8,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 using namespace parking;
@@ -24,15 +24,15 @@ namespace
     class TwoWheels final : public MotionModel
     {
     public:
-        void begin(MotionEnvironment &environment, const SearchParameters & /*parameters*/) override
+        void begin(const SearchContext &context) override
         {
-            environment_ = &environment;
+            environment_ = &context.environment;
         }
 
         ModelTraits traits() const override
         {
             ModelTraits traits;
-            traits.joinsAfar = true;
+            traits.drivesCurves = true;
             traits.turnsOnTheSpot = true;
             return traits;
         }
@@ -51,20 +51,19 @@ namespace
             return bits(pose.x / 0.3) << 32 | bits(pose.y / 0.3) << 16 | bits(4.0 * wrapAngle(pose.yaw) / PI);
         }
 
-        void expand(Side side, NodeIndex /*index*/, const Node &node, std::size_t /*level*/, bool /*first*/,
-                    Expansion &expansion) override
+        void expand(Side side, NodeIndex /*index*/, const Node &node, std::size_t /*level*/, bool /*isFirst*/,
+                    std::vector<Successor> &successors) override
         {
             for (const double turn : {-0.25 * PI, 0.0, 0.25 * PI})
             {
                 const double length = side == Side::Start ? STEP : -STEP, yaw = wrapAngle(node.pose.yaw + turn);
-                expansion.successors.push_back(
-                    {{turn, 0.0, length, 0.0}, advance({node.pose.x, node.pose.y, yaw}, 0.0, length), false});
+                successors.push_back({{turn, 0.0, length}, advance({node.pose.x, node.pose.y, yaw}, 0.0, length)});
             }
         }
 
         bool isFree(Side side, const Node &from, const Successor &to) override
         {
-            return side == Side::Start ? isWayFree(from.pose, to.pose) : isWayFree(to.pose, from.pose);
+            return side == Side::Start ? isMotionFree(from.pose, to.pose) : isMotionFree(to.pose, from.pose);
         }
 
         bool join(const Node &fromStart, const Node &fromGoal, Side /*sweptFrom*/, double bound,
@@ -72,7 +71,7 @@ namespace
         {
             const Pose &a = fromStart.pose, &b = fromGoal.pose;
             const double length = positionDistance(a, b), cost = fromStart.g + fromGoal.g + length;
-            if (cost >= bound || !isWayFree(a, b))
+            if (cost >= bound || !isMotionFree(a, b))
                 return false;
             const double heading = std::atan2(b.y - a.y, b.x - a.x);
             const PathPiece pieces[] = {PathPiece::turnOnTheSpot(wrapAngle(heading - a.yaw)),
@@ -86,15 +85,8 @@ namespace
             return positionDistance(from, to);
         }
 
-        std::size_t bytes() const override
-        {
-            return tables;
-        }
-
-        static inline std::size_t tables = 0;  ///< what its tables are said to take
-
     private:
-        bool isWayFree(const Pose &from, const Pose &to)
+        bool isMotionFree(const Pose &from, const Pose &to)
         {
             return environment_->isFree(to) && environment_->isMotionFree(from, to);
         }
@@ -104,11 +96,11 @@ namespace
 
     PlanRequest requestIn(const GridWorld &world, const Pose &start, const Pose &goal)
     {
-        motionModels().add("two_wheels", [] { return std::make_unique<TwoWheels>(); });
+        motionModels().add("two_wheels", newPart<TwoWheels>);
         PlanRequest request;
         request.starts = {start};
         request.goals = {goal};
-        request.car.bounds.max = {world.columns, world.rows};
+        request.car = world.car();
         request.parameters.motionModel = "two_wheels";
         return request;
     }
@@ -125,27 +117,14 @@ TEST(OwnModel, isSearchedLikeTheProjectsOwn)
     EXPECT_NEAR(result.cost, result.path.length(), 1e-9);
     EXPECT_GE(result.path.length(), 8.49) << "round the walls";
     EXPECT_GE(result.suboptimalityBound, 1.0);
+    EXPECT_TRUE(turnsOnTheSpot("two_wheels"));
 }
 
-TEST(OwnModel, findsOutThatThereIsNoWay)
+TEST(OwnModel, findsOutThatThereIsNoPath)
 {
     GridWorld world({".....", "#####", ".....", "....."});
     const PlanResult result = plan(world, requestIn(world, {0.5, 0.5, 0.0}, {4.5, 3.5, 0.0}));
     EXPECT_EQ(result.outcome, PlanOutcome::Approximate);
     EXPECT_FALSE(result.reason.empty()) << "not for want of time";
     EXPECT_NEAR(result.path.end().y, 2.0, 0.4) << "up to the wall";
-}
-
-TEST(OwnModel, itsTablesCountAsMemory)
-{
-    std::vector<std::string> rows(40, std::string(40, '.'));
-    rows[35] = std::string(40, '#');
-    GridWorld world(rows);
-    const PlanRequest request = requestIn(world, {0.5, 0.5, 0.0}, {4.5, 38.5, 0.0});
-    const std::uint64_t whole = plan(world, request).statistics.generated;
-    TwoWheels::tables = (std::size_t(request.parameters.maxMemoryMb) << 20) + 1;
-    const PlanResult full = plan(world, request);
-    TwoWheels::tables = 0;
-    EXPECT_NE(full.reason.find("MB of memory"), std::string::npos) << full.reason;
-    EXPECT_LT(full.statistics.generated, whole / 2);
 }

@@ -1,11 +1,8 @@
-// What the search asks of the world, answered by the footprint checker within the bounds of the state space, and by any
-// other checker.
+// What the search asks of the world, answered by the footprint checker within the bounds of the state space: against
+// poses close together, whose clearance is exact.
 
 #include "benchmarks/worlds/RandomWorlds.h"
-#include "ompl_improved_astar/search/heuristics/ObstacleHeuristic.h"
-#include "ompl_improved_astar/search/models/CurveCheck.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
-#include "ompl_improved_astar/search/planning/Plan.h"
 #include "tests/ompl_improved_astar/search/DiscCarWorld.h"
 
 #include <gtest/gtest.h>
@@ -23,385 +20,256 @@ using namespace parking_test;
 namespace
 {
     constexpr double TOLERANCE = 1e-3;
+
+    /** A random world as the environment of a search. */
+    struct Place
+    {
+        /** \brief \param cut metres by which the bounds of the rear axle lie within the world */
+        explicit Place(std::uint64_t seed, double cut = 0.0)
+          : world(seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed)),
+            checker(world.obstacles, vehicle),
+            bounds{world.bounds.min + Eigen::Vector2d(cut, cut), world.bounds.max - Eigen::Vector2d(cut, 1.5 * cut)},
+            environment(checker, bounds, TOLERANCE)
+        {
+        }
+
+        /** Near to obstacles or anywhere. */
+        Pose pose(Random &random) const
+        {
+            return random.chance(0.5) ? world.anywhere(random)
+                                      : world.touching(random, vehicle, std::abs(random.magnitude(1e-4, 0.5)));
+        }
+
+        Vehicle vehicle;
+        World world;
+        FootprintChecker checker;
+        Box bounds;
+        FootprintEnvironment environment;
+    };
+
+    /** The least clearance of an arc, at its ends and every so many metres. */
+    double leastClearance(const FootprintChecker &checker, const Pose &from, const Arc &arc, double step)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        const double steps = std::ceil(std::abs(arc.length) / step);
+        for (double i = 0.0; i <= steps; i += 1.0)
+            least = std::min(
+                least, checker.exactClearance(advance(from, arc.curvature, arc.length * i / std::max(1.0, steps))));
+        return least;
+    }
+
 }  // namespace
 
-/** Turned round the body covers the ground that it covered: every corner lies where the opposite one was. */
-TEST(FootprintEnvironment, turnsTheCarRoundOnTheSpotOnWhichItStands)
+TEST(FootprintEnvironment, freeLengthsKeepTheClearanceEverywhereAndReachContactWithoutOne)
 {
-    Vehicle vehicle;
-    vehicle.frontOverhang = 1.1;
-    vehicle.rearOverhang = 0.6;
-    const World world = randomPolygonWorld(1);
-    const FootprintChecker checker(world.obstacles, vehicle);
-    const FootprintEnvironment environment(checker, {{-50.0, -50.0}, {50.0, 50.0}}, TOLERANCE);
-    Random random(7);
-    for (int i = 0; i < 100; ++i)
+    int whole = 0, partly = 0, atBounds = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
     {
-        const Pose pose{random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-PI, PI)};
-        const Pose turned = environment.turnedRound(pose);
-        EXPECT_NEAR(std::abs(wrapAngle(turned.yaw - pose.yaw)), PI, 1e-12);
-        EXPECT_EQ(turned.yaw, wrapAngle(turned.yaw));
-        const Pose front = advance(pose, 0.0, vehicle.wheelbase + vehicle.frontOverhang);
-        const Pose turnedRear = advance(turned, 0.0, -vehicle.rearOverhang);
-        EXPECT_NEAR(positionDistance(front, turnedRear), 0.0, 1e-12);
-        EXPECT_EQ(checker.isFree(turned), checker.isFree(pose));
-    }
-}
-
-TEST(FootprintEnvironment, motionsEndAtTheBoundsOrWhereTheCheckerSays)
-{
-    const Vehicle vehicle;
-    int whole = 0, atBounds = 0, atObstacles = 0;
-    for (std::uint64_t seed = 0; seed < 6; ++seed)
-    {
-        const World world = randomPolygonWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle);
-        const Box bounds{{-9.0, -4.0}, {7.0, 11.0}};
-        FootprintEnvironment environment(checker, bounds, TOLERANCE);
+        Place place(seed, seed % 3 == 0 ? 4.0 : 0.0);
         Random random(seed);
-        for (int i = 0; i < 800;)
+        for (int i = 0; i < 1000; ++i)
         {
-            const Pose from{random.between(-10.0, 8.0), random.between(-5.0, 12.0), random.between(-PI, PI)};
-            if (!checker.isFree(from))
-                continue;
-            ++i;
-            ASSERT_EQ(environment.isFree(from), bounds.contains(from.x, from.y));
-            const double curvature = random.chance(0.3) ? 0.0 : random.between(-0.25, 0.25);
-            const double length = random.magnitude(0.05, 9.0), wanted = std::abs(length);
-            const double free = environment.freeLength(from, curvature, length);
-            const double byChecker = checker.freeLength(from, curvature, length);
-            ASSERT_LE(free, byChecker);
-            for (double driven = 0.0; driven < free; driven += 0.01)
+            const Pose from = place.pose(random);
+            std::vector<Arc> arcs;
+            for (std::size_t k = 1 + random.index(4); k > 0; --k)
+                arcs.push_back({random.chance(0.3) ? 0.0 : random.between(-0.3, 0.3), random.magnitude(0.01, 8.0)});
+            const bool isFree = place.environment.isFree(from);
+            ASSERT_EQ(isFree, place.checker.exactClearance(from) > 0.0 && place.bounds.contains(from.x, from.y));
+            // Nothing is known of clearances that cannot be swept.
+            for (const double clearance : {0.5 * TOLERANCE, 1.01 * FootprintChecker::MAX_TOLERANCE})
+                ASSERT_EQ(place.environment.freeLength(from, arcs[0], clearance), 0.0);
+            const double clearance = i % 2 == 0 ? 0.0 : i % 4 == 1 ? TOLERANCE : random.between(TOLERANCE, 0.3);
+            std::vector<double> lengths(arcs.size(), -1.0);
+            place.environment.freeLengths(from, arcs.data(), arcs.size(), clearance, lengths.data());
+            for (std::size_t k = 0; k < arcs.size(); ++k)
             {
-                const Pose at = advance(from, curvature, std::copysign(driven, length));
-                ASSERT_TRUE(bounds.contains(at.x, at.y));
+                const auto &[curvature, length] = arcs[k];
+                const double free = lengths[k];
+                ASSERT_EQ(free, place.environment.freeLength(from, arcs[k], clearance)) << "alone as with others";
+                ASSERT_TRUE(free >= 0.0 && free <= std::abs(length) && (isFree || free == 0.0));
+                if (!isFree)
+                    continue;
+                const Arc driven{curvature, std::copysign(free, length)};
+                ASSERT_TRUE(free == 0.0 || leastClearance(place.checker, from, driven, 0.02) > clearance - 1e-9);
+                for (double at = 0.0; at < free; at += 0.01)
+                {
+                    const Pose pose = advance(from, curvature, std::copysign(at, length));
+                    ASSERT_TRUE(place.bounds.contains(pose.x, pose.y));
+                }
+                // Just beyond its end is a wall, of one kind or the other: that near without a clearance, and not much
+                // farther than the clearance from the way, since a body so enlarged reaches farthest at its corners.
+                const Arc rest{curvature, std::copysign(2.0 * TOLERANCE, length)};
+                const Pose end = advance(from, driven), beyond = advance(end, rest);
+                const bool leaves = !place.bounds.contains(beyond.x, beyond.y);
+                ++(free >= std::abs(length) ? whole : leaves ? atBounds : partly);
+                if (free >= std::abs(length) || leaves)
+                    continue;
+                ASSERT_TRUE(clearance > 0.0 ||
+                            leastClearance(place.checker, end, rest, 0.1 * TOLERANCE) < 3.0 * TOLERANCE);
+                ASSERT_LT(leastClearance(place.checker, from, arcs[k], 0.02), 2.5 * std::max(TOLERANCE, clearance));
             }
-            if (!bounds.contains(from.x, from.y))
-            {
-                ASSERT_EQ(free, 0.0);
-                continue;
-            }
-            if (free >= wanted)
-            {
-                ++whole;
-                continue;
-            }
-            // No shorter than need be: just beyond its end is a wall, of one kind or the other.
-            const Pose beyond = advance(from, curvature, std::copysign(free + 2.0 * TOLERANCE, length));
-            const bool leaves = !bounds.contains(beyond.x, beyond.y);
-            ASSERT_TRUE(leaves || free >= byChecker - 1e-12) << free << " of " << byChecker;
-            ++(leaves ? atBounds : atObstacles);
         }
     }
-    EXPECT_GT(whole, 300);
-    EXPECT_GT(atBounds, 300);
-    EXPECT_GT(atObstacles, 300);
+    EXPECT_TRUE(whole > 500 && partly > 500 && atBounds > 50) << whole << " " << partly << " " << atBounds;
+}
+
+TEST(FootprintEnvironment, keepsWhatIsKeptExactlyAndNothingElse)
+{
+    int kept = 0, missed = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+    {
+        Place place(seed);
+        Random random(seed);
+        for (int i = 0; i < 500; ++i)
+        {
+            const Pose pose = place.pose(random);
+            const double exact = place.checker.exactClearance(pose);
+            for (const double clearance : {0.01, 0.1, 0.3, exact, random.between(0.0, 0.9)})
+                if (clearance > 0.0 && place.environment.keeps(pose, clearance))
+                {
+                    ++kept;
+                    ASSERT_GE(exact, clearance - 1e-9);
+                }
+                else
+                {
+                    ++missed;
+                    ASSERT_LE(std::min(0.7 * exact, 0.9), clearance + 1e-9) << "but from corner to corner";
+                }
+        }
+    }
+    EXPECT_GT(kept, 1000);
+    EXPECT_GT(missed, 1000);
+}
+
+TEST(FootprintEnvironment, aMotionIsFreeWhereItsPosesAre)
+{
+    int free = 0, blocked = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+    {
+        Place place(seed, seed % 3 == 0 ? 4.0 : 0.0);
+        Random random(seed);
+        for (int i = 0; i < 300; ++i)
+        {
+            const Pose from = place.pose(random);
+            if (!place.environment.isFree(from))
+                continue;
+            const double turn = i % 3 == 0 ? 0.0 : random.between(-3.0, 3.0), reach = i % 5 == 0 ? 0.0 : 2.0;
+            const Pose to{from.x + random.between(-reach, reach), from.y + random.between(-reach, reach),
+                          wrapAngle(from.yaw + turn)};
+            double least = std::numeric_limits<double>::infinity();
+            bool isInside = true;
+            for (int k = 0; k <= 200; ++k)
+            {
+                const double t = k / 200.0;
+                const Pose pose{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y), from.yaw + t * turn};
+                least = std::min(least, place.checker.exactClearance(pose));
+                isInside = isInside && place.bounds.contains(pose.x, pose.y);
+            }
+            const bool isFree = place.environment.isMotionFree(from, to);
+            ++(isFree ? free : blocked);
+            ASSERT_TRUE(isFree ? least > 0.0 && isInside : least < 0.05 || !isInside) << least;
+        }
+    }
+    EXPECT_GT(free, 200);
+    EXPECT_GT(blocked, 200);
 }
 
 TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)
 {
-    // At a slot's end the bounds pass through the goal, to which only a straight way leads.
     const Vehicle vehicle;
-    const Box bounds{{-25.0, -25.0}, {10.0, 25.0}};
-    for (const double half : {0.98, 1.02})
-        for (const double yaw : {0.0, 1e-12, -1e-12})
+    const Box bounds{{-10.0, -10.0}, {10.0, 10.0}};
+    const FootprintChecker checker(ObstacleSet::fromPolygons({}, {{-30.0, -30.0}, {30.0, 30.0}}), vehicle);
+    FootprintEnvironment environment(checker, bounds, TOLERANCE);
+    for (int quarter = 0; quarter < 4; ++quarter)
+        for (const double skew : {0.0, 1e-12, -1e-12})
         {
-            SCOPED_TRACE(yaw);
-            const std::vector<Polygon> walls = {{{0.0, half}, {15.0, half}, {15.0, half + 3.0}, {0.0, half + 3.0}},
-                                                {{0.0, -half - 3.0}, {15.0, -half - 3.0}, {15.0, -half}, {0.0, -half}}};
-            const FootprintChecker checker(ObstacleSet::fromPolygons(walls, {{-30.0, -30.0}, {30.0, 30.0}}), vehicle);
-            FootprintEnvironment environment(checker, bounds, TOLERANCE);
-            const Pose goal{10.0, 0.0, yaw};
-            ASSERT_TRUE(environment.isFree(goal));
-            EXPECT_EQ(environment.freeLength(goal, 0.0, -3.0), 3.0);
-            EXPECT_LT(environment.freeLength(goal, 0.0, 0.1), 0.1);
-            for (const double beyond : {1e-8, 5e-10})
-                EXPECT_LT(environment.freeLength(advance(goal, 0.0, -3.0), 0.0, 3.0 + beyond), 3.0);
-            PlanRequest request;
-            request.starts = {{-15.0, 8.0, 0.5}};
-            request.goals = {goal};
-            request.car = carInSpace(vehicle, 0.0, bounds);
-            request.parameters.approximate = false;
-            request.maxExpansions = 6000;
-            const PlanResult result = plan(environment, request);
-            EXPECT_EQ(result.outcome, PlanOutcome::Solved) << result.reason;
+            const double yaw = 0.5 * PI * quarter;
+            const Pose on{std::clamp(12.0 * std::cos(yaw), -10.0, 10.0), std::clamp(12.0 * std::sin(yaw), -10.0, 10.0),
+                          yaw + skew};
+            SCOPED_TRACE(testing::Message() << on.x << " " << on.y << " " << on.yaw);
+            ASSERT_TRUE(environment.isFree(on));
+            EXPECT_FALSE(environment.isFree(advance(on, 0.0, 1e-6)));
+            EXPECT_EQ(environment.freeLength(on, {0.0, -3.0}), 3.0);
+            EXPECT_EQ(environment.freeLength(on, {0.2, -3.0}), 3.0);
+            EXPECT_LT(environment.freeLength(on, {0.0, 0.1}), 0.1);
+            const Pose before = advance(on, 0.0, -3.0);
+            EXPECT_NEAR(environment.freeLength(before, {0.0, 3.0}), 3.0, 1.1 * TOLERANCE);
+            for (const double beyond : {1e-8, 1.0})
+                EXPECT_LT(environment.freeLength(before, {0.0, 3.0 + beyond}), 3.0);
         }
+    EXPECT_EQ(environment.freeLength({10.1, 0.0, PI}, {0.0, 3.0}), 0.0);
 }
 
-TEST(FootprintEnvironment, severalMotionsFromOnePoseAreWhatEachIsAlone)
+/** The room at a point is an upper bound, and close: were it too high by much, discs would go where they do not fit,
+   and lead the search there. */
+TEST(FootprintEnvironment, roomIsNeverBelowTheDistanceToTheNearestObstacleNorMuchAbove)
 {
-    const Vehicle vehicle;
-    for (std::uint64_t seed = 0; seed < 4; ++seed)
-    {
-        const World world = randomPolygonWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle);
-        FootprintEnvironment environment(checker, {{-9.0, -4.0}, {7.0, 11.0}}, TOLERANCE);
-        Random random(seed + 50);
-        std::vector<Arc> arcs;
-        std::vector<double> free;
-        for (int i = 0; i < 500; ++i)
-        {
-            const Pose from = i % 2 == 0 ? world.anywhere(random)
-                                         : world.touching(random, vehicle, std::abs(random.magnitude(1e-6, 0.5)));
-            arcs.clear();
-            for (std::size_t k = 0; k < 1 + random.index(6); ++k)
-                arcs.push_back({random.chance(0.3) ? 0.0 : random.between(-0.3, 0.3), random.magnitude(0.01, 8.0)});
-            free.assign(arcs.size(), -1.0);
-            environment.freeLengths(from, arcs.data(), arcs.size(), free.data());
-            for (std::size_t k = 0; k < arcs.size(); ++k)
-                ASSERT_EQ(free[k], environment.freeLength(from, arcs[k].curvature, arcs[k].length));
-        }
-    }
-}
-
-/** Past a wall that leaves less than the tolerance, or more: nobody asks once more about what is clear. */
-TEST(FootprintEnvironment, whatIsClearToItsEndIsFree)
-{
-    const Vehicle vehicle;
-    int clear = 0, withinTolerance = 0;
-    for (const double room : {1e-5, 4e-4, 7e-4, 2e-3, 0.02, 0.2})
-    {
-        const double side = 0.5 * vehicle.width + room;
-        const Polygon wall{{6.0, side}, {25.0, side}, {25.0, side + 1.0}, {6.0, side + 1.0}};
-        const FootprintChecker checker(ObstacleSet::fromPolygons({wall}, {{-20.0, -20.0}, {40.0, 20.0}}), vehicle);
-        FootprintEnvironment environment(checker, {{-20.0, -20.0}, {40.0, 20.0}}, TOLERANCE);
-        for (const double clearance : {1e-12, 1e-4, 5e-4, TOLERANCE, 1.5e-3, 0.01, 0.1, 0.3})
-            for (const double curvature : {0.0, -0.1, 0.1})
-            {
-                const Arc arc{curvature, 8.0};
-                double kept = -1.0;
-                environment.clearLengths({0.0, 0.0, 0.0}, &arc, 1, clearance, &kept);
-                const bool isFree = environment.freeLength({0.0, 0.0, 0.0}, curvature, arc.length) >= arc.length;
-                if (kept >= arc.length)
-                {
-                    EXPECT_TRUE(isFree) << room << " of room, " << clearance << " kept";
-                    ++clear;
-                }
-                withinTolerance += !isFree && clearance < room;
-            }
-    }
-    EXPECT_GT(clear, 10);
-    EXPECT_GT(withinTolerance, 3);
-}
-
-TEST(FootprintEnvironment, whatIsClearNeedNoLookToBeFreeAndTheRestIsFreeAsFarAsBefore)
-{
-    const Vehicle vehicle;
-    int whole = 0, partly = 0, notAtAll = 0;
     for (std::uint64_t seed = 0; seed < 12; ++seed)
     {
-        const World world = seed % 2 == 0 ? randomPolygonWorld(seed) : randomGridWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle);
-        // Bounds that matter cut some motions short, too.
-        const Box &all = world.obstacles.bounds();
-        const Box bounds =
-            seed % 3 == 0 ? Box{all.min + Eigen::Vector2d(4.0, 3.0), all.max - Eigen::Vector2d(2.0, 5.0)} : all;
-        FootprintEnvironment environment(checker, bounds, TOLERANCE);
+        Place place(seed);
+        Vehicle point;  // nearly one
+        point.wheelbase = point.width = 0.01;
+        point.frontOverhang = point.rearOverhang = 0.0;
+        const FootprintChecker exact(place.world.obstacles, point);
         Random random(seed);
-        for (int i = 0; i < 1500; ++i)
+        const double error = place.checker.field().errorBound();
+        for (int i = 0; i < 2000; ++i)
         {
-            const Pose from = world.anywhere(random);
-            if (!environment.isFree(from))
-                continue;
-            const double clearance = i % 8 == 0 ? TOLERANCE : random.between(0.005, 0.3);
-            std::vector<Arc> arcs;
-            for (int k = 0; k < 6; ++k)
-                arcs.push_back({random.chance(0.3) ? 0.0 : random.between(-0.25, 0.25), random.magnitude(0.05, 8.0)});
-            std::vector<double> clear(arcs.size()), free(arcs.size()), expected(arcs.size());
-            environment.clearLengths(from, arcs.data(), arcs.size(), clearance, clear.data());
-            environment.freeLengths(from, arcs.data(), arcs.size(), expected.data());
-            environment.freeLengthsBeyond(from, arcs.data(), arcs.size(), clear.data(), free.data());
-            for (std::size_t k = 0; k < arcs.size(); ++k)
-            {
-                const double wanted = std::abs(arcs[k].length);
-                ASSERT_GE(free[k], clear[k]);
-                ASSERT_NEAR(free[k], expected[k], 1e-7) << "clear " << clear[k] << " of " << wanted;
-                ASSERT_EQ(free[k] == wanted, expected[k] == wanted);
-                ++(clear[k] >= wanted ? whole : clear[k] > 0.0 ? partly : notAtAll);
-            }
+            const Pose at = place.world.anywhere(random);
+            const double distance = exact.exactClearance(at), room = place.environment.roomAt(at.x, at.y);
+            ASSERT_GE(room, distance - 1e-5);
+            ASSERT_TRUE(distance <= 0.0 || room <= distance + 2.0 * error + 0.02);
         }
     }
-    EXPECT_GT(whole, 1000);
-    EXPECT_GT(partly, 1000);
-    EXPECT_GT(notAtAll, 1000);
 }
 
-namespace
+TEST(FootprintEnvironment, headingsAreBlockedOnlyWhereAllPosesOfTheCellCollide)
 {
-    /** Whether a disc gets from one half of a map, as wide as long, to the other, through a gap in the wall between. */
-    class GapInMap
+    int blocked = 0, open = 0;
+    for (std::uint64_t seed = 0; seed < 16; ++seed)
     {
-    public:
-        GapInMap(std::size_t size, double resolution, std::size_t gap)
-          : map_(size, size, resolution),
-            checker_(ObstacleSet::fromGrid(wall(map_, gap)), Vehicle()),
-            side_(static_cast<double>(size) * resolution),
-            environment_(checker_, {{0.0, 0.0}, {side_, side_}}, TOLERANCE)
-        {
-        }
-
-        bool lets(double radius)
-        {
-            const StopFunction never;
-            const std::vector<Pose> roots{{0.8 * side_, 0.8 * side_, 0.0}}, targets{{0.2 * side_, 0.2 * side_, 0.0}};
-            const SearchParameters parameters;
-            ObstacleHeuristic way;
-            way.begin({environment_, parameters, Side::Start, roots, targets, never}, {radius},
-                      parameters.tuning.mostCells);
-            return !way.provesUnreachable(roots.front());
-        }
-
-    private:
-        static OccupancyGrid &wall(OccupancyGrid &map, std::size_t gap)
-        {
-            const std::size_t middle = map.height() / 2;
-            for (std::size_t row = 0; row < map.height(); ++row)
-                if (row < middle || row >= middle + gap)
-                    map.set(map.width() / 2, row, Cell::Occupied);
-            return map;
-        }
-
-        OccupancyGrid map_;
-        FootprintChecker checker_;
-        double side_;
-        FootprintEnvironment environment_;
-    };
-}  // namespace
-
-/** In maps whose cells are a metre wide: were the room told with the error of a cell, discs would go where they do not
-    fit, and lead the search there. */
-TEST(FootprintEnvironment, discsPassGapsOfMapsWithWideCellsWhereTheyFitButForAFractionOfACell)
-{
-    constexpr double GAP = 4.0;
-    GapInMap map(80, 1.0, 4);
-    for (const double radius : {0.5, 1.0, 1.5, 0.499 * GAP})
-        EXPECT_TRUE(map.lets(radius)) << radius;
-    // In the corner of a cell the bound is too high by half a diagonal less half a side: 0.21 m. To this comes what a
-    // part of a cell of the disc's way is wide.
-    for (const double radius : {0.6 * GAP, 0.75 * GAP, GAP})
-        EXPECT_FALSE(map.lets(radius)) << radius;
-}
-
-/** The same for cells of 10 cm: a gap that is too narrow by a few centimetres must be told from one that is not, or a
-    place that is closed to every car is taken for open. */
-TEST(FootprintEnvironment, discsPassGapsOfMapsWithSmallCellsWhereTheyFitButForCentimetres)
-{
-    constexpr double GAP = 1.6;
-    GapInMap map(400, 0.1, 16);
-    for (const double radius : {0.4, 0.7, 0.499 * GAP})
-        EXPECT_TRUE(map.lets(radius)) << radius;
-    for (const double radius : {0.5 * GAP + 0.08, 0.5 * GAP + 0.129, GAP})
-        EXPECT_FALSE(map.lets(radius)) << radius;
-}
-
-/** Looking at the ends of the pieces first changes the cost of the answer, not the answer. */
-TEST(CurveCheck, saysWhatSweepingSaysFromEitherEnd)
-{
-    const ReedsShepp curves(3.0);
-    int free = 0, blocked = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed)
-    {
-        DiscCarWorld world = randomField(seed);
+        Place place(seed);
         Random random(seed);
-        std::vector<ReedsSheppCurve> candidates;
-        for (int i = 0; i < 20; ++i)
+        const double side = random.between(0.1, 0.9);
+        const int headings = 8 + random.below(121);
+        const BlockedHeadings cells = place.environment.blockedHeadings(side, headings);
+        for (int i = 0; i < 150; ++i)
         {
-            const Pose from = world.freePose(random), to = world.freePose(random);
-            curves.candidates(from, to, candidates, 40.0);
-            for (const ReedsSheppCurve &curve : candidates)
+            const Pose middle = i % 2 == 0 ? place.world.anywhere(random)
+                                           : advance(place.pose(random), 0.0, place.vehicle.centreOffset());
+            const HeadingSet set = cells(middle.x, middle.y);
+            for (int k = 0; k < headings; ++k)
             {
-                bool swept = true;
-                Pose pose = from;
-                for (std::size_t k = 0; k < curve.count && swept; ++k)
+                if ((set[static_cast<std::size_t>(k / 64)] >> (k % 64) & 1U) == 0)
                 {
-                    const Arc &piece = curve.pieces[k];
-                    swept = world.freeLength(pose, piece.curvature, piece.length) >= std::abs(piece.length);
-                    pose = advance(pose, piece.curvature, piece.length);
-                }
-                ASSERT_EQ(isCurveFree(world, from, curve, to, CurveEnd::Start), swept);
-                // From the other end the sweep stops elsewhere, but a path that is clear by a hand's breadth is so from
-                // both.
-                if (isCurveFree(world, from, curve, to, CurveEnd::Goal) != swept)
-                {
-                    double least = 1.0;
-                    Pose at = from;
-                    for (std::size_t k = 0; k < curve.count; ++k)
-                        for (int m = 0; m <= 200; ++m)
-                        {
-                            const double part = curve.pieces[k].length * m / 200.0;
-                            least = std::min(least, std::abs(world.gap(advance(at, curve.pieces[k].curvature, part))));
-                            if (m == 200)
-                                at = advance(at, curve.pieces[k].curvature, part);
-                        }
-                    ASSERT_LT(least, 0.02);
-                }
-                ++(swept ? free : blocked);
-            }
-        }
-    }
-    EXPECT_GT(free, 500);
-    EXPECT_GT(blocked, 3000);
-}
-
-/** Curves that keep the preferred clearance are not swept as free once more, and most are given up before they are
-   priced: what is offered must be what is left when each is swept, priced and compared by itself. */
-TEST(CurveCheck, offersTheFreeCurvesThatCostLessThanTheBoundCheapestFirst)
-{
-    const Vehicle vehicle;
-    const ReedsShepp curves(4.0);
-    int offers = 0, clear = 0, close = 0, dear = 0;
-    for (std::uint64_t seed = 0; seed < 20; ++seed)
-    {
-        const World world = randomPolygonWorld(seed);
-        const FootprintChecker checker(world.obstacles, vehicle);
-        FootprintEnvironment environment(checker, world.obstacles.bounds(), TOLERANCE);
-        Random random(seed + 20);
-        std::vector<ReedsSheppCurve> candidates;
-        for (int i = 0; i < 1000; ++i)
-        {
-            CostModel cost;
-            cost.preferredClearance = i % 4 == 0 ? 0.0 : random.between(0.02, 0.4);
-            cost.clearanceCost = 10.0;
-            cost.clearanceWeight = i % 5 == 0 ? 0.3 : 0.0;
-            const CurveEnd first = i % 2 == 0 ? CurveEnd::Start : CurveEnd::Goal;
-            const Pose from = world.anywhere(random);
-            const Pose to = advance(from, random.between(-0.2, 0.2), random.magnitude(1.0, 12.0));
-            if (!environment.isFree(from) || !environment.isFree(to))
-                continue;
-            // Before there is a solution nothing is too dear.
-            const double most = curves.distance(from, to) * random.between(1.0, 3.0),
-                         bound = i % 3 == 0 ? std::numeric_limits<double>::infinity() : most;
-            curves.candidates(from, to, candidates, most);
-            std::vector<PricedCurve> order, expected, offered;
-            for (const ReedsSheppCurve &curve : candidates)
-            {
-                order.emplace_back(curve.length, &curve);
-                if (!isCurveFree(environment, from, curve, to, first))
+                    ++open;
                     continue;
-                const double closeness = curveCloseness(cost, from, curve, environment);
-                if (curve.length + closeness < bound)
-                    expected.emplace_back(curve.length + closeness, &curve);
-                ++(closeness <= 0.0 ? clear : curve.length + closeness < bound ? close : dear);
+                }
+                ++blocked;
+                // Corners, edges and what lies between.
+                for (int sample = 0; sample < 45; ++sample)
+                {
+                    const double dx = 0.5 * (sample % 3 - 1) * side, dy = 0.5 * (sample / 3 % 3 - 1) * side;
+                    const double yaw = 2.0 * PI * (k + 0.25 * (sample / 9)) / headings - PI;
+                    const Pose body{middle.x + dx, middle.y + dy, wrapAngle(yaw)};
+                    ASSERT_FALSE(place.checker.isFree(advance(body, 0.0, -place.vehicle.centreOffset())));
+                }
             }
-            std::stable_sort(expected.begin(), expected.end());
-            const bool isTaken = offerFreeCurves(environment, cost, from, to, order, first, bound,
-                                                 [&](const ReedsSheppCurve &curve, double whole)
-                                                 {
-                                                     offered.emplace_back(whole, &curve);
-                                                     return false;
-                                                 });
-            EXPECT_FALSE(isTaken);
-            ASSERT_EQ(offered.size(), expected.size());
-            for (std::size_t k = 0; k < offered.size(); ++k)
-                ASSERT_NEAR(offered[k].first, expected[k].first, 1e-9);
-            for (const PricedCurve &each : expected)
-                ASSERT_TRUE(std::any_of(offered.begin(), offered.end(),
-                                        [&](const PricedCurve &other) { return other.second == each.second; }));
-            offers += static_cast<int>(offered.size());
+            for (std::size_t k = static_cast<std::size_t>(headings); k < 128; ++k)
+                ASSERT_EQ(set[k / 64] >> (k % 64) & 1U, 0U) << "there is no such heading";
         }
     }
-    EXPECT_GT(offers, 1000);
-    EXPECT_GT(clear, 300);
-    EXPECT_GT(close, 300);
-    EXPECT_GT(dear, 100);
+    EXPECT_GT(blocked, 5000);
+    EXPECT_GT(open, 5000);
+}
+
+TEST(FootprintEnvironment, theJudgeHasTheLastWordOnWholePaths)
+{
+    DiscCarWorld judge({{-9.0, -9.0}, {9.0, 9.0}});
+    Place place(0);
+    FootprintEnvironment judged(place.checker, place.bounds, TOLERANCE, &judge);
+    EXPECT_TRUE(judged.acceptPath({}));
+    judge.acceptsPaths = false;
+    EXPECT_FALSE(judged.acceptPath({}));
+    EXPECT_TRUE(place.environment.acceptPath({}));
 }
