@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -103,9 +103,9 @@ TEST(PathImprover, onlyEverMakesAPathCheaper)
                 SCOPED_TRACE(++seed);
                 const CostModel cost = costModel(seed % 3 == 0 ? 0.2 : 0.0);
                 const std::size_t maxCusps = isLimited ? original.cusps() : ANY_NUMBER;
-                PricedPath path = price(cost, original, world);
+                const PricedPath before = price(cost, original, world);
+                PricedPath path = before;
                 PathImprover improver(world, curves, cost, CENTRE);
-                const PricedPath before = path;
                 const bool isImproved = improver.improve(path, pass, maxCusps, {});
                 ASSERT_EQ(isUnchanged(path, before), !isImproved);
                 ++(isImproved ? improved : kept);
