@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <queue>
 #include <string>
 #include <unordered_set>
-#include <utility>
 #include <vector>
 
 namespace parking_test
@@ -99,8 +99,7 @@ namespace parking_test
         };
     }
 
-    /** \brief The same; counts the questions asked of the world between two polls, and after the last that did not
-        stop. */
+    /** \brief The same; counts the questions asked of the world between two polls, and once it has stopped. */
     struct MeasuredStop
     {
         const DiscCarWorld &world;
@@ -124,12 +123,11 @@ namespace parking_test
     /** \brief Are these the same to the last bit? */
     inline bool isSamePath(const parking::Path &a, const parking::Path &b)
     {
-        const auto isSamePiece = [](const parking::PathPiece &one, const parking::PathPiece &other)
-        {
-            return one.length == other.length && one.curvature == other.curvature;
-        };
+        const auto &one = a.pieces, &other = b.pieces;
         return isSamePose(a.start, b.start, 0.0) &&
-               std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), isSamePiece);
+               std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                          [](const auto &c, const auto &d)
+                          { return c.length == d.length && c.curvature == d.curvature; });
     }
 
     inline double metresInReverse(const parking::Path &path)
@@ -241,14 +239,10 @@ namespace parking_test
             };
             const auto cell = [](const parking::Pose &pose)
             {
-                const auto part = [](double value)
-                {
-                    return static_cast<std::uint64_t>(std::lround(value) + 1000);
-                };
-                return (part(pose.x / SIDE) << 40) | (part(pose.y / SIDE) << 20) |
-                       part(parking::wrapAngle(pose.yaw) / HEADING);
+                const long x = std::lround(pose.x / SIDE), y = std::lround(pose.y / SIDE);
+                return ((x + 1000) * 2000 + y + 1000) * 2000 + std::lround(parking::wrapAngle(pose.yaw) / HEADING);
             };
-            std::unordered_set<std::uint64_t> settled;
+            std::unordered_set<long> settled;
             std::priority_queue<Reached, std::vector<Reached>, decltype(isCostlier)> open(isCostlier);
             open.push({0.0, start, {}});
             std::vector<parking::ReedsSheppCurve> words;

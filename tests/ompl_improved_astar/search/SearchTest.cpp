@@ -5,10 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 using namespace parking;
 using namespace parking::search;
@@ -16,7 +15,6 @@ using namespace parking_test;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     // Without a path the search becomes ever finer, for longer than a test should take.
     constexpr std::uint64_t MAX_EXPANSIONS = 20000;
 
@@ -54,13 +52,6 @@ namespace
         const double sampling = 2.0 * cost.clearanceCost * cost.sampleSpacing * static_cast<double>(path.pieces.size());
         ASSERT_NEAR(search.bestCost(), priced.cost, cost.prefersClearance() ? sampling : 1e-6);
     }
-
-    /** Up to the first solution. */
-    SearchOutcome solve(Search &search, CarProblem &problem, const PlannerParameters &parameters)
-    {
-        problem.begin(search, parameters);
-        return search.run({}, 1000);
-    }
 }  // namespace
 
 TEST(Search, everyPathIsFreeDrivableAndPricedRightWhateverTheSwitches)
@@ -77,13 +68,13 @@ TEST(Search, everyPathIsFreeDrivableAndPricedRightWhateverTheSwitches)
         problem.maxCusps = random.chance(0.3) ? static_cast<std::uint8_t>(random.index(4)) : ANY_CUSPS;
         Search search;
         problem.begin(search, parameters);
-        double last = INFINITE;
+        double last = UNREACHED;
         while (search.run({}, 600) == SearchOutcome::Improved)
         {
             ASSERT_TRUE(problem.world.acceptsPaths);
             ASSERT_LE(search.bestCost(), last + 1e-9);
-            solved += last == INFINITE;
-            improved += last < INFINITE;
+            solved += last == UNREACHED;
+            improved += last < UNREACHED;
             last = search.bestCost();
             expectLawful(search, problem);
             if (HasFatalFailure())
@@ -106,7 +97,8 @@ TEST(Search, equalInputGivesEqualPathsAlsoInUsedMemoryAndAfterPauses)
         CarProblem problem = randomProblem(seed, 14);
         const PlannerParameters parameters = randomParameters(random);
         Search fresh;
-        const SearchOutcome outcome = solve(fresh, problem, parameters);
+        problem.begin(fresh, parameters);
+        const SearchOutcome outcome = fresh.run({}, 1000);
         const auto expectSame = [&, path = fresh.bestPath(), cost = fresh.bestCost(),
                                  generated = fresh.statistics().generated](const Search &other, SearchOutcome found)
         {
@@ -115,7 +107,8 @@ TEST(Search, equalInputGivesEqualPathsAlsoInUsedMemoryAndAfterPauses)
             ASSERT_TRUE(isSamePath(other.bestPath(), path));
             ASSERT_EQ(other.statistics().generated, generated);
         };
-        expectSame(fresh, solve(fresh, problem, parameters));
+        problem.begin(fresh, parameters);
+        expectSame(fresh, fresh.run({}, 1000));
         problem.begin(reused, parameters);
         SearchOutcome found = SearchOutcome::Stopped;
         for (std::uint64_t limit = 0; limit <= 1000 && found == SearchOutcome::Stopped; ++limit)
@@ -154,7 +147,8 @@ TEST(Search, askedToStopItDoesAndThenSolvesTheSameInEveryDirection)
                     {
                         expanded = stop.isStopped ? expanded : search.expanded();
                         return stop();
-                    });
+                    },
+                    search.expanded() + MAX_EXPANSIONS);
                 ASSERT_LE(stop.maxQuestions(), MAX_QUESTIONS);
                 if (outcome != SearchOutcome::Stopped)
                     break;
@@ -172,11 +166,12 @@ TEST(Search, askedToStopItDoesAndThenSolvesTheSameInEveryDirection)
 TEST(Search, anInterruptedWorldProvesNothing)
 {
     for (const NamedProblem &each : namedProblems())
-        for (const std::uint64_t atOnce : {300u, 1000u, 5000u})
+        for (const std::uint64_t atOnce : {5u, 30u, 1000u})
         {
-            SCOPED_TRACE(testing::Message() << each.name << ", " << atOnce << " questions at once");
+            SCOPED_TRACE(testing::Message() << each.name << ", " << atOnce << " questions at once at most");
             CarProblem problem = each.problem;
             problem.world.tellsBlocked = true;
+            problem.world.tellsRoom = atOnce > 30u;  // else the route takes all of them
             PlannerParameters parameters = carParameters();
             parameters.preferredClearance = atOnce == 1000u ? 0.2 : 0.0;
             Search search;
@@ -188,7 +183,7 @@ TEST(Search, anInterruptedWorldProvesNothing)
             };
             for (int round = 0; round < 100 && outcome == SearchOutcome::Stopped; ++round)
             {
-                problem.world.lastQuestion = problem.world.questions + atOnce;
+                problem.world.lastQuestion = problem.world.questions + static_cast<std::uint64_t>(round) * 7 % atOnce;
                 outcome = search.run(interrupted, MAX_EXPANSIONS);
             }
             problem.world.lastQuestion = std::numeric_limits<std::uint64_t>::max();
