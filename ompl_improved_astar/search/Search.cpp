@@ -833,6 +833,7 @@ namespace parking::search
             const double side = tuning::PROOF_CELL * car_.bodyRadius;
             blocked_ = context_->environment.blockedHeadings(side, tuning::PROOF_HEADINGS);
             mayProve_ = static_cast<bool>(blocked_);
+            enclosures_.resize(2);  // of no use to most searches, and large
             for (std::size_t i = 0; i < 2 && mayProve_; ++i)
                 enclosures_[i].begin(blocked_, frontiers_[i].rootPoses(), frontiers_[1 - i].rootPoses(),
                                      {side, tuning::PROOF_HEADINGS, car_.centreOffset, tuning::MAX_PROOF_COLUMNS});

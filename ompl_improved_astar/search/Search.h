@@ -307,7 +307,7 @@ namespace parking::search
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was added
         BlockedHeadings blocked_;                       // while a proof is under way
-        std::array<Enclosure, 2> enclosures_;           // of the starts and of the goals
+        std::vector<Enclosure> enclosures_;             // of the starts and of the goals
         Exhaustion proof_{Exhaustion::None}, exhaustion_{Exhaustion::None};
         double bestCost_, costBound_;
         Path bestPath_;
