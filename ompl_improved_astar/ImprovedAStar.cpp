@@ -537,7 +537,7 @@ namespace ompl::geometric
 
     double ImprovedAStar::mapLoadingTime() const
     {
-        return query_->planner.search().loadingTime();
+        return query_->planner.search().statistics().loadingTime;
     }
 
     parking::search::SearchStatistics ImprovedAStar::statistics() const

@@ -27,54 +27,51 @@ namespace parking::search
 
     void Search::begin(MotionEnvironment &environment, const PlannerParameters &parameters, const CarInSpace &car)
     {
-        // Made again only when they are others: models and heuristics keep their memory.
-        if (!model_ || parameters_.motionModel != parameters.motionModel)
+        // Parts are made again only when they are others: models and heuristics keep their memory.
+        if (!model_ || query_->parameters.motionModel != parameters.motionModel)
             model_ = motionModels().make(parameters.motionModel);
-        const std::string &heuristic = parameters.heuristic;
+        traits_ = model_->traits();
+        const std::string heuristic = parameters.heuristic == "default" ? model_->heuristic() : parameters.heuristic;
         for (Guide &guide : guides_)
-            if (const std::string name = heuristic == "default" ? model_->heuristic() : heuristic;
-                !guide.heuristic || heuristicName_ != name)
-                guide.heuristic = heuristics().make(name);
-        heuristicName_ = heuristic == "default" ? model_->heuristic() : heuristic;
-        parameters_ = parameters;
-        car_ = car;
-        car_.bodyRadius = std::max(car.bodyRadius, car.inscribedRadius);
-        cost_ = {};
-        cost_.reversePenalty = parameters.reversePenalty;
-        cost_.gearChangePenalty = parameters.gearChangePenalty;
-        cost_.steeringChangePenalty = parameters.steeringChangePenalty;
-        cost_.fullLockCurvature = 1.0 / car.turningRadius;
-        if (model_->traits().drivesCurves && environment.knowsClearance())
+            if (!guide.heuristic || guide.name != heuristic)
+            {
+                guide.heuristic = heuristics().make(heuristic);
+                guide.name = heuristic;
+            }
+        query_.emplace(SearchContext{environment, parameters, car, {}});
+        query_->car.bodyRadius = std::max(car.bodyRadius, car.inscribedRadius);
+        CostModel &cost = query_->cost;
+        cost.reversePenalty = parameters.reversePenalty;
+        cost.gearChangePenalty = parameters.gearChangePenalty;
+        cost.steeringChangePenalty = parameters.steeringChangePenalty;
+        cost.fullLockCurvature = 1.0 / car.turningRadius;
+        if (traits_.drivesCurves && environment.knowsClearance())
         {
-            cost_.preferredClearance = parameters.preferredClearance;
-            cost_.clearanceCost = parameters.clearanceCost;
+            cost.preferredClearance = parameters.preferredClearance;
+            cost.clearanceCost = parameters.clearanceCost;
         }
-        context_.emplace(SearchContext{environment, parameters_, car_, cost_});
-        model_->begin(*context_);
+        model_->begin(*query_);
         traits_ = model_->traits();
         weights_ = parameters.weights();
-        maxMemory_ = std::size_t{parameters.maxMemoryMb} << 20;
-        for (Frontier &each : frontiers_)
-            each.begin(parameters.openList, traits_.levels);
+        memory_ = {std::size_t{parameters.maxMemoryMb} << 20};
         target_.reset();
-        bestCost_ = costBound_ = INFINITE;
-        bestPath_ = {};
-        isImproved_ = isFull_ = false;
-        turns_ = looks_ = 0;
-        loadingTime_ = 0.0;
+        best_ = {};
+        costBound_ = INFINITE;
+        isImproved_ = false;
+        turns_ = 0;
         statistics_ = {};
         exhaustion_ = Exhaustion::None;
-        restart();
+        restart({}, {});
     }
 
-    void Search::restart()
+    /** Forgets nodes, queues and proofs, and begins with these roots. */
+    void Search::restart(const std::vector<Pose> &starts, const std::vector<Pose> &goals)
     {
         for (Frontier &each : frontiers_)
         {
-            const std::vector<Pose> roots = each.rootPoses();
-            each.begin(parameters_.openList, traits_.levels);
-            each.density.begin(tuning::DENSITY_CELL * car_.turningRadius);
-            for (const Pose &root : roots)
+            each.begin(query_->parameters.openList, traits_.levels);
+            each.density.begin(tuning::DENSITY_CELL * query_->car.turningRadius);
+            for (const Pose &root : each.side() == Side::Start ? starts : goals)
                 each.addRoot(root);
         }
         confined_ = Side::Goal;
@@ -87,7 +84,8 @@ namespace parking::search
     void Search::addRoot(Side side, const Pose &pose)
     {
         if (isPrepared_)
-            restart();  // estimates now have one more target
+            restart(frontier(Side::Start).rootPoses(),
+                    frontier(Side::Goal).rootPoses());  // estimates now have one more target
         const NodeIndex index = frontier(side).addRoot(pose);
         model_->addRoot(side, pose);
         if (traits_.drivesCurves)
@@ -99,10 +97,10 @@ namespace parking::search
     {
         if (isPrepared_)
             return true;
-        const bool isEager = parameters_.obstacleLoading == "eager";
+        const bool isEager = query_->parameters.obstacleLoading == "eager";
         const auto loading = Clock::now();
         const bool isLoaded = !isEager || model_->load(stop_);
-        loadingTime_ += isEager ? secondsSince(loading) : 0.0;
+        statistics_.loadingTime += isEager ? secondsSince(loading) : 0.0;
         if (!isLoaded)
             return false;
         confined_ = confinedSide();
@@ -113,7 +111,7 @@ namespace parking::search
             Guide &own = guide(side);
             own.targets = frontier(opposite(side)).rootPoses();
             own.hasRoute = false;
-            own.heuristic->begin(*context_, side, own.targets);
+            own.heuristic->begin(*query_, side, own.targets);
         }
         if (target_)
             guideToTarget();
@@ -146,8 +144,9 @@ namespace parking::search
     /** The more confined side is the harder one to get away from. When there is little in it that is the goal's. */
     Side Search::confinedSide()
     {
-        if (!parameters_.bidirectional)
-            return parameters_.searchFrom == "goal" && !frontier(Side::Goal).roots().empty() ? Side::Goal : Side::Start;
+        if (!query_->parameters.bidirectional)
+            return query_->parameters.searchFrom == "goal" && !frontier(Side::Goal).roots().empty() ? Side::Goal
+                                                                                                    : Side::Start;
         if (!traits_.drivesCurves)
             return Side::Start;
         double ofStarts = INFINITE;
@@ -161,33 +160,34 @@ namespace parking::search
 
     void Search::beginRoute(Side side, const std::vector<Pose> &roots)
     {
-        if (!parameters_.obstacleHeuristic || !traits_.drivesCurves)
+        if (!query_->parameters.obstacleHeuristic || !traits_.drivesCurves)
             return;
         Guide &own = guide(side);
-        own.route.begin(context_->environment, routeResolution(car_.turningRadius, car_.bodyRadius, roots, own.targets),
-                        {car_.inscribedRadius, 0.0, 1.0}, {roots.front().x, roots.front().y}, stop_,
+        own.route.begin(query_->environment,
+                        routeResolution(query_->car.turningRadius, query_->car.bodyRadius, roots, own.targets),
+                        {query_->car.inscribedRadius, 0.0, 1.0}, {roots.front().x, roots.front().y}, stop_,
                         tuning::MAX_ROUTE_CELLS);
         for (const Pose &target : own.targets)
             own.route.addTarget(target.x, target.y);
         own.hasRoute = true;
-        if (parameters_.obstacleLoading != "eager")
+        if (query_->parameters.obstacleLoading != "eager")
             return;
         const auto loading = Clock::now();
-        own.route.load(car_.bounds);
-        loadingTime_ += secondsSince(loading);
+        own.route.load(query_->car.bounds);
+        statistics_.loadingTime += secondsSince(loading);
     }
 
     void Search::guideToTarget()
     {
-        nearestOfDisc_ = 0.0;
+        target_->nearestOfDisc = 0.0;
         const std::vector<Pose> starts = frontier(Side::Start).rootPoses();
-        if (starts.empty() || !parameters_.obstacleHeuristic || !traits_.drivesCurves)
+        if (starts.empty() || !query_->parameters.obstacleHeuristic || !traits_.drivesCurves)
             return;
         // Flooding from the starts finds the place to drive to; the route there is then counted from that place.
         guide(Side::Goal).targets = starts;
-        beginRoute(Side::Goal, {*target_});
-        const Eigen::Vector2d place = guide(Side::Goal).route.nearestReachable({target_->x, target_->y});
-        nearestOfDisc_ = std::hypot(place.x() - target_->x, place.y() - target_->y);
+        beginRoute(Side::Goal, {target_->pose});
+        const Eigen::Vector2d place = guide(Side::Goal).route.nearestReachable({target_->pose.x, target_->pose.y});
+        target_->nearestOfDisc = std::hypot(place.x() - target_->pose.x, place.y() - target_->pose.y);
         guide(Side::Start).targets.assign(1, {place.x(), place.y(), 0.0});
         beginRoute(Side::Start, starts);
     }
@@ -249,11 +249,12 @@ namespace parking::search
             return true;
         if (target_)
         {
-            const bool isNear = progress_.nearest <= nearestOfDisc_ + tuning::NEAR_TARGET * car_.turningRadius;
+            const bool isNear =
+                progress_.nearest <= target_->nearestOfDisc + tuning::NEAR_TARGET * query_->car.turningRadius;
             const std::uint64_t limit = isNear ? tuning::STALL_LIMIT_NEAR : tuning::STALL_LIMIT + progress_.since / 2;
             return progress_.nearest <= MIN_APPROACH || (!traits_.isComplete && expanded() > progress_.since + limit);
         }
-        if (bestCost_ < INFINITE || !parameters_.bidirectional || traits_.isComplete)
+        if (best_.cost < INFINITE || !query_->parameters.bidirectional || traits_.isComplete)
             return false;
         // With one side seen completely, the other gets as many expansions again: its joins may still reach a root that
         // this lattice cannot leave.
@@ -269,7 +270,7 @@ namespace parking::search
     {
         const bool startIsEmpty = frontier(Side::Start).isExhausted(), goalIsEmpty = frontier(Side::Goal).isExhausted();
         side = confined_;
-        if (!parameters_.bidirectional)
+        if (!query_->parameters.bidirectional)
             return !frontier(side).isExhausted();
         if (startIsEmpty && goalIsEmpty)
             return false;
@@ -310,9 +311,9 @@ namespace parking::search
     bool Search::outgrowsMemory()
     {
         constexpr std::uint64_t LOOK_EVERY = 64;
-        if (!isFull_ && ++looks_ % LOOK_EVERY == 0)
-            isFull_ = memory() > maxMemory_;
-        return isFull_;
+        if (!memory_.isFull && ++memory_.looks % LOOK_EVERY == 0)
+            memory_.isFull = memory() > memory_.max;
+        return memory_.isFull;
     }
 
     std::size_t Search::memory() const
@@ -324,9 +325,7 @@ namespace parking::search
             bytes += guide.hasRoute ? guide.route.bytes() : 0;
         for (std::size_t i = 0; i < detourCount(); ++i)
             bytes += detours_[i]->route.bytes();
-        for (const Enclosure &enclosure : enclosures_)
-            bytes += blocked_ ? enclosure.bytes() : 0;
-        return bytes;
+        return bytes + enclosure_.bytes();
     }
 
     // Expanding
@@ -350,7 +349,7 @@ namespace parking::search
         const bool isComplete = addSuccessors(own, index);
         if (isFirst && isComplete && traits_.drivesCurves)
             joinAround(own, index);
-        if (!isComplete || context_->environment.wasInterrupted())
+        if (!isComplete || query_->environment.wasInterrupted())
         {
             // Expanded again when there is time: what hangs on it already must stay.
             own.node(index).fixed = true;
@@ -358,7 +357,7 @@ namespace parking::search
             push(own, level, index, queue);
             return;
         }
-        if (parameters_.adaptiveResolution && level + 1 < traits_.levels)
+        if (query_->parameters.adaptiveResolution && level + 1 < traits_.levels)
             push(own, level + 1, index, queue);
         if (isFirst)
             lookAhead(own, index, queue);
@@ -382,16 +381,16 @@ namespace parking::search
     {
         const PathPiece drive = successor.motion.drive();
         // On the goal's side the car will drive the motion the other way.
-        return parent.g + cost_.drive(own.side() == Side::Start ? drive : drive.reversed()) +
-               (parent.parent != NO_NODE ? cost_.join(parent.motion.drive(), drive) : 0.0) +
-               cost_.proximity(parent.pose, drive, context_->environment, successor.clear);
+        return parent.g + query_->cost.drive(own.side() == Side::Start ? drive : drive.reversed()) +
+               (parent.parent != NO_NODE ? query_->cost.join(parent.motion.drive(), drive) : 0.0) +
+               query_->cost.proximity(parent.pose, drive, query_->environment, successor.clear);
     }
 
     void Search::addSuccessor(Frontier &own, NodeIndex parentIndex, const Successor &successor)
     {
         Node node;
         node.cusps = cuspsThrough(own.node(parentIndex), successor.motion);
-        if (node.cusps > car_.maxCusps)
+        if (node.cusps > query_->car.maxCusps)
             return;
         node.pose = successor.pose;
         node.motion = successor.motion;
@@ -411,7 +410,7 @@ namespace parking::search
                 const bool isReplaceable = other.level == level && !other.isExpanded() && !other.fixed;
                 if (isReplaceable && other.g > node.g + ROUNDING)
                     replaced = holder;
-                else if (parameters_.adaptiveResolution)
+                else if (query_->parameters.adaptiveResolution)
                     continue;
                 else
                     return;
@@ -434,7 +433,7 @@ namespace parking::search
         const Node &node = own.node(index);
         if (own.side() == confined_ && !target_)
         {
-            if (node.h < progress_.nearest - tuning::MIN_PROGRESS * car_.turningRadius)
+            if (node.h < progress_.nearest)
                 progress_ = {node.h, own.turns()};
             for (std::size_t i = 0; i < detourCount(); ++i)
                 if (const double ahead = detours_[i]->estimate(node, queue == i + 1); ahead < detours_[i]->nearest)
@@ -463,18 +462,18 @@ namespace parking::search
     void Search::lookAhead(Frontier &own, NodeIndex index, std::size_t queue)
     {
         const bool isFarthest = index == (queue == 0 ? own.bestClosed : detours_[queue - 1]->best);
-        if (!parameters_.detours || own.side() != confined_ || !guide(confined_).hasRoute || target_ ||
-            bestCost_ < INFINITE || isAdmissible() || !isFarthest)
+        if (!query_->parameters.detours || own.side() != confined_ || !guide(confined_).hasRoute || target_ ||
+            best_.cost < INFINITE || isAdmissible() || !isFarthest)
             return;
         RouteHeuristic &route = queue == 0 ? guide(confined_).route : detours_[queue - 1]->route;
-        while (index != NO_NODE && !isStopped() && !context_->environment.wasInterrupted())
+        while (index != NO_NODE && !isStopped() && !query_->environment.wasInterrupted())
             index = driveAlong(own, index, route);
     }
 
     /** The end of one more curve along the route; NO_NODE when there is none. */
     NodeIndex Search::driveAlong(Frontier &own, NodeIndex index, RouteHeuristic &route)
     {
-        const double radius = car_.turningRadius;
+        const double radius = query_->car.turningRadius;
         const Pose from = own.node(index).pose;
         const std::optional<Pose> place =
             route.placeOnRoute(from.x, from.y, tuning::LOOKAHEAD * radius, tuning::LOOKAHEAD_HEADING * radius);
@@ -506,11 +505,11 @@ namespace parking::search
             node.parent = index;
             node.farthest = node.fixed = true;
             node.cusps = cuspsThrough(own.node(index), successor.motion);
-            if (node.cusps > car_.maxCusps || context_->environment.wasInterrupted())
+            if (node.cusps > query_->car.maxCusps || query_->environment.wasInterrupted())
                 return NO_NODE;
             node.h = rounded(estimate(own.side(), node.pose));
             // Only cells that are empty are left from: else a search without a path would never end.
-            const std::size_t levels = parameters_.adaptiveResolution ? traits_.levels : 1;
+            const std::size_t levels = query_->parameters.adaptiveResolution ? traits_.levels : 1;
             std::size_t level = 0;
             while (level < levels && own.holderOf(model_->cell(node.pose, level), level) != NO_NODE)
                 ++level;
@@ -537,7 +536,8 @@ namespace parking::search
         }
         for (const NodeIndex root : other.roots())
             join(own, index, root);
-        if (parameters_.bidirectional && other.bestClosed != NO_NODE && other.node(other.bestClosed).parent != NO_NODE)
+        if (query_->parameters.bidirectional && other.bestClosed != NO_NODE &&
+            other.node(other.bestClosed).parent != NO_NODE)
             join(own, index, other.bestClosed);
     }
 
@@ -547,7 +547,7 @@ namespace parking::search
         const NodeIndex fromStart = own.side() == Side::Start ? index : partner,
                         fromGoal = own.side() == Side::Start ? partner : index;
         const Node &a = frontier(Side::Start).node(fromStart), &b = frontier(Side::Goal).node(fromGoal);
-        if (a.g + b.g >= costBound_ || (traits_.drivesCurves && !parameters_.analyticExpansion))
+        if (a.g + b.g >= costBound_ || (traits_.drivesCurves && !query_->parameters.analyticExpansion))
             return;
         ++statistics_.connections;
         model_->join(a, b, own.side(), costBound_,
@@ -558,11 +558,12 @@ namespace parking::search
                              path.append(pieces[i]);
                          frontier(Side::Goal).appendToRoot(fromGoal, path);
                          // Where nodes meet in a cell, every motion has been checked by itself.
-                         if (traits_.drivesCurves && ((car_.maxCusps != ANY_CUSPS && path.cusps() > car_.maxCusps) ||
-                                                      !context_->environment.acceptPath(path)))
+                         if (traits_.drivesCurves &&
+                             ((query_->car.maxCusps != ANY_CUSPS && path.cusps() > query_->car.maxCusps) ||
+                              !query_->environment.acceptPath(path)))
                              return false;
-                         bestPath_ = std::move(path);
-                         bestCost_ = costBound_ = cost;
+                         best_.path = std::move(path);
+                         best_.cost = costBound_ = cost;
                          isImproved_ = true;
                          return true;
                      });
@@ -607,7 +608,7 @@ namespace parking::search
         Guide &own = guide(side);
         if (target_)
         {
-            const double straight = positionDistance(pose, *target_);
+            const double straight = positionDistance(pose, target_->pose);
             const double route = own.hasRoute ? own.route.distance(pose.x, pose.y) : 0.0;
             return route < INFINITE ? std::max(straight, route) : straight;
         }
@@ -656,16 +657,16 @@ namespace parking::search
     float Search::densityPenalty(const Frontier &own, const Node &node) const
     {
         // Until there is a solution; models that aim go by the least f of all that was closed.
-        if (!parameters_.detours || !traits_.drivesCurves || target_ || isAdmissible() || bestCost_ < INFINITE)
+        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || isAdmissible() || best_.cost < INFINITE)
             return node.densityPenalty;
-        return static_cast<float>(tuning::DENSITY_PENALTY * car_.turningRadius *
+        return static_cast<float>(tuning::DENSITY_PENALTY * query_->car.turningRadius *
                                   std::min(own.density.at(node.pose), tuning::MAX_DENSITY));
     }
 
     bool Search::isDeferred(const Frontier &own, const Node &node) const
     {
         // Twice as long each time at least, so that a node is put back a few times only.
-        const double much = tuning::MIN_DEFERRAL * car_.turningRadius;
+        const double much = tuning::MIN_DEFERRAL * query_->car.turningRadius;
         return densityPenalty(own, node) > node.densityPenalty + std::max<double>(much, node.densityPenalty);
     }
 
@@ -745,15 +746,15 @@ namespace parking::search
     bool Search::needsDetour() const
     {
         const Guide &own = guides_[static_cast<std::size_t>(confined_)];
-        if (!parameters_.detours || !traits_.drivesCurves || target_ || bestCost_ < INFINITE || own.targets.empty() ||
-            detourCount() == std::size(tuning::DETOURS))
+        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || best_.cost < INFINITE ||
+            own.targets.empty() || detourCount() == std::size(tuning::DETOURS))
             return false;
         if (const std::size_t count = detourCount(); count > 0)
         {
             // Where nothing is known of the room, all discs take the same route.
             const Pose &root = frontier(confined_).node(frontier(confined_).roots().front()).pose;
             return expanded() >= detoursSince_ + count * tuning::DETOUR_EXPANSIONS &&
-                   context_->environment.roomAt(root.x, root.y) < INFINITE;
+                   query_->environment.roomAt(root.x, root.y) < INFINITE;
         }
         // A side that has run dry comes no nearer, and gets no turns any more.
         const Frontier &stuck = frontier(confined_);
@@ -771,7 +772,7 @@ namespace parking::search
             length = route.distance(node.pose.x, node.pose.y);
         else if (const std::optional<double> known = route.knownDistance(node.pose.x, node.pose.y))
             length = *known;
-        return length < INFINITE ? std::max<double>(node.h, length) : tuning::UNKNOWN_ROUTE_RATIO * node.h;
+        return length < INFINITE ? std::max<double>(node.h, length) : node.h;
     }
 
     void Search::addDetour()
@@ -784,15 +785,17 @@ namespace parking::search
         Frontier &stuck = frontier(confined_);
         const std::vector<Pose> &targets = guide(confined_).targets;
         const tuning::DetourDisc &disc = tuning::DETOURS[number];
-        const double wide = std::max(car_.bodyRadius + disc.wider * car_.turningRadius, disc.lanes * car_.turningLane);
+        const double wide = std::max(query_->car.bodyRadius + disc.wider * query_->car.turningRadius,
+                                     disc.lanes * query_->car.turningLane);
         const NodeIndex nearest =
             *std::min_element(stuck.roots().begin(), stuck.roots().end(),
                               [&](NodeIndex a, NodeIndex b) { return stuck.node(a).h < stuck.node(b).h; });
         const Pose root = stuck.node(nearest).pose;
         Detour &detour = *detours_[number];
         detour.route.begin(
-            context_->environment, routeResolution(car_.turningRadius, car_.bodyRadius, stuck.rootPoses(), targets),
-            {car_.inscribedRadius, wide, disc.costFactor}, {root.x, root.y}, stop_, tuning::MAX_DETOUR_CELLS);
+            query_->environment,
+            routeResolution(query_->car.turningRadius, query_->car.bodyRadius, stuck.rootPoses(), targets),
+            {query_->car.inscribedRadius, wide, disc.costFactor}, {root.x, root.y}, stop_, tuning::MAX_DETOUR_CELLS);
         for (const Pose &target : targets)
             detour.route.addTarget(target.x, target.y);
         detour.best = NO_NODE;
@@ -801,7 +804,7 @@ namespace parking::search
         stuck.setQueues(number + 2);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
             if (const Node &node = stuck.node(i);
-                node.next < traits_.levels && (parameters_.adaptiveResolution || !node.isExpanded()))
+                node.next < traits_.levels && (query_->parameters.adaptiveResolution || !node.isExpanded()))
                 pushToDetour(number, node.next, i, false);
     }
 
@@ -818,40 +821,25 @@ namespace parking::search
     {
         for (Frontier &each : frontiers_)
             each.setQueues(1);
-        blocked_ = {};
-        mayProve_ = true;
+        enclosure_.reset();
         progress_ = {INFINITE, frontier(confined_).turns()};
     }
 
     void Search::seekProof()
     {
-        if (detourCount() == 0 || !mayProve_ || isImproved_ || car_.bodyRadius <= 0.0 ||
+        const CarInSpace &car = query_->car;
+        if (detourCount() == 0 || isImproved_ || car.bodyRadius <= 0.0 ||
             expanded() < detoursSince_ + tuning::PROOF_EXPANSIONS)
             return;
-        if (!blocked_)
+        if (!enclosure_.hasBegun())
         {
-            const double side = tuning::PROOF_CELL * car_.bodyRadius;
-            blocked_ = context_->environment.blockedHeadings(side, tuning::PROOF_HEADINGS);
-            mayProve_ = static_cast<bool>(blocked_);
-            enclosures_.resize(2);  // of no use to most searches, and large
-            for (std::size_t i = 0; i < 2 && mayProve_; ++i)
-                enclosures_[i].begin(blocked_, frontiers_[i].rootPoses(), frontiers_[1 - i].rootPoses(),
-                                     {side, tuning::PROOF_HEADINGS, car_.centreOffset, tuning::MAX_PROOF_COLUMNS});
+            const Enclosure::Cells cells{tuning::PROOF_CELL * car.bodyRadius, tuning::PROOF_HEADINGS, car.centreOffset,
+                                         tuning::MAX_PROOF_COLUMNS};
+            enclosure_.begin(query_->environment.blockedHeadings(cells.side, cells.headings), frontiers_[0].rootPoses(),
+                             frontiers_[1].rootPoses(), cells);
         }
         const std::uint64_t effort = expanded() - detoursSince_ - tuning::PROOF_EXPANSIONS;
-        bool isOver = true;
-        for (Enclosure &enclosure : enclosures_)
-        {
-            if (!mayProve_)
-                break;
-            const Enclosure::Verdict verdict = enclosure.widen(1 + effort / tuning::PROOF_PACE);
-            if (verdict == Enclosure::Verdict::Closed)
-                proof_ = Exhaustion::Enclosed;
-            mayProve_ = verdict != Enclosure::Verdict::Connected;
-            isOver = isOver && verdict != Enclosure::Verdict::Unknown;
-        }
-        mayProve_ = mayProve_ && !isOver;
-        if (!mayProve_)
-            blocked_ = {};
+        if (enclosure_.widen(1 + effort / tuning::PROOF_PACE))
+            proof_ = Exhaustion::Enclosed;
     }
 }  // namespace parking::search

@@ -86,7 +86,7 @@ namespace parking::search
             axles. run() ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
         void setTarget(const Pose &target)
         {
-            target_ = target;
+            target_ = Target{target};
         }
 
         /** \brief Searches until the solution improves, nothing is left, or \e stop says so.
@@ -102,13 +102,13 @@ namespace parking::search
         /** \brief Limits memory(), which is max_memory_mb otherwise. */
         void setMaxMemory(std::size_t bytes)
         {
-            maxMemory_ = bytes;
+            memory_.max = bytes;
         }
 
         /** \brief Has it stopped since it would take more memory than it may? */
         bool isFull() const
         {
-            return isFull_;
+            return memory_.isFull;
         }
 
         /** \brief Why the last run() ended with Exhausted; None when it did not. */
@@ -120,13 +120,13 @@ namespace parking::search
         /** \brief Cost of the best solution; infinite without one. */
         double bestCost() const
         {
-            return bestCost_;
+            return best_.cost;
         }
 
         /** \brief The best solution, from a start to a goal. */
         const Path &bestPath() const
         {
-            return bestPath_;
+            return best_.path;
         }
 
         /** \brief The motion model of the query. */
@@ -138,7 +138,7 @@ namespace parking::search
         /** \brief What motions cost in this query. */
         const CostModel &cost() const
         {
-            return cost_;
+            return query_->cost;
         }
 
         /** \brief Length of the shortest motion between any start and any goal, obstacles or not. */
@@ -186,16 +186,17 @@ namespace parking::search
         /** \brief What was done since begin(). */
         SearchStatistics statistics() const;
 
-        /** \brief Seconds spent on finding out beforehand what is free. */
-        double loadingTime() const
-        {
-            return loadingTime_;
-        }
-
     private:
+        struct Solution
+        {
+            double cost{std::numeric_limits<double>::infinity()};
+            Path path;
+        };
+
         /** What guides one side: the heuristic, and the route round obstacles if it has been asked for one. */
         struct Guide
         {
+            std::string name;  // of the heuristic
             std::unique_ptr<Heuristic> heuristic;
             RouteHeuristic route;
             bool hasRoute{false};
@@ -220,6 +221,21 @@ namespace parking::search
             std::uint64_t since{0};
         };
 
+        /** Where to go instead of a goal. */
+        struct Target
+        {
+            Pose pose;
+            double nearestOfDisc{0.0};  // metres from there to the nearest place that the inscribed disc reaches
+        };
+
+        /** Whether memory() is within its limit, which takes too long to ask each time. */
+        struct MemoryWatch
+        {
+            std::size_t max{0};
+            std::uint64_t looks{0};
+            bool isFull{false};
+        };
+
         Frontier &frontier(Side side)
         {
             return frontiers_[static_cast<std::size_t>(side)];
@@ -230,7 +246,7 @@ namespace parking::search
         }
         bool isAdmissible() const
         {
-            return !parameters_.weights().canBeLowered();
+            return !query_->parameters.weights().canBeLowered();
         }
         bool isStopped() const
         {
@@ -239,7 +255,7 @@ namespace parking::search
 
         // Beginning
         void addRoot(Side side, const Pose &pose);
-        void restart();
+        void restart(const std::vector<Pose> &starts, const std::vector<Pose> &goals);
         bool prepare();
         Side confinedSide();
         void beginRoute(Side side, const std::vector<Pose> &roots);
@@ -290,32 +306,25 @@ namespace parking::search
         void pushToDetour(std::size_t detour, std::size_t level, NodeIndex index, bool looksFurther);
         void seekProof();
 
-        PlannerParameters parameters_;
-        CarInSpace car_;
-        CostModel cost_;
-        std::optional<SearchContext> context_;
+        std::optional<SearchContext> query_;
         std::unique_ptr<MotionModel> model_;
-        std::string heuristicName_;
         ModelTraits traits_;
         HeuristicWeights weights_;
         std::array<Frontier, 2> frontiers_;
         std::array<Guide, 2> guides_;
         Side confined_{Side::Goal};  // the side that is harder to get away from, or the only one that is searched
-        std::optional<Pose> target_;
-        Progress progress_;          // of the confined side, or towards the target
-        double nearestOfDisc_{0.0};  // metres from the target to the nearest place that the inscribed disc reaches
+        std::optional<Target> target_;
+        Progress progress_;  // of the confined side in its turns, or towards the target in expansions
         std::vector<std::unique_ptr<Detour>> detours_;  // of the confined side, for its further queues
         std::uint64_t detoursSince_{0};                 // expansions when the first was added
-        BlockedHeadings blocked_;                       // while a proof is under way
-        std::vector<Enclosure> enclosures_;             // of the starts and of the goals
+        EnclosureProof enclosure_;
         Exhaustion proof_{Exhaustion::None}, exhaustion_{Exhaustion::None};
-        double bestCost_, costBound_;
-        Path bestPath_;
-        bool isPrepared_{false}, isSorted_{true}, isImproved_{false}, isFull_{false}, mayProve_{false};
+        Solution best_;
+        double costBound_{std::numeric_limits<double>::infinity()};
+        bool isPrepared_{false}, isSorted_{true}, isImproved_{false};
         StopFunction stop_;  // also when memory runs out
-        std::size_t maxMemory_{0};
-        std::uint64_t turns_{0}, looks_{0};  // of the sides; at the memory
-        double loadingTime_{0.0};
+        MemoryWatch memory_;
+        std::uint64_t turns_{0};             // of the sides
         std::vector<Successor> successors_;  // of the node that is expanded
         SearchStatistics statistics_;
     };

@@ -9,13 +9,13 @@
 
 namespace parking::search
 {
-    /** \brief What the parts of a search share: world, parameters, car and costs of the query. All outlive it. */
+    /** \brief A query, as all parts of a search see it. The environment outlives it. */
     struct SearchContext
     {
-        MotionEnvironment &environment;       ///< the world
-        const PlannerParameters &parameters;  ///< of the user
-        const CarInSpace &car;                ///< what plans
-        const CostModel &cost;                ///< what motions cost
+        MotionEnvironment &environment;  ///< the world
+        PlannerParameters parameters;    ///< of the user
+        CarInSpace car;                  ///< what plans
+        CostModel cost;                  ///< what motions cost
     };
 
     /** \brief What a search did. */
@@ -27,6 +27,7 @@ namespace parking::search
         std::uint64_t heuristicCells{0};       ///< cells settled by the route round the obstacles
         std::uint64_t openListOperations{0};   ///< entries pushed to, and popped from, the open lists
         std::uint64_t openListComparisons{0};  ///< of their entries with each other, for that
+        double loadingTime{0.0};               ///< seconds spent on finding out beforehand what is free
 
         /** \brief Adds what another search did. */
         SearchStatistics &operator+=(const SearchStatistics &other)
@@ -37,6 +38,7 @@ namespace parking::search
             heuristicCells += other.heuristicCells;
             openListOperations += other.openListOperations;
             openListComparisons += other.openListComparisons;
+            loadingTime += other.loadingTime;
             return *this;
         }
     };

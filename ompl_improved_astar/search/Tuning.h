@@ -43,9 +43,7 @@ namespace parking::search::tuning
     // Detours when the search is stuck
     constexpr std::uint64_t MIN_EXPANSIONS = 60;      ///< before a search counts as stuck,
     constexpr std::uint64_t STALL_EXPANSIONS = 20;    ///< and of the confined side since it came nearer
-    constexpr double MIN_PROGRESS = 0.25;             ///< by which an estimate falls to count as nearer
     constexpr std::uint64_t DETOUR_EXPANSIONS = 150;  ///< before the next detour is added
-    constexpr double UNKNOWN_ROUTE_RATIO = 1.2;       ///< factor on the estimate where a detour's route is not known
 
     /** \brief A wider disc, whose route leads where a car can turn. */
     struct DetourDisc
@@ -67,22 +65,22 @@ namespace parking::search::tuning
 
     // Searching on after a solution
     constexpr double POST_SEARCH_SHARE = 0.5;        ///< expansions after the first solution to those before,
-    constexpr double POST_SEARCH_EXPANSIONS = 8.0;   ///< and at least that many,
-    constexpr double POST_SEARCH_PER_EXCESS = 70.0;  ///< and more for a path twice as long as expected
+    constexpr double POST_SEARCH_PER_EXCESS = 60.0;  ///< and more of them for a path twice as long as expected,
+    constexpr double MAX_EXCESS = 8.0;               ///< or that much longer
     constexpr double WEIGHT_DECAY = 0.7;             ///< factor on the weights whenever the search goes on
-    constexpr double NEAR_OPTIMAL = 1.1;             ///< cost to expected cost up to which a path is left as it is
+    constexpr double NEAR_OPTIMAL = 1.1;             ///< cost to expected cost up to which a path is left as it is,
+    constexpr double NEAR_OPTIMAL_EXCESS = 1.0;      ///< but at most that much more
     constexpr std::uint64_t ROUND_EXPANSIONS = 200;  ///< of a round of anytime
 
     // Improving a path
-    constexpr double KNOT_SPACING = 0.5;  ///< between the knots of a path: smaller finds more, and costs its square
-    constexpr double MAX_KNOTS = 20.0;    ///< on long paths
-    constexpr double MIN_GAIN = 0.01;     ///< of cost that a curve must save: smaller finds more, and takes longer
-    constexpr double TURN_RATIO = 1.15;   ///< cost to expected cost from which parts are driven the other way round
-    constexpr double TURN_REACH = 4.0;    ///< within which, and for which, the car turns round
-    constexpr double MOVE_RATIO = 1.2;    ///< cost to expected cost from which poses are moved,
-    constexpr double MOVE_STEP = 0.2;     ///< first by this, then by a quarter of it
-    constexpr double IMPROVEMENT_EFFORT = 500.0;  ///< pairs of poses joined by curves to improve a first path,
-    constexpr double IMPROVEMENT_EFFORT_PER_EXPANSION = 20.0;  ///< and more of them for each expansion of the search
-    constexpr int MAX_MOVES = 3;                               ///< passes with each of the two: more find little
+    constexpr double KNOT_SPACING = 0.5;   ///< between the knots of a path: smaller finds more, and costs its square
+    constexpr double MAX_KNOTS = 20.0;     ///< on long paths
+    constexpr double MIN_GAIN = 0.01;      ///< of cost that a curve must save: smaller finds more, and takes longer
+    constexpr double COSTLY_RATIO = 1.15;  ///< cost to expected cost from which poses are moved and the car is turned
+    constexpr double TURN_REACH = 4.0;     ///< within which, and for which, the car turns round
+    constexpr double MOVE_STEP = 0.2;      ///< by which poses are moved first; then by a quarter of it
+    constexpr int MAX_MOVES = 2;           ///< passes with each of the two: more find little
+    constexpr double IMPROVEMENT_EFFORT = 300.0;  ///< pairs of poses joined by curves to improve a first path,
+    constexpr double IMPROVEMENT_EFFORT_PER_EXPANSION = 12.0;  ///< and more of them for each expansion of the search
     constexpr double MOVE_REACH = 3.0;  ///< of the path that a curve to or from a moved pose replaces
 }  // namespace parking::search::tuning

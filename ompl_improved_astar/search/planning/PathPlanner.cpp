@@ -11,8 +11,11 @@ namespace parking::search
     namespace
     {
         constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        constexpr double FINE_SAMPLES = 0.02;      // metres between the poses at which the clearance is sampled finely
-        constexpr std::uint64_t MIN_PASSES = 450;  // that find nothing, before planning ends while there is time
+        constexpr double FINE_SAMPLES = 0.02;  // metres between the poses at which the clearance is sampled finely
+        constexpr std::size_t CURVES_TO_SHORTEN = 2;   // tried between two poses of a first path
+        constexpr double KNOT_SHIFT = 0.3;             // of the knots in a second pass, in spacings
+        constexpr std::uint64_t PASSES_PER_ROUND = 9;  // of anytime, one of which turns the car
+        constexpr std::uint64_t MIN_PASSES = 450;      // that find nothing, before planning ends while there is time
 
         /** The multiples of these, without their whole parts, fill the unit cube evenly (after M. Roberts, "The
             unreasonable effectiveness of quasirandom sequences", 2018). */
@@ -69,12 +72,15 @@ namespace parking::search
     void PathPlanner::planFirst()
     {
         PricedPath path = priced(search_.bestPath(), search_.bestCost());
-        const double expected = search_.expectedCost();
-        if (!isShortestPossible(path) && path.cost > tuning::NEAR_OPTIMAL * expected)
+        const double expected = search_.expectedCost(), radius = car_.turningRadius;
+        const double nearOptimal =
+            std::min(tuning::NEAR_OPTIMAL * expected, expected + tuning::NEAR_OPTIMAL_EXCESS * radius);
+        if (!isShortestPossible(path) && path.cost > nearOptimal)
         {
             // Searching on is cheap when the search was, and the more worthwhile the longer the path.
-            const double excess = std::clamp(path.path.length() / expected - 1.0, 0.0, 1.0);
-            const double more = tuning::POST_SEARCH_EXPANSIONS + tuning::POST_SEARCH_PER_EXCESS * excess +
+            const double excess =
+                std::clamp((path.path.length() - expected) / std::min(expected, tuning::MAX_EXCESS * radius), 0.0, 1.0);
+            const double more = tuning::POST_SEARCH_PER_EXCESS * excess +
                                 tuning::POST_SEARCH_SHARE * static_cast<double>(search_.expanded());
             search_.lowerWeights(tuning::WEIGHT_DECAY);
             const std::uint64_t end = search_.expanded() + static_cast<std::uint64_t>(more);
@@ -94,10 +100,10 @@ namespace parking::search
         std::uint64_t improvedAt = passes_;
         while (!isGoodEnough_ && !isShortestPossible(best_))
         {
-            constexpr int PASSES_PER_ROUND = 9;
             if (isStopped())
                 return Outcome::Stopped;
-            for (int i = 0; i < PASSES_PER_ROUND && parameters_.shortening && !isGoodEnough_ && !isStopped(); ++i)
+            for (std::uint64_t i = 0; i < PASSES_PER_ROUND && parameters_.shortening && !isGoodEnough_ && !isStopped();
+                 ++i)
                 if (improveBest())
                     improvedAt = passes_;
             if (isSearching && !isGoodEnough_)
@@ -171,14 +177,9 @@ namespace parking::search
     void PathPlanner::improveFirst(PricedPath &path, double expected)
     {
         const double radius = car_.turningRadius;
-        const auto passOf = [&](double spacing, double offset, double reach, double step)
+        const auto passOf = [&](double spacing)
         {
-            PathImprover::Pass pass;
-            pass.spacing = std::max(spacing * radius, path.path.length() / tuning::MAX_KNOTS);
-            pass.offset = offset * radius;
-            pass.reach = reach * radius;
-            pass.step = step * radius;
-            return pass;
+            return PathImprover::Pass{std::max(spacing * radius, path.path.length() / tuning::MAX_KNOTS)};
         };
         // What the search has cost is worth as much improving: tight places take long to improve by little.
         const double effort = tuning::IMPROVEMENT_EFFORT +
@@ -190,47 +191,51 @@ namespace parking::search
         };
         const auto shorten = [&]
         {
-            // Near to obstacles other knots find more; hardly anything where the first found nothing.
-            PathImprover::Pass pass = passOf(tuning::KNOT_SPACING, 0.0, INFINITE, 0.0);
-            pass.maxCurves = 2;
+            PathImprover::Pass pass = passOf(tuning::KNOT_SPACING);
+            pass.maxCurves = CURVES_TO_SHORTEN;
             if (!improve(path, pass) || !isCostly(tuning::NEAR_OPTIMAL))
                 return;
-            pass = passOf(0.96 * tuning::KNOT_SPACING, 0.3 * tuning::KNOT_SPACING, 24.0 * tuning::KNOT_SPACING, 0.0);
-            pass.maxCurves = 2;
+            // Near to obstacles other knots find more; hardly anything where the first found nothing.
+            pass.offset = KNOT_SHIFT * pass.spacing;
             improve(path, pass);
         };
         shorten();
-        if (path.path.cusps() > 0 && isCostly(tuning::TURN_RATIO))
+        if (path.path.cusps() > 0 && isCostly(tuning::COSTLY_RATIO))
         {
-            PathImprover::Pass turn = passOf(2.0 * tuning::KNOT_SPACING, 0.0, INFINITE, 0.0);
-            turn.spacing = std::max(radius, path.path.length() / (2.0 * tuning::MAX_KNOTS));
+            PathImprover::Pass turn = passOf(2.0 * tuning::KNOT_SPACING);
             turn.turnsCar = true;
             if (improve(path, turn))
                 shorten();
         }
         for (const double step : {tuning::MOVE_STEP, 0.25 * tuning::MOVE_STEP})
-            for (int pass = 0; pass < tuning::MAX_MOVES && isCostly(tuning::MOVE_RATIO); ++pass)
-                if (!improve(path, passOf(2.0 * tuning::KNOT_SPACING, 0.0, tuning::MOVE_REACH, step)))
+            for (int i = 0; i < tuning::MAX_MOVES && isCostly(tuning::COSTLY_RATIO); ++i)
+            {
+                PathImprover::Pass pass = passOf(2.0 * tuning::KNOT_SPACING);
+                pass.reach = tuning::MOVE_REACH * radius;
+                pass.step = step * radius;
+                if (!improve(path, pass))
                     break;
+            }
     }
 
+    /** One pass over the best path, each with other knots and steps than the ones before. */
     bool PathPlanner::improveBest()
     {
         const double radius = car_.turningRadius;
         const std::uint64_t number = ++passes_;
         PricedPath path = best_;
-        PathImprover::Pass pass{(0.2 + 0.6 * fraction(number, 0)) * radius};
-        pass.spacing = std::max(pass.spacing, path.path.length() / 40.0);
+        PathImprover::Pass pass{
+            std::max((0.2 + 0.6 * fraction(number, 0)) * radius, path.path.length() / (2.0 * tuning::MAX_KNOTS))};
         pass.offset = pass.spacing * fraction(number, 1);
-        pass.reach = 12.0 * radius;
-        if (number % 9 == 0)
+        pass.reach = 3.0 * tuning::TURN_REACH * radius;
+        if (number % PASSES_PER_ROUND == 0)
         {
             pass.spacing *= 2.0;
             pass.turnsCar = true;
         }
         else if (number % 2 == 0)
         {
-            pass.reach = 4.0 * radius;
+            pass.reach = tuning::TURN_REACH * radius;
             pass.step = 0.3 * std::pow(0.1, fraction(number, 2)) * radius;
         }
         return improve(path, pass) && take(path);

@@ -124,7 +124,7 @@ namespace parking::search
         else if (request.parameters.approximate && planner.approximate(request.goals.front(), stop, result.path))
             result.outcome = PlanOutcome::Approximate;
         result.statistics = planner.statistics();
-        result.loadingTime = planner.search().loadingTime();
+        result.loadingTime = planner.search().statistics().loadingTime;
         return result;
     }
 }  // namespace parking::search

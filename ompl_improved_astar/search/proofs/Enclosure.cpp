@@ -159,4 +159,45 @@ namespace parking::search
         }
         return verdict_;
     }
+
+    void EnclosureProof::begin(BlockedHeadings blocked, const std::vector<Pose> &starts, const std::vector<Pose> &goals,
+                               const Enclosure::Cells &cells)
+    {
+        blocked_ = std::move(blocked);
+        state_ = blocked_ ? State::UnderWay : State::Over;
+        if (state_ == State::Over)
+            return;
+        ends_.resize(2);
+        ends_[0].begin(blocked_, starts, goals, cells);
+        ends_[1].begin(blocked_, goals, starts, cells);
+    }
+
+    bool EnclosureProof::widen(std::size_t columns)
+    {
+        if (state_ != State::UnderWay)
+            return false;
+        bool isProven = false, isConnected = false, isOver = true;
+        for (Enclosure &end : ends_)
+        {
+            const Enclosure::Verdict verdict = end.widen(columns);
+            isProven = isProven || verdict == Enclosure::Verdict::Closed;
+            isConnected = isConnected || verdict == Enclosure::Verdict::Connected;
+            isOver = isOver && verdict != Enclosure::Verdict::Unknown;
+        }
+        if (isProven || isConnected || isOver)
+        {
+            state_ = State::Over;
+            blocked_ = {};
+        }
+        return isProven;
+    }
+
+    std::size_t EnclosureProof::bytes() const
+    {
+        std::size_t sum = 0;
+        if (state_ == State::UnderWay)
+            for (const Enclosure &end : ends_)
+                sum += end.bytes();
+        return sum;
+    }
 }  // namespace parking::search

@@ -97,4 +97,46 @@ namespace parking::search
         std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> waiting_;
         std::size_t entered_{0};  // places that were put into it
     };
+
+    /** \brief Seeks the proof from both ends at once: out of either is as good as the other. */
+    class EnclosureProof
+    {
+    public:
+        /** \brief Forgets it; memory is kept. */
+        void reset()
+        {
+            state_ = State::NotBegun;
+            blocked_ = {};
+        }
+
+        /** \brief Begins; gives up at once when \e blocked is empty: the world cannot tell. */
+        void begin(BlockedHeadings blocked, const std::vector<Pose> &starts, const std::vector<Pose> &goals,
+                   const Enclosure::Cells &cells);
+
+        /** \brief Has it begun since it was reset? */
+        bool hasBegun() const
+        {
+            return state_ != State::NotBegun;
+        }
+
+        /** \brief Goes on by that many columns at each end, until there is nothing more to find out.
+
+            \return whether it has been proven now that no path leads from a start to a goal */
+        bool widen(std::size_t columns);
+
+        /** \brief Bytes of both while it is under way. */
+        std::size_t bytes() const;
+
+    private:
+        enum class State
+        {
+            NotBegun,
+            UnderWay,
+            Over
+        };
+
+        State state_{State::NotBegun};
+        BlockedHeadings blocked_;
+        std::vector<Enclosure> ends_;  // made when first needed: most searches need none
+    };
 }  // namespace parking::search
