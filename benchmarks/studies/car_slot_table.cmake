@@ -1,9 +1,3 @@
-# Micro-benchmarks of parking_geometry's manoeuvres and smoothing.
-parking_require(libbenchmark-dev benchmark)
-add_executable(geometry_benchmark ${CMAKE_CURRENT_LIST_DIR}/geometry_benchmark.cpp)
-target_include_directories(geometry_benchmark PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(geometry_benchmark PRIVATE parking_build_flags parking_geometry benchmark::benchmark)
-
 # Which car parks in which slot: docs/car-slot-table.md is what this program writes.
 add_executable(car_slot_table ${CMAKE_CURRENT_LIST_DIR}/car_slot_table.cpp)
 target_link_libraries(car_slot_table PRIVATE parking_build_flags automatic_parking)
