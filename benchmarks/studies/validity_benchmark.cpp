@@ -3,8 +3,11 @@
 // that of the set. Counters say which tier decided how many poses, and how many answers were wrong. Ratios are worth
 // more than times: --benchmark_enable_random_interleaving=true puts both sides of a ratio into the same conditions.
 
-#include "benchmarks/studies/ValidityWorlds.h"
 #include "benchmarks/system/OmplBenchmarkCompatibility.h"
+#include "benchmarks/worlds/RandomWorlds.h"
+#include "ompl_improved_astar/ImprovedAStar.h"
+#include "parking_geometry/io/ScenarioReader.h"
+#include "state_validity/fcl/FclContactTest.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "state_validity/ompl/SweptMotionValidator.h"
@@ -12,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,7 +24,9 @@
 #include <benchmark/benchmark.h>
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/ScopedState.h>
+#include <ompl/base/goals/GoalStates.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
+#include <ompl/util/Console.h>
 
 namespace
 {
@@ -31,17 +37,130 @@ namespace
 
     // ---- states ----------------------------------------------------------------------------------------------------
 
-    const ValidityWorlds &worldsOf(bool grids, Surroundings surroundings)
+    /** Where the poses of a benchmark lie. */
+    enum class Surroundings
     {
-        static std::vector<std::pair<std::pair<bool, Surroundings>, ValidityWorlds>> made;
-        for (const auto &[key, worlds] : made)
-            if (key == std::pair(grids, surroundings))
-                return worlds;
+        Free,     ///< more than a metre from every obstacle
+        Mixed,    ///< anywhere in the world
+        Tight,    ///< at most half a metre from touching an obstacle, on either side
+        Search,   ///< what a parking search asks about
+        FromSlot  ///< the same, searched from the goal only, out of the slot
+    };
+
+    /** A world with both kinds of check, and the poses that are asked about there. */
+    struct Place
+    {
+        Place(const ObstacleSet &obstacles, const Vehicle &vehicle)
+          : tiered(std::make_unique<FootprintChecker>(obstacles, vehicle, 0.0, fclContactTest())),
+            plain(std::make_unique<PlainFclChecker>(obstacles, vehicle))
+        {
+        }
+
+        std::unique_ptr<FootprintChecker> tiered;  ///< distance field and circles before the exact test
+        std::unique_ptr<PlainFclChecker> plain;    ///< FCL for every pose
+        std::vector<Pose> poses;                   ///< of the rear axle, in the world's local coordinates
+    };
+
+    /** Eight random worlds with 4000 poses each, always the same ones.
+
+        \param grids occupancy grids, otherwise polygons; \e surroundings any but those of a search */
+    std::vector<Place> randomPlaces(bool grids, Surroundings surroundings)
+    {
+        constexpr std::size_t POSES = 4000;
+        constexpr std::uint64_t WORLDS = 8;
+        constexpr double FREE_CLEARANCE = 1.0, TIGHT = 0.5;  // metres
+        std::vector<Place> places;
+        const Vehicle vehicle;
+        for (std::uint64_t seed = 1000; seed < 1000 + WORLDS; ++seed)
+        {
+            const World world = grids ? parking_test::randomGridWorld(seed) : parking_test::randomPolygonWorld(seed);
+            Place place(world.obstacles, vehicle);
+            Random random(seed);
+            while (place.poses.size() < POSES)
+            {
+                const Pose pose = surroundings == Surroundings::Tight
+                                      ? world.touching(random, vehicle, random.between(0.0, TIGHT))
+                                      : world.anywhere(random);
+                if (surroundings != Surroundings::Free || place.tiered->clearance(pose) > FREE_CLEARANCE)
+                    place.poses.push_back(pose);
+            }
+            places.push_back(std::move(place));
+        }
+        return places;
+    }
+
+    /** At most so many poses are kept of a problem, evenly spread over its search. */
+    constexpr std::size_t KEPT = 20000;
+
+    /** Every pose that ImprovedAStar asks about while it looks for a first solution. It is given a checker that it does
+        not know: so it asks for every state along the motions that it tries. */
+    std::vector<Pose> posesOfSearch(const Scenario &scenario, const FootprintChecker &checker, bool fromSlot)
+    {
+        const auto space = std::make_shared<ob::ReedsSheppStateSpace>(scenario.vehicle.minTurningRadius());
+        ob::RealVectorBounds bounds(2);
+        for (unsigned int axis = 0; axis < 2; ++axis)
+        {
+            bounds.setLow(axis, scenario.bounds.min[axis]);
+            bounds.setHigh(axis, scenario.bounds.max[axis]);
+        }
+        space->setBounds(bounds);
+        const auto si = std::make_shared<ob::SpaceInformation>(space);
+        std::vector<Pose> poses;
+        si->setStateValidityChecker(
+            [&](const ob::State *state)
+            {
+                poses.push_back(poseOf(state));
+                return checker.isFree(poses.back());
+            });
+        si->setup();
+        const auto problem = std::make_shared<ob::ProblemDefinition>(si);
+        ob::ScopedState<> state(si);
+        setPose(state.get(), scenario.start);
+        problem->addStartState(state);
+        const auto goals = std::make_shared<ob::GoalStates>(si);
+        for (const Pose &goal : scenario.goals)
+        {
+            setPose(state.get(), goal);
+            goals->addState(state);
+        }
+        problem->setGoal(goals);
+        ompl::geometric::ImprovedAStar planner(si);
+        planner.params().setParam("bidirectional", fromSlot ? "0" : "1");
+        planner.setProblemDefinition(problem);
+        planner.setup();
+        // Counted in questions, not in seconds: the same poses on every machine.
+        planner.solve(ob::PlannerTerminationCondition([&poses] { return poses.size() > 100 * KEPT; }));
+        return poses;
+    }
+    /** The bundled parking problems with the poses of their searches. */
+    std::vector<Place> searchedPlaces(bool fromSlot)
+    {
+        ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
+        std::vector<Place> places;
+        for (const char *name :
+             {"angled45", "dead_end_aisle", "multi_storey", "narrow_parallel", "narrow_perpendicular", "parallel",
+              "perpendicular", "tight_parallel", "underground_garage", "perceived_street"})
+        {
+            const Scenario scenario = readScenario(std::string(PARKING_SCENARIOS "/") + name + ".yaml");
+            Place place(ObstacleSet::fromScenario(scenario), scenario.vehicle);
+            const std::vector<Pose> poses = posesOfSearch(scenario, *place.tiered, fromSlot);
+            const std::size_t step = (poses.size() + KEPT - 1) / KEPT;
+            for (std::size_t i = 0; i < poses.size(); i += step)
+                place.poses.push_back(poses[i]);
+            places.push_back(std::move(place));
+        }
+        return places;
+    }
+
+    const std::vector<Place> &placesOf(bool grids, Surroundings surroundings)
+    {
+        static std::map<std::pair<bool, Surroundings>, std::vector<Place>> made;
+        const auto [entry, isNew] = made.try_emplace({grids, surroundings});
         const bool fromSlot = surroundings == Surroundings::FromSlot;
-        made.emplace_back(std::pair(grids, surroundings), fromSlot || surroundings == Surroundings::Search
-                                                              ? searchedWorlds(PARKING_SCENARIOS, fromSlot)
-                                                              : randomWorlds(grids, surroundings));
-        return made.back().second;
+        if (isNew)
+            entry->second = fromSlot || surroundings == Surroundings::Search ? searchedPlaces(fromSlot)
+                                                                             : randomPlaces(grids, surroundings);
+        return entry->second;
     }
 
     /** How often the poses of a world are gone through before the next one: planners stay in one world for longer than
@@ -56,12 +175,12 @@ namespace
 
     void stateCheck(benchmark::State &state, bool grids, Surroundings surroundings, Checker kind)
     {
-        const ValidityWorlds &worlds = worldsOf(grids, surroundings);
+        const std::vector<Place> &places = placesOf(grids, surroundings);
         CheckCounts counts;
         std::size_t free = 0, asked = 0, world = 0, round = 0, i = 0;
         for (auto _ : state)
         {
-            const ValidityWorlds::Place &place = worlds.places[world];
+            const Place &place = places[world];
             free += kind == Checker::Tiered ? place.tiered->isFree(place.poses[i], counts)
                                             : place.plain->isFree(place.poses[i]);
             ++asked;
@@ -71,7 +190,7 @@ namespace
             if (++round < ROUNDS)
                 continue;
             round = 0;
-            world = (world + 1) % worlds.places.size();
+            world = (world + 1) % places.size();
         }
         const auto percent = [asked](std::size_t count)
         {
@@ -252,16 +371,16 @@ namespace
     /** Random arcs of a metre whose smallest clearance lies in between; full lock either way, and straight. */
     void sweptArc(benchmark::State &state, double least, double most, bool prepared)
     {
-        static const ValidityWorlds worlds = randomWorlds(false, Surroundings::Mixed);
+        const std::vector<Place> &places = placesOf(false, Surroundings::Mixed);
         std::vector<Arc> arcs;
         Random random(7);
         CheckCounts counts;
         const double lock = 1.0 / Vehicle().minTurningRadius();
         while (arcs.size() < 2000)
         {
-            const std::size_t world = random.index(worlds.places.size());
-            const FootprintChecker &checker = *worlds.places[world].tiered;
-            const Pose pose = worlds.places[world].poses[random.index(worlds.places[world].poses.size())];
+            const std::size_t world = random.index(places.size());
+            const FootprintChecker &checker = *places[world].tiered;
+            const Pose pose = places[world].poses[random.index(places[world].poses.size())];
             const double curvature = (static_cast<double>(random.index(3)) - 1.0) * lock;
             const double length = random.chance(0.5) ? 1.0 : -1.0;
             double clearance = most;
@@ -276,7 +395,7 @@ namespace
         for (auto _ : state)
         {
             const Arc &arc = arcs[i];
-            const FootprintChecker &checker = *worlds.places[arc.world].tiered;
+            const FootprintChecker &checker = *places[arc.world].tiered;
             benchmark::DoNotOptimize(prepared ? checker.freeLength(arc.start, arc.curvature, arc.length, counts)
                                               : checker.freeLength(arc.pose, arc.curvature, arc.length, 1e-3, counts));
             if (++i == arcs.size())

@@ -6,10 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <string>
 
 /** \brief What tests, fuzzers and studies share: random worlds, and oracles that results are compared with. */
 namespace parking_test
 {
+    /** \brief A number that follows from a text, the same everywhere (Fowler, Noll and Vo's 64 bit hash). */
+    inline std::uint64_t seedOf(const std::string &text)
+    {
+        std::uint64_t hash = 0xcbf29ce484222325U;
+        for (const char each : text)
+            hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3U;
+        return hash;
+    }
+
     /** \brief Random numbers that are the same with every standard library: its distributions are not. */
     class Random
     {

@@ -1,5 +1,5 @@
 // The figures that are promised for the whole pipeline, on every problem that can be had: nominal, and with the
-// everyday disturbances. benchmarks/tracking_evaluation does the same with 20 seeds and writes a table.
+// everyday disturbances.
 #include "automatic_parking/AutomaticParking.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/automatic_parking/ParkingProblems.h"

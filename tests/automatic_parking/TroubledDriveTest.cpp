@@ -1,6 +1,6 @@
 // Some of the drives that `troubled_drives` makes by the thousand: what can be avoided is, and the car ends standing.
 
-#include "benchmarks/studies/reliability/TroubledDrives.h"
+#include "benchmarks/studies/TroubledDrives.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 

@@ -11,12 +11,12 @@ import subprocess
 import sys
 
 # Some are built only where their libraries are installed, and some take the options of a framework.
-PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_queries', 'paper_run', 'tracking_evaluation',
-            'troubled_drives', 'soak', 'map_size_study']
+PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_queries', 'paper_run', 'troubled_drives',
+            'soak']
 # Of other programs than these (cmake, pip, Slurm, ...) a document may say what it likes.
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/make_scenarios', 'scripts/package',
-           'scripts/performance-table', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test',
-           'scripts/try-in-bare-root', 'benchmarks/report/make_report', 'benchmarks/report/general_page',
+           'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test', 'scripts/try-in-bare-root',
+           'benchmarks/report/make_report', 'benchmarks/report/general_page',
            'benchmarks/report/results_page', 'benchmarks/paper/page/paper_page', 'benchmarks/paper/page/word_page',
            'benchmarks/paper/make_maps', 'benchmarks/paper/make_growth_maps', 'benchmarks/paper/make_random_maps']
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')

@@ -1,6 +1,5 @@
-#include "benchmarks/studies/reliability/TroubledDrives.h"
+#include "benchmarks/studies/TroubledDrives.h"
 
-#include "benchmarks/studies/reliability/BrakingOracle.h"
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
@@ -48,6 +47,10 @@ namespace parking
         constexpr double SPARE = 0.05;
         /** Metres that it must keep from what stood there before, beside which cars park. */
         constexpr double SPARE_BESIDE = 0.01;
+        /** Seconds between two poses of a car that brakes. */
+        constexpr double BRAKING_STEP = 0.005;
+        /** Metres that are none: numbers round. */
+        constexpr double NOTHING = 1e-9;
         /** Radians that wheels must be off their command for that to be seen. */
         constexpr double SEEN = 0.01;
 
@@ -116,6 +119,83 @@ namespace parking
                 driven += way;
             }
             return std::nullopt;
+        }
+
+        TrajectoryPoint interpolated(const Trajectory &drive, double time)
+        {
+            const auto after = std::upper_bound(drive.begin(), drive.end(), time,
+                                                [](double t, const TrajectoryPoint &point) { return t < point.t; });
+            if (after == drive.end())
+                return drive.back();
+            if (after == drive.begin())
+                return drive.front();
+            const TrajectoryPoint &a = *(after - 1), &b = *after;
+            const double share = (time - a.t) / (b.t - a.t);
+            TrajectoryPoint point = a;
+            point.t = time;
+            point.x += share * (b.x - a.x);
+            point.y += share * (b.y - a.y);
+            point.yaw += share * wrapAngle(b.yaw - a.yaw);
+            point.v += share * (b.v - a.v);
+            point.steering += share * (b.steering - a.steering);
+            return point;
+        }
+
+        /** Where a car goes that brakes with all it has from an instant of a drive on: what physics allows.
+
+            An integration of its own, in steps of 5 ms, which shares nothing with controller, supervisor and simulated
+           car: it slows down as hard as this car really can, its wheels stand as they do in the drive where it passes
+           the same place, and stay where they are while they stick.
+
+            \param drive what the car would do if it did not brake, truly driven
+            \param odds what is wrong with the car
+            \param since seconds, the begin of what is looked at: an obstacle appears, or something breaks
+            \param brakes seconds, when the brake takes hold
+            \return the poses from \e since to standstill */
+        std::vector<Pose> brakingWay(const Trajectory &drive, const Vehicle &car, const Disturbances &odds,
+                                     double since, double brakes)
+        {
+            std::vector<Pose> way;
+            for (double t = since; t < brakes; t += BRAKING_STEP)
+            {
+                const TrajectoryPoint point = interpolated(drive, t);
+                way.push_back({point.x, point.y, point.yaw});
+            }
+            const TrajectoryPoint begin = interpolated(drive, brakes);
+            Pose pose{begin.x, begin.y, begin.yaw};
+            way.push_back(pose);
+            const double brake = (1.0 - odds.brakeLoss) * (1.0 + odds.speedBias) * car.maxAcceleration;
+            const double wheelbase = (1.0 + odds.wheelbaseError) * car.wheelbase;
+            double speed = begin.v, wheels = begin.steering, t = brakes, place = brakes;
+            while (speed != 0.0)
+            {
+                const double before = speed;
+                speed =
+                    std::abs(speed) <= brake * BRAKING_STEP ? 0.0 : speed - std::copysign(brake * BRAKING_STEP, speed);
+                const double driven = 0.5 * (before + speed) * BRAKING_STEP;
+                t += BRAKING_STEP;
+                // The place of the drive that is as far along, in the direction in which the car rolls.
+                for (double left = std::abs(driven); left > NOTHING && place < drive.back().t;)
+                {
+                    const double v = interpolated(drive, place).v;
+                    if (v * before <= 0.0)
+                        break;
+                    const double part = std::min(BRAKING_STEP, left / std::abs(v));
+                    left -= part * std::abs(v);
+                    place += part;
+                }
+                const bool sticks = std::any_of(odds.stuck.begin(), odds.stuck.end(),
+                                                [t](const TimeSpan &span) { return span.contains(t); });
+                const double turn = car.maxSteeringRate * BRAKING_STEP;
+                const double wanted = wheels + std::clamp(interpolated(drive, place).steering - wheels, -turn, turn);
+                const double angle = sticks ? wheels : 0.5 * (wheels + wanted);
+                wheels = sticks ? wheels : wanted;
+                const double yaw = pose.yaw + 0.5 * driven * std::tan(angle) / wheelbase;
+                pose = {pose.x + driven * std::cos(yaw), pose.y + driven * std::sin(yaw),
+                        pose.yaw + driven * std::tan(angle) / wheelbase};
+                way.push_back(pose);
+            }
+            return way;
         }
 
         const TrajectoryPoint &pointAt(const Trajectory &drive, double time)

@@ -39,7 +39,7 @@ namespace parking
         bool appeared{false};                         ///< did an obstacle appear on the way that was being driven?
         double ahead{0.0};                            ///< metres left to it then
         /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
-           down as hard as this car can (see brakingWay())? */
+           down as hard as this car can? */
         bool avoidable{false};
         bool hitAppeared{false};  ///< the obstacle, before anything was planned round it
         bool hitOther{false};     ///< anything else

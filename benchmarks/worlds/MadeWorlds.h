@@ -2,11 +2,10 @@
 
 #include "parking_geometry/Polygon.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
-namespace parking
+namespace parking_test
 {
     /** \brief Kinds of worlds that can be made, as madeWorld() has them. */
     std::vector<std::string> worldKinds();
@@ -21,8 +20,5 @@ namespace parking
 
         \param seed equal seeds give equal worlds
         Throws parking::Error naming the known kinds for any other. */
-    std::vector<Polygon> madeWorld(const std::string &kind, const std::string &seed);
-
-    /** \brief A number that follows from a text, the same everywhere (Fowler, Noll and Vo's 64 bit hash). */
-    std::uint64_t seedOf(const std::string &text);
-}  // namespace parking
+    std::vector<parking::Polygon> madeWorld(const std::string &kind, const std::string &seed);
+}  // namespace parking_test

@@ -1,8 +1,7 @@
-#include "benchmarks/queries/MadeWorlds.h"
+#include "benchmarks/worlds/MadeWorlds.h"
 
-#include "benchmarks/worlds/Random.h"
+#include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/Pose.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/text/NearestName.h"
 
@@ -12,28 +11,17 @@
 #include <functional>
 #include <utility>
 
-namespace parking
+namespace parking_test
 {
+    using namespace parking;
+
     namespace
     {
-        using parking_test::Random;
         using Polygons = std::vector<Polygon>;
 
         constexpr double MILLIMETRES = 1e3;  // in a metre
         constexpr double SLOT_LENGTH = 5.0;  // metres, of a perpendicular slot
         constexpr double WALL = 0.3;         // metres
-
-        /** A rectangle round a pose. */
-        Polygon block(const Pose &middle, double length, double width)
-        {
-            Polygon polygon;
-            for (const auto &[x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-            {
-                const Pose corner = compose(middle, {x * length, y * width, 0.0});
-                polygon.emplace_back(corner.x, corner.y);
-            }
-            return polygon;
-        }
 
         Polygon wall(double left, double low, double right, double high)
         {
@@ -56,7 +44,7 @@ namespace parking
             const Vehicle car = vehicleByName(names[random.index(names.size())]);
             const double along = random.between(-0.15, 0.15), across = random.between(-0.12, 0.12);
             world.push_back(
-                block(compose(middle, {along, across, random.between(-0.03, 0.03)}), car.length(), car.width));
+                rectangle(car.length(), car.width, compose(middle, {along, across, random.between(-0.03, 0.03)})));
         }
 
         /** Cars side by side along x, their noses up or down, each slot taken with a probability. */
@@ -158,7 +146,7 @@ namespace parking
                     row(world, random, lane + 0.5, width - lane - 0.5, y + middle, slot, taken, 0.0);
                 row(world, random, highLeft, highRight, y + deck - 0.5 * SLOT_LENGTH, slot, taken, 0.0);
                 for (double x = lane + 2.0; x < width - lane - 2.0; x += 3.0 * slot)
-                    world.push_back(block({x, y + 0.5 * deck, 0.0}, 0.4, 0.4));
+                    world.push_back(rectangle(0.4, 0.4, {x, y + 0.5 * deck, 0.0}));
                 world.push_back(wall(-WALL, y, 0.0, y + deck));
                 world.push_back(wall(width, y, width + WALL, y + deck));
                 if (i == 0)
@@ -176,22 +164,6 @@ namespace parking
             return world;
         }
 
-        /** Corners round a place, in order but at any distance: rarely convex. */
-        Polygon star(Random &random, double x, double y, double largest)
-        {
-            Polygon polygon;
-            const std::size_t corners = 3 + random.index(8);
-            const double turned = random.between(0.0, 2.0 * PI);
-            for (std::size_t i = 0; i < corners; ++i)
-            {
-                const double angle = turned + 2.0 * PI * (static_cast<double>(i) + random.between(0.0, 0.6)) /
-                                                  static_cast<double>(corners);
-                const double radius = largest * random.between(0.3, 1.0);
-                polygon.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle));
-            }
-            return polygon;
-        }
-
         Polygons clutter(Random &random)
         {
             Polygons world;
@@ -201,11 +173,11 @@ namespace parking
             {
                 const double x = random.between(0.0, size), y = random.between(0.0, size);
                 if (random.chance(0.3))
-                    world.push_back(block({x, y, 0.0}, 0.12, 0.12));
+                    world.push_back(rectangle(0.12, 0.12, {x, y, 0.0}));
                 else if (random.chance(0.5))
                 {
                     const double yaw = random.between(-PI, PI), length = random.between(0.3, 3.0);
-                    world.push_back(block({x, y, yaw}, length, random.between(0.2, 1.5)));
+                    world.push_back(rectangle(length, random.between(0.2, 1.5), {x, y, yaw}));
                 }
                 else
                     world.push_back(star(random, x, y, random.between(0.2, 1.6)));
@@ -242,7 +214,7 @@ namespace parking
                     row(world, random, left + 2.0, right - 2.0, y + aisle + 0.5 * SLOT_LENGTH, slot, taken, 0.0);
                     row(world, random, left + 2.0, right - 2.0, y + aisle + 1.5 * SLOT_LENGTH, slot, taken, 0.0);
                     for (const double x : {left + 0.8, right - 0.8})
-                        world.push_back(block({x, y + aisle + SLOT_LENGTH, 0.0}, 1.4, random.between(3.0, 9.0)));
+                        world.push_back(rectangle(1.4, random.between(3.0, 9.0), {x, y + aisle + SLOT_LENGTH, 0.0}));
                 }
             surround(world, 0.0, 0.0, width, y + aisle);
             return world;
@@ -369,12 +341,4 @@ namespace parking
             }
         throw Error(unknownName("kind of world", kind, worldKinds()));
     }
-
-    std::uint64_t seedOf(const std::string &text)
-    {
-        std::uint64_t hash = 0xcbf29ce484222325U;
-        for (const char each : text)
-            hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3U;
-        return hash;
-    }
-}  // namespace parking
+}  // namespace parking_test

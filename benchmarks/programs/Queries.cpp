@@ -1,4 +1,4 @@
-#include "benchmarks/queries/Queries.h"
+#include "benchmarks/programs/Queries.h"
 
 #include "benchmarks/comparison/BenchmarkConfig.h"
 #include "benchmarks/formats/ScenarioFormat.h"

@@ -1,9 +1,9 @@
 // parking_queries: writes random parking problems, the same ones for the same seed. docs/general.md says how.
 
-#include "benchmarks/queries/MadeWorlds.h"
-#include "benchmarks/queries/Queries.h"
+#include "benchmarks/programs/Queries.h"
 #include "benchmarks/system/CommandLine.h"
 #include "benchmarks/system/Counted.h"
+#include "benchmarks/worlds/MadeWorlds.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/Text.h"
@@ -25,6 +25,8 @@ namespace po = boost::program_options;
 namespace
 {
     using namespace parking;
+    using parking_test::Random;
+    using parking_test::seedOf;
 
     constexpr int DONE = 0;
     constexpr double WIDEST_MARGIN = 5.0;  // metres
@@ -64,7 +66,7 @@ namespace
                 "a\n"
                 "scenario for each, and index.json with what was drawn. Equal seeds give equal files.\n\n"
              << describe() << "\nKinds:";
-        for (const std::string &kind : worldKinds())
+        for (const std::string &kind : parking_test::worldKinds())
             text << ' ' << kind;
         text << "\n\nStatus: 0 written, 2 bad input or usage\n";
         return text.str();
@@ -84,7 +86,7 @@ namespace
                 const Vehicle car = !options.vehicle.empty()
                                         ? readVehicle(options.vehicle)
                                         : vehicleByName(names[seedOf(seed + " car") % names.size()]);
-                worlds.push_back(queryWorld(name, madeWorld(kind, seed), car));
+                worlds.push_back(queryWorld(name, parking_test::madeWorld(kind, seed), car));
             }
         std::set<std::string> known;
         for (const QueryWorld &world : worlds)
@@ -163,7 +165,7 @@ namespace
         options.folders = line.texts("from");
         options.kinds = line.texts("kind");
         if (options.kinds.empty() && options.folders.empty())
-            options.kinds = worldKinds();
+            options.kinds = parking_test::worldKinds();
         options.worlds = line.whole("worlds", 1, 10000).value_or(options.worlds);
         options.queries = line.whole("queries", 1, 100000).value_or(options.queries);
         options.margin = line.between("margin", 0.0, WIDEST_MARGIN, "m").value_or(options.margin);
@@ -183,7 +185,7 @@ namespace
                 files.write(fs::path("maps") / (world.name + ".pgm"), mapImage(*world.scenario.grid));
                 files.write(map, mapYaml(*world.scenario.grid, world.name + ".pgm"));
             }
-            parking_test::Random random(seedOf(options.seed + " " + world.name + " queries"));
+            Random random(seedOf(options.seed + " " + world.name + " queries"));
             for (std::size_t i = 0; i < options.queries; ++i)
             {
                 const std::optional<Query> query = drawQuery(world, random, options.margin, i % 2 == 1);

@@ -1,8 +1,8 @@
 // Random queries: free by the oracle, with their margin, the same for the same seed.
 
-#include "benchmarks/queries/Queries.h"
+#include "benchmarks/programs/Queries.h"
 
-#include "benchmarks/queries/MadeWorlds.h"
+#include "benchmarks/worlds/MadeWorlds.h"
 #include "benchmarks/worlds/PolygonOracle.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -16,25 +16,10 @@
 namespace
 {
     using namespace parking;
+    using parking_test::madeWorld;
     using parking_test::PolygonOracle;
     using parking_test::Random;
-
-    TEST(MadeWorlds, FollowFromTheirSeed)
-    {
-        for (const std::string &kind : worldKinds())
-        {
-            SCOPED_TRACE(kind);
-            const std::vector<Polygon> world = madeWorld(kind, "seven");
-            EXPECT_GE(world.size(), 4U);
-            EXPECT_EQ(world, madeWorld(kind, "seven"));
-            EXPECT_NE(world, madeWorld(kind, "eight"));
-            for (const Polygon &polygon : world)
-                ASSERT_GE(polygon.size(), 3U);
-        }
-        EXPECT_THROW(madeWorld("street", "seven"), Error);
-        EXPECT_EQ(seedOf(""), 0xcbf29ce484222325U);
-        EXPECT_EQ(seedOf("a"), 0xaf63dc4c8601ec8cU);  // from the authors' test vectors
-    }
+    using parking_test::worldKinds;
 
     /** All that queries promise, of what is read from their file. */
     void expectFree(const QueryWorld &world, double margin, int count)

@@ -1,0 +1,516 @@
+// Plans in random worlds for hours, on several threads: does memory grow, does anything take long, is anything wrong?
+
+#include "benchmarks/planners/PlannerRegistry.h"
+#include "benchmarks/problems/PlanRun.h"
+#include "benchmarks/problems/Problem.h"
+#include "benchmarks/programs/Queries.h"
+#include "benchmarks/system/CommandLine.h"
+#include "benchmarks/system/ProcessorTime.h"
+#include "benchmarks/worlds/MadeWorlds.h"
+#include "benchmarks/worlds/RandomWorlds.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/referee/Referee.h"
+#include "state_validity/FootprintChecker.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include <ompl/util/Console.h>
+
+namespace
+{
+    using namespace parking;
+    using parking_test::Random;
+    using parking_test::World;
+    namespace po = boost::program_options;
+    using Clock = std::chrono::steady_clock;
+
+    /** Planning ends after this many expansions, which depends on no clock: equal queries have equal answers. */
+    constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 250, MOST_OF_SOME = 1000;
+    constexpr double TIME_LIMIT = 0.05;  // seconds, for each query that is put to a planner of OMPL
+
+    /** Counts durations in classes 5 % apart, from a tenth of a microsecond to hours: it never grows. */
+    class LatencyCounts
+    {
+    public:
+        /** \param time seconds */
+        void add(double time)
+        {
+            const double place = std::log(std::max(time, SHORTEST) / SHORTEST) / std::log(RATIO);
+            ++counts_[std::min(static_cast<std::size_t>(place), CLASSES - 1)];
+        }
+
+        LatencyCounts &operator+=(const LatencyCounts &other)
+        {
+            std::transform(counts_.begin(), counts_.end(), other.counts_.begin(), counts_.begin(), std::plus<>());
+            return *this;
+        }
+
+        /** The duration in seconds, rounded up by at most 5 %, that a \e share of all does not exceed; 0 of none. */
+        double quantile(double share) const
+        {
+            const double wanted =
+                share * static_cast<double>(std::accumulate(counts_.begin(), counts_.end(), std::uint64_t(0)));
+            double seen = 0.0;
+            for (std::size_t i = 0; i < CLASSES; ++i)
+            {
+                seen += static_cast<double>(counts_[i]);
+                if (counts_[i] > 0 && seen >= wanted)
+                    return SHORTEST * std::pow(RATIO, static_cast<double>(i + 1));
+            }
+            return 0.0;
+        }
+
+    private:
+        static constexpr std::size_t CLASSES = 600;
+        static constexpr double SHORTEST = 1e-7, RATIO = 1.05;  // seconds; of one class to the next
+        std::array<std::uint64_t, CLASSES> counts_{};
+    };
+
+    /** What a worker has done. */
+    struct SoakFigures
+    {
+        using Count = unsigned long long;
+
+        Count worlds{0};                         ///< random worlds that were planned in
+        Count queries{0};                        ///< random queries put to plan()
+        Count solved{0};                         ///< of these, with a path to a goal
+        Count replanned{0};                      ///< queries from half way, with a new obstacle on the rest of the path
+        Count repeated{0};                       ///< queries put twice: the path must be the same
+        Count seenByOracle{0};                   ///< paths that the oracle of the tests has looked at
+        Count byOthers{0};                       ///< queries put to planners behind OMPL, this project's among them
+        Count refusedOfOthers{0};                ///< exact paths of OMPL's planners that the referee does not accept
+        LatencyCounts planning;                  ///< processor time of the queries put to plan()
+        Count disagreed{0};                      ///< answers that are wrong
+        std::vector<std::string> disagreements;  ///< a line for each of the first hundred
+
+        void disagree(const std::string &what)
+        {
+            constexpr std::size_t MOST = 100;
+            ++disagreed;
+            if (disagreements.size() < MOST)
+                disagreements.push_back(what);
+        }
+
+        SoakFigures &operator+=(const SoakFigures &other)
+        {
+            worlds += other.worlds;
+            queries += other.queries;
+            solved += other.solved;
+            replanned += other.replanned;
+            repeated += other.repeated;
+            seenByOracle += other.seenByOracle;
+            byOthers += other.byOthers;
+            refusedOfOthers += other.refusedOfOthers;
+            planning += other.planning;
+            disagreed += other.disagreed;
+            disagreements.insert(disagreements.end(), other.disagreements.begin(), other.disagreements.end());
+            return *this;
+        }
+    };
+
+    /** What a worker plans. */
+    struct SoakSettings
+    {
+        bool small{false};         ///< small worlds and nothing but plan(): as many queries as can be
+        std::size_t perWorld{40};  ///< queries in a world before there is another one
+        std::uint64_t most{0};     ///< queries of all workers together, after which they stop; 0: no end
+    };
+
+    search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker, std::uint64_t mostExpansions)
+    {
+        FootprintEnvironment environment(checker, scenario.bounds, 1e-3);
+        search::PlanRequest request;
+        request.starts = {scenario.start};
+        request.goals = scenario.goals;
+        request.car.turningRadius = scenario.vehicle.minTurningRadius();
+        request.car.inscribedRadius = scenario.vehicle.inscribedRadius();
+        request.car.bounds = scenario.bounds;
+        request.maxExpansions = mostExpansions;
+        return plan(environment, request);
+    }
+
+    bool equal(const Path &a, const Path &b)
+    {
+        return std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(),
+                          [](const PathPiece &p, const PathPiece &q)
+                          { return p.curvature == q.curvature && p.length == q.length; });
+    }
+
+    /** A small world of any kind; unless all are to be small, one in seven is a large one as parking_queries makes
+       them. Three cars in ten are of the catalogue. */
+    World randomWorld(Random &random, bool small)
+    {
+        const std::vector<std::string> names = vehicleNames(), kinds = parking_test::worldKinds();
+        const Vehicle car = random.chance(0.3) ? vehicleByName(names[random.index(names.size())]) : Vehicle();
+        const std::uint64_t seed = random.bits();
+        const auto make = [&](std::size_t kind) -> World
+        {
+            switch (kind)
+            {
+                case 0:
+                    return parking_test::randomPolygonWorld(seed);
+                case 1:
+                    return parking_test::randomGridWorld(seed);
+                case 2:
+                    return parking_test::noisyGridWorld(seed);
+                case 3:
+                    return parking_test::parkingRowsWorld(seed, car);
+                case 4:
+                    return parking_test::baysWorld(seed, car);
+                case 5:
+                    return parking_test::lanesWorld(seed);
+                default:
+                    break;
+            }
+            const std::string &name = kinds[random.index(kinds.size())];
+            World world(queryWorld(name, parking_test::madeWorld(name, std::to_string(seed)), car).scenario);
+            world.name = name + " " + std::to_string(seed);
+            return world;
+        };
+        World world = make(random.index(small ? 6 : 7));
+        world.scenario.vehicle = car;
+        return world;
+    }
+
+    /** Plans in random worlds, one after the other, and has every answer judged by the referee.
+
+        One thread each; the figures may be read while it works. */
+    class SoakWorker
+    {
+    public:
+        /** \param seed of all that is random in this worker \param queries counts those of all workers; must outlive
+            them */
+        SoakWorker(const SoakSettings &settings, std::uint64_t seed, std::atomic<std::uint64_t> &queries)
+          : settings_(settings),
+            seed_(seed),
+            all_(queries),
+            random_(seed),
+            registry_(PlannerRegistry::builtIn())
+        {
+        }
+
+        /** What has been done so far. */
+        SoakFigures figures() const
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            return figures_;
+        }
+
+        /** Works until \e stop. */
+        void work(const std::atomic<bool> &stop)
+        {
+            const auto isOver = [&]
+            {
+                return stop || (settings_.most > 0 && all_ >= settings_.most);
+            };
+            while (!isOver())
+            {
+                world_ = std::make_unique<World>(randomWorld(random_, settings_.small));
+                checker_ = std::make_unique<FootprintChecker>(world_->obstacles, world_->scenario.vehicle);
+                count(&SoakFigures::worlds);
+                for (std::size_t i = 0; i < settings_.perWorld && !isOver(); ++i)
+                    query();
+            }
+        }
+
+    private:
+        void count(SoakFigures::Count SoakFigures::*figure)
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            ++(figures_.*figure);
+        }
+
+        void disagree(const std::string &what)
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            figures_.disagree("worker " + std::to_string(seed_) + ", query " + std::to_string(figures_.queries) + ", " +
+                              world_->name + ": " + what);
+        }
+
+        Pose anyGoal()
+        {
+            constexpr double ASIDE = 0.3, TURNED = 0.2;  // metres and radians that a car may stand off a place to park
+            if (world_->places.empty() || !random_.chance(0.6))
+                return anywhere();
+            const Pose place = world_->places[random_.index(world_->places.size())];
+            if (random_.chance(0.3))
+                return place;
+            return compose(place, {random_.between(-ASIDE, ASIDE), random_.between(-ASIDE, ASIDE),
+                                   random_.between(-TURNED, TURNED)});
+        }
+
+        Pose anywhere()
+        {
+            // Mostly free ones: to be told that a pose is not costs nothing and shows little.
+            Pose pose;
+            for (int tries = 0; tries < 30; ++tries)
+            {
+                pose = world_->anywhere(random_);
+                if (checker_->isFree(pose) || random_.chance(0.02))
+                    break;
+            }
+            return pose;
+        }
+
+        void query()
+        {
+            Scenario scenario = world_->scenario;
+            scenario.start = anywhere();
+            scenario.goals = {anyGoal()};
+            if (random_.chance(0.1))
+                scenario.goals.push_back(anyGoal());
+            ++all_;
+            const std::uint64_t mostExpansions = !settings_.small      ? MOST_EXPANSIONS
+                                                 : random_.chance(0.1) ? MOST_OF_SOME
+                                                                       : MOST_WHEN_SMALL;
+            const double begin = threadProcessorTime();
+            const search::PlanResult result = planned(scenario, *checker_, mostExpansions);
+            const double time = threadProcessorTime() - begin;
+            const bool solved = result.outcome == search::PlanOutcome::Solved;
+            {
+                const std::lock_guard<std::mutex> lock(mutex_);
+                ++figures_.queries;
+                figures_.planning.add(time);
+                figures_.solved += solved ? 1 : 0;
+            }
+            judge(scenario, *checker_, result);
+            if (solved && random_.chance(0.05))
+                askOracle(scenario, result.path);
+            if (random_.chance(0.01))
+            {
+                count(&SoakFigures::repeated);
+                if (!equal(planned(scenario, *checker_, mostExpansions).path, result.path))
+                    disagree("another path when asked again");
+            }
+            if (settings_.small)
+                return;
+            if (solved && random_.chance(0.1))
+                replan(result.path);
+            if (random_.chance(0.02))
+                askOthers(scenario);
+        }
+
+        void judge(const Scenario &scenario, const FootprintChecker &checker, const search::PlanResult &result)
+        {
+            const Referee referee(scenario);
+            const auto isFree = [&](const Pose &pose)
+            {
+                return referee.space().isFree(pose) && checker.exactClearance(pose) > 1e-5;
+            };
+            const bool solved = result.outcome == search::PlanOutcome::Solved;
+            if (solved || result.outcome == search::PlanOutcome::Approximate)
+            {
+                const Verdict verdict = referee.check(result.path, solved);
+                if (!verdict.valid)
+                    disagree(toString(verdict.fault) + ": " + verdict.reason);
+            }
+            else if (result.outcome == search::PlanOutcome::InvalidStart && isFree(scenario.start))
+                disagree("the start is free");
+            else if (result.outcome == search::PlanOutcome::InvalidGoal &&
+                     std::any_of(scenario.goals.begin(), scenario.goals.end(), isFree))
+                disagree("a goal is free");
+        }
+
+        void askOracle(const Scenario &scenario, const Path &path)
+        {
+            constexpr double STEP = 0.005;    // metres between two looks
+            constexpr double OVERLAP = 1e-7;  // metres that count as touching, which is free
+            count(&SoakFigures::seenByOracle);
+            if (!world_->oracle.isPathFree(path, scenario.vehicle, STEP, -OVERLAP))
+                disagree("the oracle says that it touches something");
+        }
+
+        void replan(const Path &path)
+        {
+            if (world_->scenario.grid)
+                return;
+            // Half way there something stands in the way.
+            const Path rest = path.rest(0.5 * path.length());
+            Scenario changed = world_->scenario;
+            changed.start = {rest.start.x, rest.start.y, wrapAngle(rest.start.yaw)};
+            changed.goals = {rest.end()};
+            const Pose at = path.at(0.75 * path.length());
+            const double length = random_.between(0.2, 1.5), width = random_.between(0.2, 1.5);
+            changed.polygons.push_back(parking_test::rectangle(length, width, {at.x, at.y, random_.between(-PI, PI)}));
+            const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
+            judge(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
+            count(&SoakFigures::replanned);
+        }
+
+        void askOthers(const Scenario &scenario)
+        {
+            // OMPL has one generator for the seeds of all others: one thread at a time.
+            static std::mutex ompl;
+            const std::lock_guard<std::mutex> one(ompl);
+            static const std::array<const char *, 6> NAMES{"improved_astar", "RRTConnect", "reeds_shepp", "PRM",
+                                                           "BKPIECE1",       "SBL"};
+            const char *name = NAMES[turn_++ % NAMES.size()];
+            count(&SoakFigures::byOthers);
+            std::string wrong;
+            try
+            {
+                const Problem problem(scenario, {});
+                const PlanRun run = planOnce(problem, registry_.find(name), {}, TIME_LIMIT, 1 + random_.index(1000));
+                if (run.status == PlanStatus::Exact && !run.isSolved())
+                    wrong = run.path->recheck.reason;
+            }
+            catch (const Error &error)
+            {
+                wrong = error.what();
+            }
+            // What others say of their paths is theirs to answer for; that the referee refuses them is what it is there
+            // for.
+            if (!wrong.empty() && name == NAMES.front())
+                disagree(std::string(name) + ": " + wrong);
+            else if (!wrong.empty())
+                count(&SoakFigures::refusedOfOthers);
+        }
+
+        SoakSettings settings_;
+        std::uint64_t seed_;
+        std::atomic<std::uint64_t> &all_;
+        Random random_;
+        PlannerRegistry registry_;
+        std::size_t turn_{0};  // of the other planners
+        std::unique_ptr<World> world_;
+        std::unique_ptr<FootprintChecker> checker_;
+
+        mutable std::mutex mutex_;
+        SoakFigures figures_;
+    };
+
+    /** MB of memory that this process has in use; 0 where nobody says. */
+    double memoryInUse()
+    {
+        std::ifstream stream("/proc/self/statm");
+        double all = 0.0, resident = 0.0;
+        stream >> all >> resident;
+        return stream ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6 : 0.0;
+    }
+
+    double seconds(Clock::time_point begin)
+    {
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+
+    std::string line(const SoakFigures &figures, double time, double memory)
+    {
+        char text[400];
+        std::snprintf(
+            text, sizeof text,
+            "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, put to the oracle "
+            "%llu, others %llu (%llu refused) | "
+            "%.2f ms median, %.1f ms 99 %%, %.1f ms 99.9 %% | %.0f MB | %llu disagreements",
+            time, figures.queries,
+            100.0 * static_cast<double>(figures.solved) / std::max(1.0, static_cast<double>(figures.queries)),
+            figures.worlds, figures.replanned, figures.repeated, figures.seenByOracle, figures.byOthers,
+            figures.refusedOfOthers, 1e3 * figures.planning.quantile(0.5), 1e3 * figures.planning.quantile(0.99),
+            1e3 * figures.planning.quantile(0.999), memory, figures.disagreed);
+        return text;
+    }
+
+    int run(const std::vector<std::string> &arguments)
+    {
+        po::options_description options("Options");
+        auto add = options.add_options();
+        add("minutes", oneValue("N"), "for so long (default 60)");
+        add("queries", oneValue("N"), "or until so many were asked");
+        add("threads", oneValue("N"), "(default: one per core)");
+        add("seed", oneValue("N"), "of the worlds (default 1)");
+        add("small", "small worlds and nothing but plan(): as many queries as can be");
+        add("growth", oneValue("MB"), "memory that may be taken after the first tenth of the time (default 200)");
+        add("every", oneValue("S"), "seconds between two lines (default 60)");
+        add("help", "this text");
+        const CommandLine given(arguments, options, {});
+        if (given.given("help"))
+        {
+            std::cout
+                << "usage: soak [options]\n\nPlans in random worlds and has every answer judged by the referee.\n\n"
+                << options << "\nStatus: 0 all is well, 1 an answer is wrong or memory has grown, 2 wrong usage\n";
+            return 0;
+        }
+        ompl::msg::noOutputHandler();
+        SoakSettings settings;
+        settings.small = given.given("small");
+        settings.perWorld = settings.small ? 200 : 40;
+        settings.most = given.whole("queries", 1, std::numeric_limits<std::uint32_t>::max()).value_or(0);
+        const double limit = 60.0 * given.positive("minutes").value_or(settings.most > 0 ? 1e9 : 60.0);
+        const double mayGrow = given.positive("growth").value_or(200.0);
+        const double every = given.positive("every").value_or(60.0);
+        const std::size_t threads =
+            given.whole("threads", 1, 1024).value_or(std::max(1U, std::thread::hardware_concurrency()));
+        const std::uint64_t seed = given.whole("seed", 1, 1000000000).value_or(1);
+
+        std::atomic<std::uint64_t> queries{0};
+        std::atomic<bool> stop{false};
+        std::vector<std::unique_ptr<SoakWorker>> workers;
+        for (std::size_t i = 0; i < threads; ++i)
+            workers.push_back(std::make_unique<SoakWorker>(settings, 1000 * seed + i, queries));
+        const Clock::time_point begin = Clock::now();
+        std::vector<std::thread> running;
+        running.reserve(threads);
+        for (const std::unique_ptr<SoakWorker> &worker : workers)
+            running.emplace_back([&worker, &stop] { worker->work(stop); });
+
+        const auto all = [&workers]
+        {
+            SoakFigures sum;
+            for (const std::unique_ptr<SoakWorker> &worker : workers)
+                sum += worker->figures();
+            return sum;
+        };
+        double settled = 0.0, most = 0.0, said = 0.0;
+        for (double now = 0.0; now < limit && (settings.most == 0 || queries < settings.most); now = seconds(begin))
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            const double memory = memoryInUse();
+            most = std::max(most, memory);
+            const bool begins = settings.most > 0 ? queries < settings.most / 10 : now < 0.1 * limit;
+            if (begins)
+                settled = std::max(settled, memory);
+            if (now - said >= every)
+            {
+                said = now;
+                std::cerr << line(all(), now, memory) << std::endl;
+            }
+        }
+        stop = true;
+        for (std::thread &each : running)
+            each.join();
+        const SoakFigures figures = all();
+        std::cout << line(figures, seconds(begin), memoryInUse()) << "\n";
+        std::printf("memory: %.0f MB at most in the first tenth, %.0f MB at most in all; %zu threads\n", settled, most,
+                    threads);
+        for (const std::string &each : figures.disagreements)
+            std::cout << each << "\n";
+        const bool grown = most > settled + mayGrow;
+        if (grown)
+            std::cout << "memory has grown by more than " << mayGrow << " MB\n";
+        return figures.disagreed > 0 || grown ? 1 : 0;
+    }
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    return parking::runProgram("soak", argc, argv, run);
+}

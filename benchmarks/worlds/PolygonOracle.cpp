@@ -1,0 +1,297 @@
+#include "benchmarks/worlds/PolygonOracle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace parking_test
+{
+    using namespace parking;
+
+    namespace
+    {
+        using Real = long double;  // at least as precise as double
+
+        struct Point
+        {
+            Real x, y;
+        };
+
+        Real square(Real x, Real y)
+        {
+            return x * x + y * y;
+        }
+
+        /** Farthest point of the enlarged body from the middle of the rear axle, metres. */
+        double reachOf(const Vehicle &vehicle, double margin)
+        {
+            return 1e-9 + std::hypot(std::max(vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang) + margin,
+                                     0.5 * vehicle.width + margin);
+        }
+
+        /** No point of the box is nearer to the rear axle than this. */
+        double distance(const Pose &pose, const Box &box)
+        {
+            const Eigen::Vector2d at(pose.x, pose.y);
+            return (box.min - at).cwiseMax(at - box.max).cwiseMax(0.0).norm();
+        }
+    }  // namespace
+
+    /** The body at a pose; points given in the world are brought into its frame. */
+    struct PolygonOracle::Body
+    {
+        Body(const Pose &pose, const Vehicle &vehicle, double margin)
+          : x(pose.x),
+            y(pose.y),
+            cosine(std::cos(pose.yaw)),
+            sine(std::sin(pose.yaw)),
+            rear(-static_cast<Real>(vehicle.rearOverhang) - margin),
+            front(static_cast<Real>(vehicle.wheelbase) + vehicle.frontOverhang + margin),
+            side(0.5L * vehicle.width + margin)
+        {
+        }
+
+        Point toCar(const Point &point) const
+        {
+            const Real dx = point.x - x, dy = point.y - y;
+            return {cosine * dx + sine * dy, cosine * dy - sine * dx};
+        }
+
+        Point toCar(const Eigen::Vector2d &point) const
+        {
+            return toCar(Point{point.x(), point.y()});
+        }
+
+        /** Corners relative to the rear axle, along the axes of the world. */
+        std::array<Point, 4> corners() const
+        {
+            const auto at = [this](Real along, Real across)
+            {
+                return Point{cosine * along - sine * across, sine * along + cosine * across};
+            };
+            return {at(rear, -side), at(front, -side), at(front, side), at(rear, side)};
+        }
+
+        /** Metres between the outermost corners and the sides of a box; not positive when one is not within. */
+        Real distanceWithin(const Box &box) const
+        {
+            Real least = std::numeric_limits<Real>::infinity();
+            for (const Point &corner : corners())
+                least = std::min({least, x - box.min.x() + corner.x, box.max.x() - x - corner.x,
+                                  y - box.min.y() + corner.y, box.max.y() - y - corner.y});
+            return least;
+        }
+
+        /** Does the segment have a point in the closed body? The part of it between opposite sides, axis by axis. */
+        bool touches(const Point &a, const Point &b) const
+        {
+            Real begin = 0.0L, end = 1.0L;
+            return within(a.x, b.x, rear, front, begin, end) && within(a.y, b.y, -side, side, begin, end);
+        }
+
+        static bool within(Real a, Real b, Real low, Real high, Real &begin, Real &end)
+        {
+            if (std::max(a, b) < low || std::min(a, b) > high)
+                return false;
+            if (a == b)
+                return true;
+            const Real atLow = (low - a) / (b - a), atHigh = (high - a) / (b - a);
+            begin = std::max(begin, std::min(atLow, atHigh));
+            end = std::min(end, std::max(atLow, atHigh));
+            return begin <= end;
+        }
+
+        /** When no side of the polygon has a point in the body, it lies outside or round all of the body. */
+        template <class Corners>
+        bool touches(const Corners &polygon) const
+        {
+            bool inside = false;
+            Point a = toCar(polygon.back());
+            for (const auto &corner : polygon)
+            {
+                const Point b = toCar(corner);
+                if (touches(a, b))
+                    return true;
+                // A ray from the rear axle to the right: is it crossed? Never touched, or the body would be.
+                if ((a.y > 0.0L) != (b.y > 0.0L) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0.0L)
+                    inside = !inside;
+                a = b;
+            }
+            return inside;
+        }
+
+        /** From a segment that does not touch the body. */
+        Real distance(const Point &a, const Point &b) const
+        {
+            const auto toBody = [this](const Point &p)
+            {
+                return square(std::max({rear - p.x, 0.0L, p.x - front}), std::max({-side - p.y, 0.0L, p.y - side}));
+            };
+            const auto toSegment = [&](Real px, Real py)
+            {
+                const Real dx = b.x - a.x, dy = b.y - a.y, length = square(dx, dy);
+                const Real t =
+                    length > 0.0L ? std::clamp(((px - a.x) * dx + (py - a.y) * dy) / length, 0.0L, 1.0L) : 0.0L;
+                return square(px - a.x - t * dx, py - a.y - t * dy);
+            };
+            return std::sqrt(std::min({toBody(a), toBody(b), toSegment(rear, -side), toSegment(rear, side),
+                                       toSegment(front, -side), toSegment(front, side)}));
+        }
+
+        Real x, y, cosine, sine;
+        Real rear, front, side;
+    };
+
+    PolygonOracle::PolygonOracle(std::vector<Polygon> obstacles, const Box &bounds)
+      : obstacles_(std::move(obstacles)),
+        bounds_(bounds)
+    {
+        for (const Polygon &polygon : obstacles_)
+        {
+            Box box{polygon.front(), polygon.front()};
+            for (const Eigen::Vector2d &corner : polygon)
+                box = {box.min.cwiseMin(corner), box.max.cwiseMax(corner)};
+            boxes_.push_back(box);
+        }
+    }
+
+    PolygonOracle::PolygonOracle(const OccupancyGrid &grid, bool unknownIsOccupied)
+      : grid_(grid),
+        unknownIsOccupied_(unknownIsOccupied)
+    {
+    }
+
+    PolygonOracle::PolygonOracle(const Scenario &scenario)
+      : PolygonOracle(scenario.grid ? PolygonOracle(*scenario.grid, scenario.unknownIsOccupied)
+                                    : PolygonOracle(scenario.polygons, scenario.bounds))
+    {
+    }
+
+    bool PolygonOracle::isFree(const Pose &pose, const Vehicle &vehicle, double margin) const
+    {
+        if (grid_)
+            return isFreeOfCells(Body(pose, vehicle, margin));
+        const double reach = reachOf(vehicle, margin);
+        std::optional<Body> body;  // made where something is near, which is seldom
+        const auto madeBody = [&]() -> const Body &
+        {
+            return body ? *body : body.emplace(pose, vehicle, margin);
+        };
+        const bool isWithin = pose.x - bounds_.min.x() > reach && bounds_.max.x() - pose.x > reach &&
+                              pose.y - bounds_.min.y() > reach && bounds_.max.y() - pose.y > reach;
+        if (!isWithin && !(madeBody().distanceWithin(bounds_) > 0.0L))
+            return false;
+        for (std::size_t k = 0; k < obstacles_.size(); ++k)
+            if (distance(pose, boxes_[k]) <= reach && madeBody().touches(obstacles_[k]))
+                return false;
+        return true;
+    }
+
+    double PolygonOracle::clearance(const Pose &pose, const Vehicle &vehicle, double margin) const
+    {
+        if (!isFree(pose, vehicle, margin))
+            return 0.0;
+        const Body body(pose, vehicle, margin);
+        const double reach = reachOf(vehicle, margin);
+        Real least = body.distanceWithin(bounds_);
+        for (std::size_t k = 0; k < obstacles_.size(); ++k)
+        {
+            if (distance(pose, boxes_[k]) - reach > least)
+                continue;
+            Point a = body.toCar(obstacles_[k].back());
+            for (const Eigen::Vector2d &corner : obstacles_[k])
+            {
+                const Point b = body.toCar(corner);
+                least = std::min(least, body.distance(a, b));
+                a = b;
+            }
+        }
+        return static_cast<double>(least);
+    }
+
+    bool PolygonOracle::isArcFree(const Pose &from, double curvature, double length, const Vehicle &vehicle,
+                                  double step, double margin) const
+    {
+        return isPathFree({from, {{curvature, length}}}, vehicle, step, margin);
+    }
+
+    bool PolygonOracle::isPathFree(const Path &path, const Vehicle &vehicle, double step, double margin) const
+    {
+        Pose pose = path.start;
+        if (!isFree(pose, vehicle, margin))
+            return false;
+        for (const PathPiece &piece : path.pieces)
+        {
+            const Pose end = advance(pose, piece);
+            if (!isFree(end, vehicle, margin) || !isPieceFree(pose, piece, vehicle, step, margin))
+                return false;
+            pose = end;
+        }
+        return true;
+    }
+
+    bool PolygonOracle::isPieceFree(const Pose &from, const PathPiece &piece, const Vehicle &vehicle, double step,
+                                    double margin) const
+    {
+        const double driven = 0.5 * piece.driven(), turn = 0.5 * piece.turn;
+        const double reach = reachOf(vehicle, std::max(margin, 0.0));
+        const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+        PathPiece first(piece.curvature, 0.5 * piece.length, piece.sharpness);
+        first.turn = turn;
+        const Pose middle = advance(from, first);
+        if (isFree(middle, vehicle, margin + driven + (steepest * driven + std::abs(turn)) * reach))
+            return true;
+        if (!isFree(middle, vehicle, margin))
+            return false;
+        if (driven + std::abs(turn) * reach <= 0.5 * step)
+            return true;
+        PathPiece second(piece.curvatureAt(driven), 0.5 * piece.length, piece.sharpness);
+        second.turn = turn;
+        return isPieceFree(from, first, vehicle, step, margin) && isPieceFree(middle, second, vehicle, step, margin);
+    }
+
+    bool PolygonOracle::isFreeOfCells(const Body &world) const
+    {
+        // The body in the frame of the map, counted in metres from its corner.
+        const Pose &origin = grid_->origin();
+        const Real c = std::cos(origin.yaw), s = std::sin(origin.yaw);
+        const Real dx = world.x - origin.x, dy = world.y - origin.y;
+        Body body = world;
+        body.x = c * dx + s * dy;
+        body.y = c * dy - s * dx;
+        body.cosine = world.cosine * c + world.sine * s;
+        body.sine = world.sine * c - world.cosine * s;
+
+        const Real size = grid_->resolution();
+        // One cell more on each side: a body that ends at a cell's border touches the cell beyond.
+        const auto index = [size](Real value, std::size_t count)
+        {
+            const long cell = static_cast<long>(std::floor(value / size));
+            return static_cast<std::size_t>(std::clamp(cell, 0L, static_cast<long>(count) - 1));
+        };
+        Point low{body.x, body.y}, high = low;
+        for (const Point &corner : body.corners())
+        {
+            low = {std::min(low.x, body.x + corner.x), std::min(low.y, body.y + corner.y)};
+            high = {std::max(high.x, body.x + corner.x), std::max(high.y, body.y + corner.y)};
+        }
+        if (!(low.x > 0.0L && low.y > 0.0L && high.x < size * static_cast<Real>(grid_->width()) &&
+              high.y < size * static_cast<Real>(grid_->height())))
+            return false;
+        for (std::size_t row = index(low.y - size, grid_->height()); row <= index(high.y + size, grid_->height());
+             ++row)
+            for (std::size_t column = index(low.x - size, grid_->width());
+                 column <= index(high.x + size, grid_->width()); ++column)
+            {
+                const Cell cell = grid_->at(column, row);
+                if (cell == Cell::Free || (cell == Cell::Unknown && !unknownIsOccupied_))
+                    continue;
+                const Real x = size * static_cast<Real>(column), y = size * static_cast<Real>(row);
+                if (body.touches(std::array<Point, 4>{{{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}}}))
+                    return false;
+            }
+        return true;
+    }
+}  // namespace parking_test
