@@ -3,7 +3,6 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/trajectory/JerkLimit.h"
 #include "path_tracking/trajectory/MotionCheck.h"
 #include "path_tracking/trajectory/MotionSolver.h"
 #include "path_tracking/trajectory/PathLikeness.h"
@@ -13,7 +12,6 @@
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -33,9 +31,7 @@ namespace parking
         constexpr std::size_t MOST_DROPS = 4;    // such attempts
         constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
-        constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
         constexpr double MOST_INTERVALS = 1e4;            // of a motion that is searched for: 8 kB and 0.2 ms each
-        constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
         /** Of rounds that begin with a guess. */
         constexpr MotionBarriers FROM_GUESS{5e-3, 2e-5};
     }  // namespace
@@ -369,7 +365,6 @@ namespace parking
                 "driving takes more than " + formatNumber(MOST_INTERVALS) + " steps, too long to look for better";
         else
             improve(paths, searched, interrupted, result);
-        limitJerk(result);
         return result;
     }
 
@@ -392,24 +387,5 @@ namespace parking
             result.path = found->path;
             result.fallback = false;
         }
-    }
-
-    void TrajectoryOptimizer::limitJerk(OptimizedTrajectory &result) const
-    {
-        if (options_.maxJerk == 0.0)
-            return;
-        const Pose end = endOf(result.motion, checker_.vehicle());
-        // Knots in time leave the way by some hundredths of a millimetre; what touches an obstacle then needs more of
-        // them.
-        for (const double step : JERK_STEPS)
-        {
-            TimedMotion limited = withJerkLimit(result.motion, body_, options_.maxJerk, step);
-            if (!isSamePose(endOf(limited, checker_.vehicle()), end, SAME_END) ||
-                !collisionsOf(limited, checker_, 1).empty())
-                continue;
-            result.motion = std::move(limited);
-            return;
-        }
-        throw Error("trajectory: the jerk limit of " + formatNumber(options_.maxJerk) + " m/s^3 cannot be held");
     }
 }  // namespace parking

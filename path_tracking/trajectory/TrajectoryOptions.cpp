@@ -22,8 +22,6 @@ namespace parking
         share("share of the steering angle", steeringShare);
         share("share of the steering rate", steeringRateShare);
         require.that(step >= 0.02 && step <= 2.0, "step", step, "from 0.02 to 2 seconds");
-        require.that(maxJerk == 0.0 || (maxJerk >= LEAST_JERK && maxJerk <= MOST_JERK), "jerk limit", maxJerk,
-                     "0 for none, or from 0.01 to 10000 m/s^3");
         if (initialSteering)
             require.finite("initial steering angle", *initialSteering, "radians");
         if (finalSteering)
