@@ -5,7 +5,6 @@
 #include "automatic_parking/QuickestTrajectory.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
-#include "path_tracking/simulation/Evaluation.h"
 #include "path_tracking/trajectory/Trajectory.h"
 
 #include <cstddef>

@@ -4,7 +4,6 @@
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
-#include "path_tracking/trajectory/TrajectoryOptimizer.h"
 
 #include <limits>
 #include <sstream>
@@ -33,9 +32,6 @@ namespace parking
                 "(default 1); the first run's path is the result");
             add("seed", oneValue("N"), "of the random numbers (default 1)");
             add("trajectory", "optimise the path in time: the fastest trajectory near it");
-            add("max-jerk", oneValue("J"),
-                "with --trajectory: m/s^3 by which its acceleration may change, from 0.01 to 10000 (default: no "
-                "limit)");
             add("track",
                 "drive it with the model predictive controller: the trajectory, or without --trajectory the path, "
                 "standing "
@@ -95,8 +91,6 @@ namespace parking
         result.runs = line.whole("runs", 1, MAX_RUNS).value_or(result.runs);
         result.seed = line.whole("seed", 1, std::numeric_limits<std::uint32_t>::max() - MAX_RUNS).value_or(result.seed);
         result.trajectory = line.given("trajectory");
-        result.maxJerk = line.between("max-jerk", TrajectoryOptions::LEAST_JERK, TrajectoryOptions::MOST_JERK, "m/s^3")
-                             .value_or(0.0);
         result.track = line.given("track");
         result.json = line.outputFile("json").value_or("");
         result.svg = line.outputFile("svg").value_or("");
@@ -104,8 +98,6 @@ namespace parking
         result.csv = line.outputFile("csv").value_or("");
         if (line.given("csv") && !result.trajectory)
             throw Error("--csv writes the trajectory and needs --trajectory");
-        if (line.given("max-jerk") && !result.trajectory)
-            throw Error("--max-jerk is a limit of the trajectory and needs --trajectory");
         if (line.given("html") && !result.track)
             throw Error("--html shows the drive and needs --track");
         return result;

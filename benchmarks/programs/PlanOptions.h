@@ -25,7 +25,6 @@ namespace parking
         std::size_t runs{1};                     ///< how often to plan; the first run's path is the result
         std::uint_fast32_t seed{1};        ///< of the first run's random numbers; every further run has the next one
         bool trajectory{false};            ///< optimise the path in time
-        double maxJerk{0.0};               ///< m/s^3, with trajectory only; 0 for no limit
         bool track{false};                 ///< drive the trajectory, or without one the path
         std::string json;                  ///< file, "-" for standard output, empty for none
         std::string svg;                   ///< file, empty for none

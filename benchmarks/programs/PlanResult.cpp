@@ -357,7 +357,7 @@ namespace parking
         return figure.toString();
     }
 
-    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven, double maxJerk)
+    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven)
     {
         constexpr double ERROR_OF_TRACKING = 0.02;  // metres, without disturbances
         const PlanRun &run = result.first();
@@ -369,7 +369,6 @@ namespace parking
             QuickestTrajectoryOptions options;
             options.alternatives = run.status == PlanStatus::Exact && problem.isDrivable();
             options.forwardOnly = problem.settings().space == SpaceKind::Dubins;
-            options.trajectory.maxJerk = maxJerk;
             if (isDriven)
             {
                 options.trajectory.margin =

@@ -61,9 +61,8 @@ namespace parking
     /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result.
 
         \param isDriven a controller will drive it: then it keeps what nominal errors of tracking come to (2 cm), where
-        the path keeps twice that, and else half of what the path keeps
-        \param maxJerk m/s^3, see TrajectoryOptions; 0 for no limit */
-    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven, double maxJerk);
+        the path keeps twice that, and else half of what the path keeps */
+    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven);
 
     /** \brief The optimised trajectory in samples, in the coordinates of the scenario's file; empty if there is none.
      */

@@ -62,7 +62,7 @@ namespace
         if (options.trajectory)
         {
             const LongStep step("optimising the trajectory");
-            addTrajectory(problem, result, options.track, options.maxJerk);
+            addTrajectory(problem, result, options.track);
         }
         if (options.track)
         {

@@ -76,7 +76,8 @@ namespace parking
         const Command &done = delay_.arrived(), &last = delay_.arrived(1);
         watchWheels(measurement);
         if (stuck_ == 0)
-            steeringLag_.learn(period_, last.steering, done.steering, before.steering, measurement.steering);
+            steeringLag_.learn(period_, done.steering - last.steering, last.steering - before.steering,
+                               done.steering - measurement.steering, LagEstimator::LEAST_ANGLE);
         learnBrake(measurement);
         if (done.hold)
             driveLag_.hold();

@@ -2,10 +2,10 @@
 
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
+#include "path_tracking/control/ActuatorLag.h"
 #include "path_tracking/control/CommandDelay.h"
+#include "path_tracking/control/PoseEstimator.h"
 #include "path_tracking/control/TrackingTypes.h"
-#include "path_tracking/simulation/ActuatorLag.h"
-#include "path_tracking/simulation/PoseEstimator.h"
 
 #include <functional>
 
@@ -127,7 +127,7 @@ namespace parking
         ResponseParameters known_;  // beforehand
         double period_;
         PoseEstimator estimator_;
-        SteeringLagEstimator steeringLag_;
+        LagEstimator steeringLag_;
         DriveLagEstimator driveLag_;
         CommandDelay delay_;
         double brakeScale_{1.0};

@@ -13,7 +13,6 @@ namespace parking
         constexpr double WRONG = 9.0;          // squared, what counts at most: lags are not known at first
         constexpr double RIGHT = 1.0;          // likewise, of a number of periods that may replace another
         constexpr double BETTER = 0.25;        // share of the error of another number of periods
-        constexpr double LEAST_ANGLE = 0.005;  // radians that say something about a lag
 
         double squared(double value)
         {
@@ -59,7 +58,7 @@ namespace parking
             if (!now.hold || before.speed == 0.0)
                 error += squared((gained - asked - late * (guess.drive.acceleration() - asked)) / ACCELERATION);
             guess.wheels.learn(period_, now.steering - last.steering, last.steering - before.steering,
-                               now.steering - after.steering, LEAST_ANGLE);
+                               now.steering - after.steering, LagEstimator::LEAST_ANGLE);
             if (now.hold)
                 guess.drive.hold();
             else

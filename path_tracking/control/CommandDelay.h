@@ -1,7 +1,7 @@
 #pragma once
 
+#include "path_tracking/control/ActuatorLag.h"
 #include "path_tracking/control/TrackingTypes.h"
-#include "path_tracking/simulation/ActuatorLag.h"
 
 #include <array>
 #include <cstddef>

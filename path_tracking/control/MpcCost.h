@@ -1,8 +1,8 @@
 #pragma once
 
 #include "parking_geometry/Vehicle.h"
+#include "path_tracking/control/ActuatorLag.h"
 #include "path_tracking/control/Mpc.h"
-#include "path_tracking/simulation/ActuatorLag.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "path_tracking/control/CarResponse.h"
 #include "path_tracking/control/Mpc.h"
 #include "path_tracking/reference/ReferencePath.h"
-#include "path_tracking/reference/SpeedProfile.h"
+#include "path_tracking/trajectory/SpeedProfile.h"
 
 namespace parking
 {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -222,77 +221,14 @@ namespace parking
         close(current.endNode, LegEnd::Cusp);
     }
 
-    std::size_t ReferencePath::nodeBehind(std::size_t leg, double s) const
+    Pose ReferencePath::pose(std::size_t leg, double s) const
     {
         const auto begin = nodes_.begin() + static_cast<std::ptrdiff_t>(legNodes_[leg].first) + 1;
         const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(legNodes_[leg].last);
-        const auto node =
-            std::lower_bound(begin, end, s, [](const Node &each, double value) { return each.s < value; });
-        return static_cast<std::size_t>(node - nodes_.begin());
-    }
-
-    Pose ReferencePath::pose(std::size_t leg, double s) const
-    {
-        const std::size_t i = nodeBehind(leg, s);
-        const Node &from = nodes_[i - 1];
-        const PathPiece &piece = nodes_[i].piece;
-        Pose pose = advance(from.pose, piece, std::clamp(s - from.s, 0.0, piece.driven()));
+        const auto to = std::lower_bound(begin, end, s, [](const Node &each, double value) { return each.s < value; });
+        const Node &from = *(to - 1);
+        Pose pose = advance(from.pose, to->piece, std::clamp(s - from.s, 0.0, to->piece.driven()));
         pose.yaw = wrapAngle(pose.yaw);
         return pose;
-    }
-
-    double ReferencePath::steering(std::size_t leg, double s) const
-    {
-        const std::vector<SteeringKnot> &knots = legs_[leg].steering;
-        const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, s,
-                                           [](double value, const SteeringKnot &knot) { return value < knot.s; });
-        const SteeringKnot &a = *(next - 1), &b = *next;
-        const double part = std::clamp((s - a.s) / (b.s - a.s), 0.0, 1.0);
-        return a.angle + part * (b.angle - a.angle);
-    }
-
-    double ReferencePath::steeringSlope(std::size_t leg, double s) const
-    {
-        const std::vector<SteeringKnot> &knots = legs_[leg].steering;
-        const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, s,
-                                           [](double value, const SteeringKnot &knot) { return value < knot.s; });
-        const SteeringKnot &a = *(next - 1), &b = *next;
-        return (b.angle - a.angle) / (b.s - a.s);
-    }
-
-    PathProjection ReferencePath::project(std::size_t leg, const Pose &pose, double from, double to) const
-    {
-        const ReferenceLeg &l = legs_[leg];
-        from = std::clamp(from, l.beginLength, l.endLength);
-        to = std::clamp(to, from, l.endLength);
-        double best = std::numeric_limits<double>::infinity();
-        double s = from;
-        for (std::size_t i = nodeBehind(leg, from); i <= legNodes_[leg].last; ++i)
-        {
-            const Node &a = nodes_[i - 1], &b = nodes_[i];
-            const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y, length = b.s - a.s;
-            const double squared = dx * dx + dy * dy;
-            const double lowest = std::max(0.0, (from - a.s) / length);
-            const double highest = std::min(1.0, (to - a.s) / length);
-            const double part = squared > 0.0
-                                    ? std::clamp(((pose.x - a.pose.x) * dx + (pose.y - a.pose.y) * dy) / squared,
-                                                 lowest, std::max(lowest, highest))
-                                    : lowest;
-            const double ex = pose.x - (a.pose.x + part * dx), ey = pose.y - (a.pose.y + part * dy);
-            const double apart = ex * ex + ey * ey;
-            if (apart < best)
-            {
-                best = apart;
-                s = a.s + part * length;
-            }
-            if (b.s >= to)
-                break;
-        }
-        // From the chord to the arc: one step along it.
-        Pose place = this->pose(leg, s);
-        s = std::clamp(s + l.direction * relativeTo(place, pose).x, from, to);
-        place = this->pose(leg, s);
-        const Pose offset = relativeTo(place, pose);
-        return {s, offset.y, offset.yaw, l.direction * offset.x, std::hypot(offset.x, offset.y)};
     }
 }  // namespace parking

@@ -3,6 +3,7 @@
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
 #include "path_tracking/reference/MakeDrivable.h"
+#include "path_tracking/trajectory/SpeedProfile.h"
 
 #include <cstddef>
 #include <vector>
@@ -40,13 +41,6 @@ namespace parking
         Goal       ///< the path ends
     };
 
-    /** \brief The steering angle at a place of a leg; linear in the driven length between two of them. */
-    struct SteeringKnot
-    {
-        double s;      ///< metres since the begin of the path
-        double angle;  ///< radians
-    };
-
     /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
     struct ReferenceLeg
     {
@@ -61,16 +55,6 @@ namespace parking
         {
             return endLength - beginLength;
         }
-    };
-
-    /** \brief Where a pose is beside a leg. */
-    struct PathProjection
-    {
-        double s{0.0};         ///< metres since the begin of the path, of the nearest place
-        double lateral{0.0};   ///< metres that the pose is to the left of that place, seen along the car
-        double yaw{0.0};       ///< heading there minus the path's, radians
-        double beyond{0.0};    ///< metres that the pose is past that place along the leg; not 0 only at its ends
-        double distance{0.0};  ///< metres between pose and place; more than |lateral| beyond an end of the leg
     };
 
     /** \brief A path made ready for being driven: legs between standstills, each with its steering angle.
@@ -120,15 +104,10 @@ namespace parking
         Pose pose(std::size_t leg, double s) const;
 
         /** \brief The steering angle at \e s on leg \e leg. */
-        double steering(std::size_t leg, double s) const;
-
-        /** \brief Change of the steering angle per metre at \e s on leg \e leg (right of a knot). */
-        double steeringSlope(std::size_t leg, double s) const;
-
-        /** \brief The place of leg \e leg nearest to \e pose.
-
-            \param from,to metres since the begin: only places between are looked at */
-        PathProjection project(std::size_t leg, const Pose &pose, double from, double to) const;
+        double steering(std::size_t leg, double s) const
+        {
+            return steeringAt(legs_[leg].steering, s);
+        }
 
         /** \brief The last pose of the reference. It is the path's, up to what rounding corners left. */
         Pose end() const
@@ -160,7 +139,6 @@ namespace parking
 
         struct Run;
 
-        std::size_t nodeBehind(std::size_t leg, double s) const;
         std::vector<Run> addNodes(const Pose &begin, const Stretch &stretch);
         void addLegs(const std::vector<Run> &runs, std::size_t firstNode, int direction,
                      const ReferenceParameters &parameters);

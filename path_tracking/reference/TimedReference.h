@@ -1,7 +1,10 @@
 #pragma once
 
 #include "parking_geometry/Pose.h"
+#include "parking_geometry/Vehicle.h"
 #include "path_tracking/reference/ReferencePath.h"
+#include "path_tracking/trajectory/SpeedProfile.h"
+#include "path_tracking/trajectory/TimedMotion.h"
 
 #include <cstddef>
 #include <vector>
@@ -28,11 +31,36 @@ namespace parking
         Pose pose;             ///< yaw wrapped
     };
 
-    /** \brief What a TrackingController follows: legs between standstills, in time. */
+    /** \brief Where a pose is beside a leg. */
+    struct PathProjection
+    {
+        double s{0.0};         ///< metres since the begin of the path, of the nearest place
+        double lateral{0.0};   ///< metres that the pose is to the left of that place, seen along the car
+        double yaw{0.0};       ///< heading there minus the path's, radians
+        double beyond{0.0};    ///< metres that the pose is past that place along the leg; not 0 only at its ends
+        double distance{0.0};  ///< metres between pose and place; more than |lateral| beyond an end of the leg
+    };
+
+    /** \brief What a TrackingController follows: legs between standstills, in time.
+
+        Made from a path, which is then driven as fast as limits allow, or from a motion, which is in time already. Held
+       as moments no more than 5 cm apart, between which the car drives an arc. */
     class TimedReference
     {
     public:
-        virtual ~TimedReference() = default;
+        /** \brief Drives \e path: each leg with fastestDrive(), and before it the car stands as long as the steering
+           rate needs to turn the wheels to where the leg begins.
+
+            \param initialSteering radians, of the wheels at the start
+            Throws parking::Error for limits that are no positive finite numbers or an angle beyond the car's. */
+        TimedReference(const ReferencePath &path, const SpeedLimits &limits, double initialSteering = 0.0);
+
+        /** \brief Drives \e motion, whose legs lie between its instants at rest.
+
+            Throws parking::Error for a motion that is not finite, never drives, does not begin or end at rest,
+            changes its direction without coming to rest, runs backwards in time, takes more than LONGEST_MOTION,
+            or is more than the car can do. */
+        TimedReference(const TimedMotion &motion, const Vehicle &vehicle);
 
         /** \brief In the order of driving, at least one. */
         const std::vector<TimedLeg> &legs() const
@@ -41,21 +69,24 @@ namespace parking
         }
 
         /** \brief The state \e time seconds after the begin of the motion on leg \e leg, cut to the leg. */
-        virtual TimedState at(std::size_t leg, double time) const = 0;
+        TimedState at(std::size_t leg, double time) const;
 
         /** \brief The steering angle at \e s metres on leg \e leg. */
-        virtual double steering(std::size_t leg, double s) const = 0;
+        double steering(std::size_t leg, double s) const;
 
         /** \brief The place of leg \e leg nearest to \e pose.
 
             \param from,to metres driven since the start: only places between are looked at */
-        virtual PathProjection project(std::size_t leg, const Pose &pose, double from, double to) const = 0;
+        PathProjection project(std::size_t leg, const Pose &pose, double from, double to) const;
 
         /** \brief Where it ends, yaw wrapped. */
-        virtual Pose end() const = 0;
+        Pose end() const;
 
         /** \brief rad/s with which the wheels turn at standstill. */
-        virtual double steeringRate() const = 0;
+        double steeringRate() const
+        {
+            return steeringRate_;
+        }
 
         /** \brief Seconds of standstill at the end, during which the wheels turn to finalSteering(). */
         double finalStandstill() const
@@ -70,9 +101,9 @@ namespace parking
         }
 
         /** \brief Metres between what was asked for and what is driven, where the path had sharp corners. */
-        virtual double cornerDeviation() const
+        double cornerDeviation() const
         {
-            return 0.0;
+            return cornerDeviation_;
         }
 
         /** \brief Metres driven. */
@@ -82,17 +113,25 @@ namespace parking
         }
 
         /** \brief Seconds from the start to the end, standstills included. */
-        double duration() const
-        {
-            double sum = finalStandstill_;
-            for (const TimedLeg &leg : legs_)
-                sum += leg.standstill + leg.duration;
-            return sum;
-        }
+        double duration() const;
 
-    protected:
-        std::vector<TimedLeg> legs_;   ///< see legs(); to be filled by the constructor of a derived class
-        double finalStandstill_{0.0};  ///< seconds, see finalStandstill()
-        double finalSteering_{0.0};    ///< radians, see finalSteering()
+    private:
+        /** A moment of a leg. The speed is linear in time from one to the next. */
+        struct Moment
+        {
+            double t;  // seconds since the leg's begin
+            double s;  // metres driven since the start
+            double speed, steering;
+            Pose pose;
+        };
+
+        Pose poseBetween(const Moment &a, const Moment &b, double s) const;
+        const Moment &behind(std::size_t leg, double s) const;
+
+        std::vector<TimedLeg> legs_;
+        std::vector<std::vector<Moment>> moments_;  // per leg, two at least
+        double steeringRate_;
+        double finalStandstill_{0.0}, finalSteering_{0.0};
+        double cornerDeviation_{0.0};
     };
 }  // namespace parking

@@ -3,7 +3,7 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/reference/MotionReference.h"
+#include "path_tracking/reference/TimedReference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,19 @@ namespace parking
 {
     namespace
     {
+        TimeStatistics timeStatistics(std::vector<double> values)
+        {
+            if (values.empty())
+                return {};
+            std::sort(values.begin(), values.end());
+            const auto rank = [&values](double share)
+            {
+                const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+                return values[std::max<std::size_t>(n, 1) - 1];
+            };
+            return {rank(0.5), rank(0.99), values.back()};
+        }
+
         /** Gathers the figures of a drive while it goes on. */
         class Recorder
         {
@@ -188,7 +201,7 @@ namespace parking
 
     DriveResult ClosedLoop::follow(const TimedMotion &motion, const std::optional<Pose> &start) const
     {
-        auto reference = std::make_shared<MotionReference>(motion, vehicle_);
+        auto reference = std::make_shared<TimedReference>(motion, vehicle_);
         const Pose goal = reference->end();
         const double steering = motion.knots.front().steering;
         TrackingController controller(std::move(reference), vehicle_, parameters_.tracking, steering, solve_);

@@ -4,7 +4,6 @@
 #include "path_tracking/trajectory/program/InteriorPoint.h"
 #include "path_tracking/trajectory/program/MotionOutline.h"
 #include "path_tracking/trajectory/program/MotionProgram.h"
-#include "path_tracking/trajectory/program/SolvedMotion.h"
 
 #include <algorithm>
 #include <utility>
@@ -49,41 +48,32 @@ namespace parking
         reason_ = "interrupted";
     }
 
-    std::optional<MotionSolution> MotionSolver::takeWrong()
-    {
-        return std::exchange(wrong_, std::nullopt);
-    }
-
-    std::optional<MotionSolution> MotionSolver::solveAgain(const MotionSolution &solution)
+    MotionOutcome MotionSolver::solveAgain(const MotionSolution &solution)
     {
         return solveFrom(solution, AGAIN);
     }
 
-    std::optional<MotionSolution> MotionSolver::refine(MotionSolution solution)
+    MotionOutcome MotionSolver::refine(MotionSolution solution)
     {
         endPhasesAtChanges(solution.problem);
         return solveFrom(solution, REFINING);
     }
 
-    std::optional<MotionSolution> MotionSolver::solveFrom(const MotionSolution &solution,
-                                                          const MotionBarriers &barriers)
+    MotionOutcome MotionSolver::solveFrom(const MotionSolution &solution, const MotionBarriers &barriers)
     {
         const MotionProblem &guess = solution.problem;
-        auto found = solve(
+        MotionOutcome found = solve(
             guess, barriers,
             [&guess](std::size_t interval, double fraction) { return guess.poseAt(interval, fraction); },
             solution.view);
-        if (found)
-            found->path = solution.path;
+        if (found.solution)
+            found.solution->path = solution.path;
         return found;
     }
 
-    std::optional<MotionSolution> MotionSolver::solve(MotionProblem problem, const MotionBarriers &barriers,
-                                                      const Guess &guess, const MotionView &view,
-                                                      std::size_t mostIterations)
+    MotionOutcome MotionSolver::solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
+                                      const MotionView &view, std::size_t mostIterations)
     {
-        wasWrong_ = hasLearnt_ = hasStrayed_ = false;
-        wrong_.reset();
         SeparationOptions separation = view.separation;
         separation.known = touched_;
         const SeparationPlan lines(world_.pieces, world_.body, separation,
@@ -92,12 +82,12 @@ namespace parking
         if (!lines.isComplete())
         {
             stop();
-            return std::nullopt;
+            return {};
         }
         lines.write(problem);
         auto cost = minimize(problem, barriers, mostIterations);
         if (!cost)
-            return std::nullopt;
+            return {};
         TimedMotion motion = motionOf(problem, view.start);
         // Along hundreds of metres the small errors of collocation add up.
         for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion, view); ++i)
@@ -105,15 +95,13 @@ namespace parking
             correctIntervals(problem);
             cost = minimize(problem, {AGAIN.first, barriers.last}, mostIterations);
             if (!cost)
-                return std::nullopt;
+                return {};
             motion = motionOf(problem, view.start);
         }
-        const bool isRight = holds(motion, view);
-        MotionSolution solution{std::move(problem), std::move(motion), *cost, view};
-        if (isRight)
-            return solution;
-        wrong_ = std::move(solution);
-        return std::nullopt;
+        MotionOutcome outcome;
+        outcome.solution = MotionSolution{std::move(problem), std::move(motion), *cost, view};
+        check(outcome);
+        return outcome;
     }
 
     /** Solves the program itself, and gives its nodes to \e problem. \return the cost */
@@ -148,16 +136,17 @@ namespace parking
         return isSamePose(endOf(motion, world_.checker.vehicle()), view.goal, GOAL_TOLERANCE);
     }
 
-    /** Does the motion reach the goal and touch nothing? Notes what it touches, and that it is wrong. */
-    bool MotionSolver::holds(const TimedMotion &motion, const MotionView &view)
+    /** Does the motion reach the goal and touch nothing? Notes what it touches. */
+    void MotionSolver::check(MotionOutcome &outcome)
     {
-        wasWrong_ = true;
+        const TimedMotion &motion = outcome.solution->motion;
         reason_ = "the goal was missed";
-        if (!reachesGoal(motion, view))
-            return false;
+        if (!reachesGoal(motion, outcome.solution->view))
+            return;
         reason_ = "the motions found touch obstacles";
         const std::vector<Pose> hits = collisionsOf(motion, world_.checker, ANY_HITS);
-        hasStrayed_ = hits.size() > MOST_HITS;
+        outcome.holds = hits.empty();
+        outcome.hasStrayed = hits.size() > MOST_HITS;
         // All along the motion: what is in the way at its end should not wait for what is at its begin.
         const std::size_t stride = 1 + hits.size() / MOST_HITS;
         for (std::size_t i = 0; i < hits.size(); i += stride)
@@ -165,9 +154,7 @@ namespace parking
                 if (std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
                 {
                     touched_.push_back(piece);
-                    hasLearnt_ = true;
+                    outcome.hasLearnt = true;
                 }
-        wasWrong_ = !hits.empty();
-        return hits.empty();
     }
 }  // namespace parking

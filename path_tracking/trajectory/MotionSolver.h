@@ -55,6 +55,15 @@ namespace parking
         std::size_t path{0};    ///< which of several paths it was made from
     };
 
+    /** \brief What solving a program came to. */
+    struct MotionOutcome
+    {
+        std::optional<MotionSolution> solution;  ///< of the program, if it has one
+        bool holds{false};                       ///< does its motion reach the goal and touch nothing?
+        bool hasLearnt{false};                   ///< did that run into what was not known to be in the way?
+        bool hasStrayed{false};                  ///< was it in obstacles for so long that it is of no use as a guess?
+    };
+
     /** \brief Solves programs, one after another, and looks whether what they give holds: whether the motion,
        integrated, reaches the goal and touches nothing.
 
@@ -76,37 +85,15 @@ namespace parking
         {
         }
 
-        /** \brief Solves a program with lines along \e guess.
-            \return nothing when there is no solution, or one that does not hold: see takeWrong() */
-        std::optional<MotionSolution> solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
-                                            const MotionView &view, std::size_t mostIterations = ANY);
+        /** \brief Solves a program with lines along \e guess. */
+        MotionOutcome solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
+                            const MotionView &view, std::size_t mostIterations = ANY);
 
         /** \brief Solves a solution's program again, with lines along that solution. */
-        std::optional<MotionSolution> solveAgain(const MotionSolution &solution);
+        MotionOutcome solveAgain(const MotionSolution &solution);
 
         /** \brief The same with nodes where accelerations and steering rates change: see endPhasesAtChanges(). */
-        std::optional<MotionSolution> refine(MotionSolution solution);
-
-        /** \brief The solution of the last program, where it had one that does not hold. To be taken once. */
-        std::optional<MotionSolution> takeWrong();
-
-        /** \brief Did the last program have a solution that does not hold? */
-        bool wasWrong() const
-        {
-            return wasWrong_;
-        }
-
-        /** \brief Did that run into what was not known to be in the way? */
-        bool hasLearnt() const
-        {
-            return hasLearnt_;
-        }
-
-        /** \brief Was that in obstacles for so long that it is of no use as a guess? */
-        bool hasStrayed() const
-        {
-            return hasStrayed_;
-        }
+        MotionOutcome refine(MotionSolution solution);
 
         /** \brief From now on there is less work to be done: something that holds is there. */
         void spareWork()
@@ -117,7 +104,7 @@ namespace parking
         /** \brief Was it not interrupted, and is there work left to be done? */
         bool mayGoOn() const;
 
-        /** \brief Why the last program gave nothing. */
+        /** \brief Why the last program gave nothing that holds. */
         const std::string &reason() const
         {
             return reason_;
@@ -136,19 +123,17 @@ namespace parking
         }
 
     private:
-        std::optional<MotionSolution> solveFrom(const MotionSolution &solution, const MotionBarriers &barriers);
+        MotionOutcome solveFrom(const MotionSolution &solution, const MotionBarriers &barriers);
         double left() const;
         void stop();
         std::optional<double> minimize(MotionProblem &problem, const MotionBarriers &barriers,
                                        std::size_t mostIterations);
         bool reachesGoal(const TimedMotion &motion, const MotionView &view) const;
-        bool holds(const TimedMotion &motion, const MotionView &view);
+        void check(MotionOutcome &outcome);
 
         const MotionWorld &world_;
-        std::vector<std::size_t> touched_;     // pieces that motions ran into
-        std::optional<MotionSolution> wrong_;  // the last program's
-        bool wasWrong_{false}, hasLearnt_{false}, hasStrayed_{false};
-        bool isStopped_{false};  // by the caller
+        std::vector<std::size_t> touched_;  // pieces that motions ran into
+        bool isStopped_{false};             // by the caller
         bool spares_{false};
         double work_{0.0}, budget_{0.0};
         std::string reason_;

@@ -3,9 +3,11 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
+#include "path_tracking/trajectory/SpeedProfile.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,6 @@ namespace parking
         constexpr double SAME_CURVATURE = 1e-9;   // 1/m
         constexpr double CURVATURE_SLACK = 1e-3;  // share by which a path may exceed the car's curvature: rounding
         constexpr double SHORTEST_PIECE = 1e-9;   // metres
-        constexpr double NEGLIGIBLE = 1e-9;       // metres, of a change of speed
 
         /** What Vehicle::validate() asks for but the least limits: what is used of a car's may be less. */
         void check(const Vehicle &vehicle)
@@ -51,84 +52,26 @@ namespace parking
             return std::clamp(vehicle.steeringAngle(curvature), -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
         }
 
-        /** A way between two standstills by its knots: place, steering angle there. */
+        /** A way between two standstills. */
         struct Leg
         {
-            struct Knot
-            {
-                double place;  // metres since the begin of the leg
-                double steering;
-            };
-
             int direction{1};
-            std::vector<Knot> knots;
+            std::vector<SteeringKnot> steering;
 
             void add(const PathPiece &piece, const Vehicle &vehicle)
             {
                 direction = piece.direction();
-                if (knots.empty())
-                    knots.push_back({0.0, steeringOf(vehicle, piece.curvature)});
+                if (steering.empty())
+                    steering.push_back({0.0, steeringOf(vehicle, piece.curvature)});
                 const double parts = piece.sharpness == 0.0 ? 1.0 : std::ceil(piece.driven() / CLOTHOID_GRID);
-                const double begin = knots.back().place;
+                const double begin = steering.back().s;
                 for (double k = 1.0; k <= parts; k += 1.0)
                 {
                     const double driven = piece.driven() * (k / parts);
-                    knots.push_back({begin + driven, steeringOf(vehicle, piece.curvatureAt(driven))});
+                    steering.push_back({begin + driven, steeringOf(vehicle, piece.curvatureAt(driven))});
                 }
             }
         };
-
-        /** Drives a leg from rest to rest. */
-        void drive(const Leg &leg, const Vehicle &vehicle, TimedMotion &motion)
-        {
-            const std::size_t n = leg.knots.size();
-            const double doubled = 2.0 * vehicle.maxAcceleration;
-            std::vector<double> caps(n, vehicle.maxSpeed * vehicle.maxSpeed), squared(n, 0.0);
-            for (std::size_t i = 1; i < n; ++i)
-            {
-                const double angle = std::abs(leg.knots[i].steering - leg.knots[i - 1].steering);
-                if (angle <= 0.0)
-                    continue;
-                const double speed = vehicle.maxSteeringRate * (leg.knots[i].place - leg.knots[i - 1].place) / angle;
-                for (const std::size_t k : {i - 1, i})
-                    caps[k] = std::min(caps[k], speed * speed);
-            }
-            for (std::size_t i = 1; i + 1 < n; ++i)
-                squared[i] =
-                    std::min(caps[i], squared[i - 1] + doubled * (leg.knots[i].place - leg.knots[i - 1].place));
-            for (std::size_t i = n - 1; i-- > 0;)
-                squared[i] =
-                    std::min(squared[i], squared[i + 1] + doubled * (leg.knots[i + 1].place - leg.knots[i].place));
-            for (std::size_t i = 1; i < n; ++i)
-            {
-                const double length = leg.knots[i].place - leg.knots[i - 1].place, from = squared[i - 1],
-                             to = squared[i];
-                const double top = leg.knots[i].steering == leg.knots[i - 1].steering
-                                       ? vehicle.maxSpeed * vehicle.maxSpeed
-                                       : std::max(from, to);
-                const double peak = std::min(top, 0.5 * (from + to + doubled * length));
-                const auto way = [&](double slow)
-                {
-                    const double metres = (peak - slow) / doubled;
-                    return metres > NEGLIGIBLE ? metres : 0.0;
-                };
-                const double rise = way(from), fall = way(to);
-                const double v0 = std::sqrt(from), v1 = std::sqrt(std::max(0.0, peak)), v2 = std::sqrt(to);
-                // The steering angle moves with the place; where it does, the parts are a centimetre at most.
-                const auto steeringAt = [&](double driven)
-                {
-                    return leg.knots[i - 1].steering +
-                           std::clamp(driven / length, 0.0, 1.0) * (leg.knots[i].steering - leg.knots[i - 1].steering);
-                };
-                const double cruise = length - rise - fall;
-                if (rise > 0.0)
-                    motion.append(2.0 * rise / (v0 + v1), leg.direction * v1, steeringAt(rise));
-                if (cruise > NEGLIGIBLE)
-                    motion.append(cruise / v1, leg.direction * v1, steeringAt(rise + cruise));
-                if (fall > 0.0)
-                    motion.append(2.0 * fall / (v1 + v2), leg.direction * v2, steeringAt(length));
-            }
-        }
     }  // namespace
 
     TimedMotion stopAndSteer(const Path &path, const Vehicle &vehicle, std::optional<double> initialSteering,
@@ -154,15 +97,20 @@ namespace parking
         }
         if (legs.empty())
             throw Error("trajectory: the path never drives");
+        SpeedLimits limits = SpeedLimits::of(vehicle);
+        limits.lateralAcceleration = std::numeric_limits<double>::infinity();
         TimedMotion motion{path.start, {}};
-        double steering = initialSteering.value_or(legs.front().knots.front().steering);
+        double steering = initialSteering.value_or(legs.front().steering.front().angle);
         motion.append(0.0, 0.0, steering);
         for (const Leg &leg : legs)
         {
-            motion.append(std::abs(leg.knots.front().steering - steering) / vehicle.maxSteeringRate, 0.0,
-                          leg.knots.front().steering);
-            drive(leg, vehicle, motion);
-            steering = leg.knots.back().steering;
+            const double first = leg.steering.front().angle;
+            motion.append(std::abs(first - steering) / vehicle.maxSteeringRate, 0.0, first);
+            const std::vector<SpeedPoint> drive = fastestDrive(leg.steering, limits, vehicle);
+            for (std::size_t i = 1; i < drive.size(); ++i)
+                motion.append(drive[i].t - drive[i - 1].t, leg.direction * drive[i].speed,
+                              steeringAt(leg.steering, drive[i].s));
+            steering = leg.steering.back().angle;
         }
         const double last = finalSteering.value_or(steering);
         motion.append(std::abs(last - steering) / vehicle.maxSteeringRate, 0.0, last);

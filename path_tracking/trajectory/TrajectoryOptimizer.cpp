@@ -3,17 +3,14 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/trajectory/JerkLimit.h"
 #include "path_tracking/trajectory/MotionCheck.h"
 #include "path_tracking/trajectory/MotionSolver.h"
-#include "path_tracking/trajectory/PathLikeness.h"
 #include "path_tracking/trajectory/StopAndSteer.h"
-#include "path_tracking/trajectory/program/DrivenStretch.h"
+#include "path_tracking/trajectory/program/MotionGuess.h"
 #include "path_tracking/trajectory/program/MotionOutline.h"
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -33,12 +30,61 @@ namespace parking
         constexpr std::size_t MOST_DROPS = 4;    // such attempts
         constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
         constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
-        constexpr double SAME_END = 1e-3;                 // metres and radians by which a jerk limit may miss the end
         constexpr double MOST_INTERVALS = 1e4;            // of a motion that is searched for: 8 kB and 0.2 ms each
-        constexpr std::array<double, 3> JERK_STEPS{0.02, 0.01, 0.005};  // seconds, until the same way is driven
         /** Of rounds that begin with a guess. */
         constexpr MotionBarriers FROM_GUESS{5e-3, 2e-5};
+
+        /** Compares at equal shares of the lengths. */
+        bool isNear(const Path &a, const Path &b)
+        {
+            constexpr double LONGEST_STEP = 2.0;  // metres between two comparisons
+            constexpr double FEWEST_STEPS = 4.0;
+            const double lengthA = a.length(), lengthB = b.length();
+            const double steps = std::max(FEWEST_STEPS, std::ceil(std::max(lengthA, lengthB) / LONGEST_STEP));
+            for (double k = 0.0; k <= steps; ++k)
+                if (positionDistance(a.at(lengthA * k / steps), b.at(lengthB * k / steps)) > ALIKE)
+                    return false;
+            return true;
+        }
+
+        /** Do two paths change their direction equally often, with each stretch nowhere farther from the other's? */
+        bool areAlike(const Path &a, const Path &b)
+        {
+            const std::vector<Stretch> ofA = a.stretches(), ofB = b.stretches();
+            if (ofA.size() != ofB.size())
+                return false;
+            for (std::size_t i = 0; i < ofA.size(); ++i)
+                if (ofA[i].direction != ofB[i].direction ||
+                    !isNear(a.part(ofA[i].first, ofA[i].last), b.part(ofB[i].first, ofB[i].last)))
+                    return false;
+            return true;
+        }
     }  // namespace
+
+    void TrajectoryOptions::validate() const
+    {
+        const Require require("trajectory");
+        require.notNegative("time weight", weights.time);
+        require.notNegative("effort weight", weights.effort);
+        require.notNegative("steering weight", weights.steering);
+        require.notNegative("nearness weight", weights.nearness);
+        require.notNegative("preferred clearance", preferredClearance, "metres");
+        require.positive("time weight", weights.time);
+        require.notNegative("margin", margin, "metres");
+        const auto share = [&require](const char *what, double value)
+        {
+            require.that(value > 0.0 && value <= 1.0, what, value, "above 0 and up to 1");
+        };
+        share("share of the speed", speedShare);
+        share("share of the acceleration", accelerationShare);
+        share("share of the steering angle", steeringShare);
+        share("share of the steering rate", steeringRateShare);
+        require.that(step >= 0.02 && step <= 2.0, "step", step, "from 0.02 to 2 seconds");
+        if (initialSteering)
+            require.finite("initial steering angle", *initialSteering, "radians");
+        if (finalSteering)
+            require.finite("final steering angle", *finalSteering, "radians");
+    }
 
     TrajectoryOptimizer::TrajectoryOptimizer(const FootprintChecker &checker, TrajectoryOptions options)
       : checker_(checker),
@@ -129,7 +175,8 @@ namespace parking
             MotionOutline outlineOf(const TrajectoryOptimizer &owner) const
             {
                 const TrajectoryOptions &options = owner.options_;
-                return {local, owner.body_, step, options.initialSteering, options.finalSteering, options.sharpest};
+                return {guessesAlong(local, owner.body_), owner.body_,           step,
+                        options.initialSteering,          options.finalSteering, options.sharpest};
             }
 
             Path local;  // in the coordinates of the pieces
@@ -168,7 +215,7 @@ namespace parking
                     attempt.leastCost > (solutions.empty() ? limit : LIKELY * leastCost(solutions)))
                     return;
                 if (std::any_of(solved.begin(), solved.end(),
-                                [&attempt](const Path *path) { return areAlike(*path, attempt.local, ALIKE); }))
+                                [&attempt](const Path *path) { return areAlike(*path, attempt.local); }))
                     continue;
                 if (auto solution = solve(attempt, solutions.empty() ? limit : leastCost(solutions)))
                 {
@@ -179,8 +226,8 @@ namespace parking
             }
         }
 
-        std::optional<MotionSolution> solveAlong(const MotionOutline &outline, const MotionView &view,
-                                                 std::size_t mostIterations = MotionSolver::ANY)
+        MotionOutcome solveAlong(const MotionOutline &outline, const MotionView &view,
+                                 std::size_t mostIterations = MotionSolver::ANY)
         {
             MotionProblem problem;
             problem.vehicle = owner_.body_;
@@ -202,18 +249,15 @@ namespace parking
             ran into something that was not known to be in the way is solved again from where it ended. */
         std::optional<MotionSolution> solve(Attempt &attempt, double limit)
         {
-            auto found = solveAlong(*attempt.outline, attempt.view);
-            if (found)
-            {
-                found->path = attempt.path;
-                return found;
-            }
+            MotionOutcome found = solveAlong(*attempt.outline, attempt.view);
+            if (found.solution)
+                found.solution->path = attempt.path;
             // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
             // known already, more of everything. What had none needs more room.
-            if (solver_.wasWrong() && solver_.hasLearnt())
-                return retryWrong(attempt.path, limit, [&] { return solveAlong(*attempt.outline, attempt.view); });
+            if (found.holds || found.hasLearnt)
+                return rightOf(std::move(found), limit, [&] { return solveAlong(*attempt.outline, attempt.view); });
             attempt.view.spacing *= 0.5;
-            if (solver_.wasWrong())
+            if (found.solution)
                 attempt.view.separation.range *= 1.5;
             else
             {
@@ -224,23 +268,21 @@ namespace parking
             return std::nullopt;
         }
 
-        /** Solves again what ran into something, as often as it does so and something is learnt from it: from where it
-            ended, or, where that is of no use, \e anew. */
-        std::optional<MotionSolution> retryWrong(std::size_t path, double limit,
-                                                 const std::function<std::optional<MotionSolution>()> &anew)
+        /** The solution that holds. What ran into something is solved again as often as it does so and something is
+            learnt from it: from where it ended, or, where that is of no use, \e anew. */
+        std::optional<MotionSolution> rightOf(MotionOutcome found, double limit,
+                                              const std::function<MotionOutcome()> &anew)
         {
-            for (std::size_t i = 0; i < MOST_RETRIES && solver_.hasLearnt() && solver_.mayGoOn(); ++i)
+            for (std::size_t i = 0; i < MOST_RETRIES && !found.holds && found.hasLearnt && solver_.mayGoOn(); ++i)
             {
-                auto wrong = solver_.takeWrong();
-                if (!wrong || wrong->cost >= limit)
+                if (found.solution->cost >= limit)
                     break;
-                auto found = solver_.hasStrayed() ? anew() : solver_.solveAgain(*wrong);
-                if (!found)
-                    continue;
-                found->path = path;
-                return found;
+                const std::size_t path = found.solution->path;
+                found = found.hasStrayed ? anew() : solver_.solveAgain(*found.solution);
+                if (found.solution)
+                    found.solution->path = path;
             }
-            return std::nullopt;
+            return found.holds ? std::move(found.solution) : std::nullopt;
         }
 
         /** Improves what was found, cheapest first, and gives the best. Of solutions that are the same only one. */
@@ -271,10 +313,10 @@ namespace parking
         {
             for (std::size_t round = 0; round < owner_.options_.mostRounds && solver_.mayGoOn(); ++round)
             {
-                auto found = solver_.solveAgain(best);
-                const double gain = found ? best.cost - found->cost : 0.0;
+                MotionOutcome found = solver_.solveAgain(best);
+                const double gain = found.holds ? best.cost - found.solution->cost : 0.0;
                 if (gain > 0.0)
-                    best = std::move(*found);
+                    best = std::move(*found.solution);
                 if (gain < ENOUGH_GAIN * best.cost)
                     return;
             }
@@ -288,28 +330,28 @@ namespace parking
             for (bool again = true; again;)
             {
                 again = false;
-                const std::vector<DrivenStretch> stretches = stretchesOf(best.problem);
+                const std::vector<StretchGuess> stretches = stretchesOf(best.problem, owner_.body_);
                 std::vector<std::size_t> order(stretches.size());
                 std::iota(order.begin(), order.end(), std::size_t{0});
                 std::stable_sort(order.begin(), order.end(),
                                  [&stretches](std::size_t a, std::size_t b)
-                                 { return stretches[a].length < stretches[b].length; });
+                                 { return stretches[a].length() < stretches[b].length(); });
                 for (const std::size_t index : order)
                 {
-                    if (tries >= MOST_DROPS || !solver_.mayGoOn() || stretches[index].length > LONGEST_DROPPED)
+                    if (tries >= MOST_DROPS || !solver_.mayGoOn() || stretches[index].length() > LONGEST_DROPPED)
                         return;
-                    const std::vector<DrivenStretch> rest = withoutStretch(stretches, index);
+                    const std::vector<StretchGuess> rest = withoutStretch(stretches, index, owner_.body_);
                     if (rest.empty())
                         return;
                     ++tries;
-                    auto found = solveAlong(
-                        {guessesAlong(rest, owner_.body_), owner_.body_, owner_.options_.step,
-                         owner_.options_.initialSteering, owner_.options_.finalSteering, owner_.options_.sharpest},
-                        best.view, MOST_DROP_ITERATIONS);
-                    if (!found || found->cost >= best.cost)
+                    MotionOutcome found =
+                        solveAlong({rest, owner_.body_, owner_.options_.step, owner_.options_.initialSteering,
+                                    owner_.options_.finalSteering, owner_.options_.sharpest},
+                                   best.view, MOST_DROP_ITERATIONS);
+                    if (!found.holds || found.solution->cost >= best.cost)
                         continue;
-                    found->path = best.path;
-                    best = std::move(*found);
+                    found.solution->path = best.path;
+                    best = std::move(*found.solution);
                     improve(best);
                     again = true;
                     break;
@@ -322,9 +364,7 @@ namespace parking
         {
             if (!solver_.mayGoOn())
                 return;
-            auto found = solver_.refine(best);
-            if (!found)
-                found = retryWrong(best.path, best.cost, [] { return std::optional<MotionSolution>(); });
+            auto found = rightOf(solver_.refine(best), best.cost, [] { return MotionOutcome(); });
             if (found && found->cost < best.cost)
                 best = std::move(*found);
         }
@@ -369,7 +409,6 @@ namespace parking
                 "driving takes more than " + formatNumber(MOST_INTERVALS) + " steps, too long to look for better";
         else
             improve(paths, searched, interrupted, result);
-        limitJerk(result);
         return result;
     }
 
@@ -392,24 +431,5 @@ namespace parking
             result.path = found->path;
             result.fallback = false;
         }
-    }
-
-    void TrajectoryOptimizer::limitJerk(OptimizedTrajectory &result) const
-    {
-        if (options_.maxJerk == 0.0)
-            return;
-        const Pose end = endOf(result.motion, checker_.vehicle());
-        // Knots in time leave the way by some hundredths of a millimetre; what touches an obstacle then needs more of
-        // them.
-        for (const double step : JERK_STEPS)
-        {
-            TimedMotion limited = withJerkLimit(result.motion, body_, options_.maxJerk, step);
-            if (!isSamePose(endOf(limited, checker_.vehicle()), end, SAME_END) ||
-                !collisionsOf(limited, checker_, 1).empty())
-                continue;
-            result.motion = std::move(limited);
-            return;
-        }
-        throw Error("trajectory: the jerk limit of " + formatNumber(options_.maxJerk) + " m/s^3 cannot be held");
     }
 }  // namespace parking

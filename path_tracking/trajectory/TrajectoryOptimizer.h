@@ -35,14 +35,6 @@ namespace parking
             there is more to correct with, and errors of noise and lags are up to three times smaller. */
         bool sharpest{true};
 
-        static constexpr double LEAST_JERK = 0.01;  ///< m/s^3 that maxJerk may be, unless it is 0,
-        static constexpr double MOST_JERK = 1e4;    ///< and at most
-
-        /** m/s^3 by which the acceleration may change; 0 for no limit. The motion that is the quickest without one is
-            then driven along the same way with it, see withJerkLimit(): 1 ms in the median, up to 0.3 s for hundreds
-            of metres, in which nobody is asked about interruptions. */
-        double maxJerk{0.0};
-
         std::optional<double> initialSteering{0.0};  ///< radians; without it the wheels may begin anywhere
         std::optional<double> finalSteering{0.0};    ///< likewise at the end
         std::size_t mostRounds{6};                   ///< attempts near a path, and improvements of a motion, at most
@@ -100,7 +92,7 @@ namespace parking
             \param interrupted asked about every millisecond; once it says yes the path is driven as it is, unless the
             result is there already; may be empty
             Throws parking::Error for a path that no car can drive, that collides, or that takes more than
-        LONGEST_MOTION when the car stops to steer, and for a jerk limit that cannot be held. */
+            LONGEST_MOTION when the car stops to steer. */
         OptimizedTrajectory optimize(const Path &path, const std::function<bool()> &interrupted = {}) const;
 
         /** \brief The best motion found near any of several paths, from the same pose to the same pose.
@@ -115,7 +107,6 @@ namespace parking
         double costOf(const TimedMotion &motion) const;
         void improve(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
                      const std::function<bool()> &interrupted, OptimizedTrajectory &result) const;
-        void limitJerk(OptimizedTrajectory &result) const;
 
         const FootprintChecker &checker_;
         TrajectoryOptions options_;

@@ -77,7 +77,7 @@ namespace parking
                         result.status = InteriorPointStatus::Interrupted;
                         break;
                     }
-                    program_.linearize(duals_, barrier_, SOFTNESS);
+                    program_.linearize(duals_, SOFTNESS);
                     if (lowerBarrier())
                     {
                         result.status = InteriorPointStatus::Converged;
@@ -152,7 +152,6 @@ namespace parking
             /** Lowers the barrier as often as its problem is solved. \return whether the last one is */
             bool lowerBarrier()
             {
-                const double before = barrier_;
                 for (bool settled = hasSettled(); settled || error(barrier_) <= 10.0 * barrier_; settled = false)
                 {
                     if (barrier_ <= options_.lastBarrier)
@@ -166,8 +165,6 @@ namespace parking
                     barrier_ = std::max(options_.lastBarrier, 0.2 * barrier_);
                     penalty_ = 1.0;
                 }
-                if (barrier_ != before)
-                    program_.changeBarrier(duals_, before, barrier_);
                 return false;
             }
 
@@ -183,7 +180,7 @@ namespace parking
                                         : std::max({1e-6, lastShift_ / 3.0, 4.0 * damping_});
                 }
                 lastShift_ = shift > 0.0 ? shift : lastShift_;
-                step_ = program_.right();
+                step_ = program_.right(barrier_);
                 program_.system().solve(step_);
                 program_.apply(step_, jointStep_, slackStep_);
                 priceStep_.resize(values_.size());

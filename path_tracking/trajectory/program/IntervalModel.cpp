@@ -35,13 +35,14 @@ namespace parking
 
     void SpanTerms::add(const Eigen::Vector4d &w, const Eigen::Matrix3d &poseHessian,
                         const Eigen::Vector3d &poseGradient, const Eigen::Vector3d &poseShift,
-                        const Eigen::Vector3d &poseCost)
+                        const Eigen::Vector3d &poseBarrierSlope, const Eigen::Vector3d &poseCost)
     {
         const Eigen::Matrix4d square = w * w.transpose();
         for (int e = 0; e < 3; ++e)
         {
             gradient.segment<4>(4 * e) += poseGradient[e] * w;
             shift.segment<4>(4 * e) += poseShift[e] * w;
+            barrierSlope.segment<4>(4 * e) += poseBarrierSlope[e] * w;
             cost.segment<4>(4 * e) += poseCost[e] * w;
             for (int f = 0; f <= e; ++f)
                 hessian.block<4, 4>(4 * e, 4 * f) += poseHessian(e, f) * square;
@@ -232,27 +233,11 @@ namespace parking
             half.col(by.entry) += by.value * span.hessian.col(by.quantity);
             terms.gradient[by.entry] += by.value * span.gradient[by.quantity];
             terms.shift[by.entry] += by.value * span.shift[by.quantity];
+            terms.barrierSlope[by.entry] += by.value * span.barrierSlope[by.quantity];
             terms.cost[by.entry] += by.value * span.cost[by.quantity];
         }
         for (const Derivative &by : chain)
             terms.hessian.col(by.entry) += by.value * half.row(by.quantity).transpose();
-    }
-
-    PairVector IntervalModel::carried(const Eigen::Matrix<double, 12, 1> &by) const
-    {
-        PairVector sum = PairVector::Zero();
-        for (int e = 0; e < 3; ++e)
-        {
-            const int angle = angleOf(e);
-            sum[e] += by[4 * e];
-            sum[H] += begin_.byDuration[e] * by[4 * e + 1] + end_.byDuration[e] * by[4 * e + 3];
-            sum[V0] += begin_.bySpeed[e] * by[4 * e + 1];
-            sum[angle] += begin_.byAngle[e] * by[4 * e + 1];
-            sum[SECOND + e] += by[4 * e + 2];
-            sum[V1] += end_.bySpeed[e] * by[4 * e + 3];
-            sum[SECOND + angle] += end_.byAngle[e] * by[4 * e + 3];
-        }
-        return sum;
     }
 
     void IntervalModel::addWayCurvature(IntervalTerms &terms) const
@@ -337,13 +322,5 @@ namespace parking
         terms.couple(V0, PHI1, 2.0 * e * q0 * dphi);
         terms.couple(V1, PHI0, -2.0 * e * q1 * dphi);
         terms.couple(V1, PHI1, 2.0 * e * q1 * dphi);
-    }
-
-    Pose MotionProblem::poseAt(std::size_t interval, double fraction) const
-    {
-        const Eigen::Vector3d pose =
-            IntervalModel(directions[interval], vehicle.wheelbase, nodes[interval], nodes[interval + 1])
-                .poseAt(hermiteWeights(fraction));
-        return {pose[0], pose[1], pose[2]};
     }
 }  // namespace parking

@@ -36,7 +36,9 @@ namespace parking
         PairMatrix hessian{PairMatrix::Zero()};   ///< of the Lagrangian, with what was eliminated
         PairVector cost{PairVector::Zero()};      ///< gradient of the cost
         PairVector gradient{PairVector::Zero()};  ///< of the rest of the Lagrangian
-        PairVector shift{PairVector::Zero()};     ///< right side of the system plus gradient of the Lagrangian
+        /** Right side of the system, with a barrier of zero, plus gradient of the Lagrangian. */
+        PairVector shift{PairVector::Zero()};
+        PairVector barrierSlope{PairVector::Zero()};  ///< by how much a barrier (mu) raises the right side
         /** What the curvature of the ways at the two ends (see IntervalModel) is multiplied with. @{ */
         Eigen::Vector3d wayAtBegin{Eigen::Vector3d::Zero()},  ///< where the interval begins
             wayAtEnd{Eigen::Vector3d::Zero()};                ///< the same where it ends
@@ -59,13 +61,14 @@ namespace parking
         Eigen::Matrix<double, 12, 12> hessian{Eigen::Matrix<double, 12, 12>::Zero()};  ///< of the rows
         Eigen::Matrix<double, 12, 1> gradient{Eigen::Matrix<double, 12, 1>::Zero()};  ///< of the rows in the Lagrangian
         Eigen::Matrix<double, 12, 1> shift{Eigen::Matrix<double, 12, 1>::Zero()};  ///< what they add to the right side
-        Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};   ///< gradient of the cost
+        Eigen::Matrix<double, 12, 1> barrierSlope{Eigen::Matrix<double, 12, 1>::Zero()};  ///< see IntervalTerms
+        Eigen::Matrix<double, 12, 1> cost{Eigen::Matrix<double, 12, 1>::Zero()};          ///< gradient of the cost
 
         /** \brief Adds derivatives by the pose at hermiteWeights(). Of the Hessian only the blocks on and below the
             diagonal are added to: see complete(). */
         void add(const Eigen::Vector4d &weights, const Eigen::Matrix3d &poseHessian,
                  const Eigen::Vector3d &poseGradient, const Eigen::Vector3d &poseShift,
-                 const Eigen::Vector3d &poseCost);
+                 const Eigen::Vector3d &poseBarrierSlope, const Eigen::Vector3d &poseCost);
 
         /** \brief Fills the blocks of the Hessian above the diagonal. */
         void complete();
@@ -103,9 +106,6 @@ namespace parking
 
         /** \brief Adds what rows demand. */
         void addSpan(const SpanTerms &span, IntervalTerms &terms) const;
-
-        /** \brief A gradient by the quantities of a SpanTerms as one by the entries of the nodes. */
-        PairVector carried(const Eigen::Matrix<double, 12, 1> &spanGradient) const;
 
         /** \brief Adds the second derivatives of the ways at the ends, as often as \e terms say. To be called last. */
         void addWayCurvature(IntervalTerms &terms) const;

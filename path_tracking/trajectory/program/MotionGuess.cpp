@@ -1,15 +1,25 @@
 #include "path_tracking/trajectory/program/MotionGuess.h"
 
+#include "path_tracking/trajectory/SpeedProfile.h"
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace parking
 {
     namespace
     {
-        constexpr double GRID = 0.02;       // metres between two points
-        constexpr double LEAST_WAY = 1e-3;  // metres between two points, so that a drive takes time
+        using Points = std::vector<GuessPoint>;
+
+        constexpr double GRID = 0.02;            // metres between two points along a path
+        constexpr double NODE_GRID = 0.05;       // metres between two points along nodes, about
+        constexpr double STEERING_WINDOW = 0.5;  // metres over which a guess turns the wheels, to either side
+        constexpr double LEAST_WAY = 1e-3;       // metres between two points, so that a drive takes time
+        constexpr double BEND = 6.0;             // metres over which a stretch is bent to another end
+        constexpr double LEVER = 1.5;            // metres that a radian counts for when poses are compared
+        constexpr std::size_t FEWEST_POINTS = 3;
 
         /** Means of \e values over \e reach neighbours to either side, as far as there are any. */
         std::vector<double> averaged(const std::vector<double> &values, std::size_t reach)
@@ -24,9 +34,68 @@ namespace parking
             }
             return means;
         }
+
+        double distance(const Pose &a, const Pose &b)
+        {
+            return positionDistance(a, b) + LEVER * std::abs(a.yaw - b.yaw);
+        }
+
+        double lengthOf(const Points &points)
+        {
+            double length = 0.0;
+            for (std::size_t i = 1; i < points.size(); ++i)
+                length += positionDistance(points[i - 1].pose, points[i].pose);
+            return length;
+        }
+
+        Pose mean(const Pose &a, const Pose &b)
+        {
+            return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.yaw + b.yaw)};
+        }
+
+        /** Of those that leave a stretch between \e first and \e last, the point nearest to \e pose. */
+        std::size_t nearest(const Points &points, std::size_t first, std::size_t last, const Pose &pose)
+        {
+            const auto least = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(first),
+                                                points.begin() + static_cast<std::ptrdiff_t>(last),
+                                                [&pose](const GuessPoint &a, const GuessPoint &b)
+                                                { return distance(a.pose, pose) < distance(b.pose, pose); });
+            return static_cast<std::size_t>(least - points.begin());
+        }
+
+        /** Cuts the end off where that is nearest to \e pose. */
+        void cutTowards(Points &points, const Pose &pose)
+        {
+            if (points.size() > FEWEST_POINTS)
+                points.resize(nearest(points, FEWEST_POINTS - 1, points.size(), pose) + 1);
+        }
+
+        /** Shifts the last metres so that they end at \e pose. */
+        void bendTowards(Points &points, const Pose &pose)
+        {
+            const Pose end = points.back().pose;
+            const double bend = std::min(BEND, lengthOf(points));
+            double left = 0.0;
+            for (std::size_t i = points.size(); i-- > 0;)
+            {
+                Pose &at = points[i].pose;
+                const double u = bend > 0.0 ? std::max(0.0, 1.0 - left / bend) : 1.0;
+                const double part = i + 1 == points.size() ? 1.0 : u * u * (3.0 - 2.0 * u);
+                if (i > 0)
+                    left += positionDistance(points[i - 1].pose, at);
+                at = {at.x + part * (pose.x - end.x), at.y + part * (pose.y - end.y),
+                      at.yaw + part * (pose.yaw - end.yaw)};
+            }
+        }
+
+        Points reversed(Points points)
+        {
+            std::reverse(points.begin(), points.end());
+            return points;
+        }
     }  // namespace
 
-    StretchGuess::StretchGuess(const Path &path, const Vehicle &vehicle, double window) : direction_(1)
+    StretchGuess::StretchGuess(const Path &path, const Vehicle &vehicle) : direction_(1)
     {
         const double length = path.length();
         const auto parts = static_cast<std::size_t>(std::max(20.0, std::ceil(length / GRID)));
@@ -49,7 +118,7 @@ namespace parking
             angles.push_back(vehicle.steeringAngle(on.curvatureAt(driven)));
             direction_ = on.direction() != 0 ? on.direction() : direction_;
         }
-        const std::vector<double> steering = averaged(angles, static_cast<std::size_t>(window / grid));
+        const std::vector<double> steering = averaged(angles, static_cast<std::size_t>(STEERING_WINDOW / grid));
         for (std::size_t i = 0; i <= parts; ++i)
             points_[i].steering = std::clamp(steering[i], -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
         setSpeeds(std::vector<double>(parts, grid), vehicle);
@@ -67,18 +136,11 @@ namespace parking
 
     void StretchGuess::setSpeeds(const std::vector<double> &ways, const Vehicle &vehicle)
     {
-        const double doubled = 2.0 * vehicle.maxAcceleration;
-        const auto reachable = [doubled](const GuessPoint &from, double way)
-        {
-            return std::sqrt(from.speed * from.speed + doubled * way);
-        };
-        for (GuessPoint &point : points_)
-            point.speed = vehicle.maxSpeed;
-        points_.front().speed = points_.back().speed = 0.0;
-        for (std::size_t i = 0; i < ways.size(); ++i)
-            points_[i + 1].speed = std::min(points_[i + 1].speed, reachable(points_[i], ways[i]));
-        for (std::size_t i = ways.size(); i-- > 0;)
-            points_[i].speed = std::min(points_[i].speed, reachable(points_[i + 1], ways[i]));
+        const double cap = vehicle.maxSpeed * vehicle.maxSpeed;
+        const std::vector<double> squared =
+            squaredSpeeds(ways, std::vector<double>(ways.size(), cap), vehicle.maxAcceleration);
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            points_[i].speed = std::sqrt(squared[i]);
         points_.front().t = 0.0;
         for (std::size_t i = 0; i < ways.size(); ++i)
             points_[i + 1].t = points_[i].t + 2.0 * ways[i] / (points_[i].speed + points_[i + 1].speed);
@@ -109,5 +171,93 @@ namespace parking
                  a.pose.yaw + way * (b.pose.yaw - a.pose.yaw)},
                 a.speed + part * (b.speed - a.speed),
                 a.steering + part * (b.steering - a.steering)};
+    }
+
+    double StretchGuess::length() const
+    {
+        return lengthOf(points_);
+    }
+
+    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle)
+    {
+        std::vector<StretchGuess> guesses;
+        double yaw = path.start.yaw;
+        for (const Stretch &stretch : path.stretches())
+        {
+            Path part = path.part(stretch.first, stretch.last);
+            part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
+            guesses.emplace_back(part, vehicle);
+            yaw = guesses.back().at(guesses.back().duration()).pose.yaw;
+        }
+        return guesses;
+    }
+
+    std::vector<StretchGuess> stretchesOf(const MotionProblem &problem, const Vehicle &vehicle)
+    {
+        std::vector<StretchGuess> stretches;
+        Points points;
+        for (std::size_t k = 0; k < problem.directions.size(); ++k)
+        {
+            if (problem.directions[k] == 0)
+                continue;
+            const NodeVector &from = problem.nodes[k], &to = problem.nodes[k + 1];
+            const auto at = [&](double part)
+            {
+                return GuessPoint{0.0, problem.poseAt(k, part), 0.0,
+                                  from[NODE_STEERING] + part * (to[NODE_STEERING] - from[NODE_STEERING])};
+            };
+            if (points.empty())
+                points.push_back(at(0.0));
+            const double way = from[NODE_DURATION] * 0.5 * (from[NODE_SPEED] + to[NODE_SPEED]);
+            const double parts = std::max(1.0, std::ceil(way / NODE_GRID));
+            for (double p = 1.0; p <= parts; p += 1.0)
+                points.push_back(at(p / parts));
+            if (k + 1 == problem.directions.size() || problem.directions[k + 1] == 0)
+                stretches.emplace_back(problem.directions[k], std::exchange(points, {}), vehicle);
+        }
+        return stretches;
+    }
+
+    std::vector<StretchGuess> withoutStretch(const std::vector<StretchGuess> &stretches, std::size_t index,
+                                             const Vehicle &vehicle)
+    {
+        if (stretches.size() < 2)
+            return {};
+        std::vector<StretchGuess> rest = stretches;
+        const auto removed = rest.begin() + static_cast<std::ptrdiff_t>(index);
+        const auto replace = [&vehicle](StretchGuess &stretch, Points points)
+        {
+            stretch = StretchGuess(stretch.direction(), std::move(points), vehicle);
+        };
+        const Points &points = stretches[index].points();
+        if (index == 0)
+        {
+            Points behind = reversed(std::next(removed)->points());
+            cutTowards(behind, points.front().pose);
+            bendTowards(behind, points.front().pose);
+            replace(*std::next(removed), reversed(std::move(behind)));
+            rest.erase(removed);
+            return rest;
+        }
+        Points before = std::prev(removed)->points();
+        if (index + 1 == stretches.size())
+        {
+            cutTowards(before, points.back().pose);
+            bendTowards(before, points.back().pose);
+            replace(*std::prev(removed), std::move(before));
+            rest.pop_back();
+            return rest;
+        }
+        const Pose middle = points[points.size() / 2].pose;
+        Points behind = reversed(std::next(removed)->points());
+        cutTowards(before, middle);
+        cutTowards(behind, middle);
+        const Pose meeting = mean(before.back().pose, behind.back().pose);
+        bendTowards(before, meeting);
+        bendTowards(behind, meeting);
+        before.insert(before.end(), behind.rbegin() + 1, behind.rend());
+        replace(*std::prev(removed), std::move(before));
+        rest.erase(removed, removed + 2);
+        return rest;
     }
 }  // namespace parking

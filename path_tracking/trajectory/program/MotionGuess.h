@@ -2,7 +2,9 @@
 
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
+#include "path_tracking/trajectory/program/MotionProblem.h"
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -23,9 +25,8 @@ namespace parking
     class StretchGuess
     {
     public:
-        /** \param path in one direction, without turns on the spot
-            \param window metres to either side over which the steering angle is averaged, positive */
-        StretchGuess(const Path &path, const Vehicle &vehicle, double window);
+        /** \param path in one direction, without turns on the spot */
+        StretchGuess(const Path &path, const Vehicle &vehicle);
 
         /** \brief A drive through poses, whose steering angles are taken as they are.
             \param points two at least, in order, with pose and steering angle; time and speed are made anew */
@@ -36,6 +37,15 @@ namespace parking
         {
             return direction_;
         }
+
+        /** \brief Poses and steering angles some centimetres apart. */
+        const std::vector<GuessPoint> &points() const
+        {
+            return points_;
+        }
+
+        /** \brief Metres. */
+        double length() const;
 
         /** \brief Seconds. */
         double duration() const
@@ -56,4 +66,20 @@ namespace parking
         int direction_;
         std::vector<GuessPoint> points_;
     };
+
+    /** \brief The stretches of a path; yaw continuous along it. */
+    std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle);
+
+    /** \brief The stretches of the motion whose nodes a problem has, in order. */
+    std::vector<StretchGuess> stretchesOf(const MotionProblem &problem, const Vehicle &vehicle);
+
+    /** \brief The stretches without one of them.
+
+        Its neighbours are cut where they come nearest to each other, or to the end of the motion if it was the first or
+        the last, and bent to meet there. So they are a guess: no car can drive the bend exactly, and it may touch
+        something. Neighbours on both sides become one stretch: between two cusps, two cusps go.
+
+        \return nothing when there would be no stretch left */
+    std::vector<StretchGuess> withoutStretch(const std::vector<StretchGuess> &stretches, std::size_t index,
+                                             const Vehicle &vehicle);
 }  // namespace parking

@@ -8,7 +8,6 @@ namespace parking
 {
     namespace
     {
-        constexpr double STEERING_WINDOW = 0.5;    // metres over which a guess turns the wheels, to either side
         constexpr double FEWEST_INTERVALS = 8.0;   // of a stretch
         constexpr double FEWEST_OF_PART = 3.0;     // that speed up, and that brake, of one that does
         constexpr double LONG_AT_SPEED = 2.0;      // steps at full speed that make a phase
@@ -20,28 +19,7 @@ namespace parking
         }
 
         constexpr int POSE = bit(NODE_X) | bit(NODE_Y) | bit(NODE_YAW);
-
-        std::vector<StretchGuess> guessesAlong(const Path &path, const Vehicle &vehicle)
-        {
-            std::vector<StretchGuess> guesses;
-            double yaw = path.start.yaw;
-            for (const Stretch &stretch : path.stretches())
-            {
-                Path part = path.part(stretch.first, stretch.last);
-                part.start.yaw += 2.0 * PI * std::round((yaw - part.start.yaw) / (2.0 * PI));
-                guesses.emplace_back(part, vehicle, STEERING_WINDOW);
-                yaw = guesses.back().at(guesses.back().duration()).pose.yaw;
-            }
-            return guesses;
-        }
     }  // namespace
-
-    MotionOutline::MotionOutline(const Path &path, const Vehicle &vehicle, double step,
-                                 std::optional<double> initialSteering, std::optional<double> finalSteering,
-                                 bool inPhases)
-      : MotionOutline(guessesAlong(path, vehicle), vehicle, step, initialSteering, finalSteering, inPhases)
-    {
-    }
 
     MotionOutline::MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
                                  std::optional<double> initialSteering, std::optional<double> finalSteering,

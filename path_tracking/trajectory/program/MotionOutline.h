@@ -1,7 +1,6 @@
 #pragma once
 
 #include "parking_geometry/Vehicle.h"
-#include "parking_geometry/curves/Path.h"
 #include "path_tracking/trajectory/program/MotionGuess.h"
 #include "path_tracking/trajectory/program/MotionProblem.h"
 #include "path_tracking/trajectory/program/Separation.h"
@@ -13,22 +12,18 @@
 
 namespace parking
 {
-    /** \brief The nodes of a motion program along a path, and the guessed poses between them.
+    /** \brief The nodes of a motion program along guessed stretches, and the guessed poses between them.
 
         Every stretch is cut into intervals of equal duration. Between two stretches there is a standstill, and one at
         each end where the angle of the wheels is prescribed. */
     class MotionOutline
     {
     public:
-        /** \param path without turns on the spot, and with a stretch at least
+        /** \param guesses one at least, a stretch each
             \param step seconds that an interval lasts, about
             \param initialSteering, finalSteering radians; without them the wheels are free there
             \param inPhases whether a stretch is cut where it is fastest, see MotionProblem::phaseEnds; else its
             intervals last equally long */
-        MotionOutline(const Path &path, const Vehicle &vehicle, double step, std::optional<double> initialSteering,
-                      std::optional<double> finalSteering, bool inPhases = true);
-
-        /** \brief Along the stretches of \e guesses, one at least. */
         MotionOutline(std::vector<StretchGuess> guesses, const Vehicle &vehicle, double step,
                       std::optional<double> initialSteering, std::optional<double> finalSteering, bool inPhases = true);
 

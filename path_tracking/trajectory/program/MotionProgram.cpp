@@ -94,18 +94,6 @@ namespace parking
             limits_.push_back({{H, H, H}, {1.0, 0.0, 0.0}, -problem_.leastDuration});
     }
 
-    std::size_t MotionProgram::intervalOf(std::size_t inequality) const
-    {
-        if (inequality < limits_.size())
-            return static_cast<std::size_t>(std::upper_bound(firstLimit_.begin(), firstLimit_.end(), inequality) -
-                                            firstLimit_.begin()) -
-                   1;
-        const std::size_t row = inequality - limits_.size();
-        return std::find_if(problem_.checkpoints.begin(), problem_.checkpoints.end(),
-                            [row](const MotionCheckpoint &point) { return row < point.lastRow; })
-            ->interval;
-    }
-
     Eigen::Vector4d MotionProgram::jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
                                             std::size_t k) const
     {
@@ -181,20 +169,20 @@ namespace parking
         terms.hessian += rows.transpose().lazyProduct(rows) / softness;
     }
 
-    void MotionProgram::addLimitTerms(std::size_t k, const MotionDuals &duals, double barrier,
-                                      IntervalTerms &terms) const
+    void MotionProgram::addLimitTerms(std::size_t k, const MotionDuals &duals, IntervalTerms &terms) const
     {
         for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
         {
             const Limit &limit = limits_[i];
             const double z = duals.prices[i], s = duals.slacks[i], sigma = z / s;
-            const double shift = barrier / s - sigma * (values_[i] - s) - z;
+            const double shift = -sigma * (values_[i] - s) - z;
             for (std::size_t p = 0; p < 3; ++p)
             {
                 if (limit.coefficient[p] == 0.0)
                     continue;
                 terms.gradient[limit.entry[p]] -= z * limit.coefficient[p];
                 terms.shift[limit.entry[p]] += shift * limit.coefficient[p];
+                terms.barrierSlope[limit.entry[p]] += limit.coefficient[p] / s;
                 for (std::size_t q = 0; q < 3; ++q)
                     terms.hessian(limit.entry[p], limit.entry[q]) +=
                         sigma * limit.coefficient[p] * limit.coefficient[q];
@@ -210,7 +198,7 @@ namespace parking
         return {growth * (problem_.clearance - value), growth};
     }
 
-    void MotionProgram::addRowTerms(std::size_t k, const MotionDuals &duals, double barrier, IntervalTerms &terms)
+    void MotionProgram::addRowTerms(std::size_t k, const MotionDuals &duals, IntervalTerms &terms)
     {
         if (firstCheckpoint_[k] == firstCheckpoint_[k + 1])
             return;
@@ -220,7 +208,7 @@ namespace parking
             const MotionCheckpoint &point = problem_.checkpoints[p];
             const auto &[pose, c, s] = poses_[p];
             Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-            Eigen::Vector3d gradient = Eigen::Vector3d::Zero(), shift = gradient, cost = gradient;
+            Eigen::Vector3d gradient = Eigen::Vector3d::Zero(), shift = gradient, slope = gradient, cost = gradient;
             for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
             {
                 const std::size_t i = limits_.size() + r;
@@ -232,9 +220,10 @@ namespace parking
                 hessian.noalias() += (sigma + near.growth) * g * g.transpose();
                 gradient -= z * g;
                 cost -= near.price * g;
-                shift += (barrier / slack - sigma * (value - slack) - z) * g;
+                shift -= (sigma * (value - slack) + z) * g;
+                slope += g / slack;
             }
-            span.add(weights_[p], hessian, gradient, shift, cost);
+            span.add(weights_[p], hessian, gradient, shift, slope, cost);
         }
         span.complete();
         models_[k].addSpan(span, terms);
@@ -252,6 +241,8 @@ namespace parking
         gradient_[k + 1] += lagrange.tail<NODE_SIZE>();
         right_[k] += right.head<NODE_SIZE>();
         right_[k + 1] += right.tail<NODE_SIZE>();
+        barrierSlope_[k] += terms.barrierSlope.head<NODE_SIZE>();
+        barrierSlope_[k + 1] += terms.barrierSlope.tail<NODE_SIZE>();
     }
 
     void MotionProgram::applyFixed()
@@ -268,55 +259,35 @@ namespace parking
                     system_.below[k - 1].row(e).setZero();
                 if (k + 1 < problem_.nodes.size())
                     system_.below[k].col(e).setZero();
-                right_[k][e] = gradient_[k][e] = costGradient_[k][e] = 0.0;
+                right_[k][e] = barrierSlope_[k][e] = gradient_[k][e] = costGradient_[k][e] = 0.0;
             }
     }
 
-    void MotionProgram::linearize(const MotionDuals &duals, double barrier, double softness)
+    void MotionProgram::linearize(const MotionDuals &duals, double softness)
     {
         const std::size_t nodes = intervals() + 1;
         system_.reset(nodes);
         right_.assign(nodes, NodeVector::Zero());
-        gradient_ = costGradient_ = right_;
+        barrierSlope_ = gradient_ = costGradient_ = right_;
         for (std::size_t k = 0; k < intervals(); ++k)
         {
             IntervalTerms terms;
             models_[k].addCost(problem_.weights, terms);
             addJoints(k, duals, softness, terms);
-            addLimitTerms(k, duals, barrier, terms);
-            addRowTerms(k, duals, barrier, terms);
+            addLimitTerms(k, duals, terms);
+            addRowTerms(k, duals, terms);
             models_[k].addWayCurvature(terms);
             scatter(k, terms);
         }
         applyFixed();
     }
 
-    void MotionProgram::changeBarrier(const MotionDuals &duals, double from, double to)
+    std::vector<NodeVector> MotionProgram::right(double barrier) const
     {
-        const double change = to - from;
-        for (std::size_t k = 0; k < intervals(); ++k)
-        {
-            PairVector right = PairVector::Zero();
-            for (std::size_t i = firstLimit_[k]; i < firstLimit_[k + 1]; ++i)
-                for (std::size_t p = 0; p < 3; ++p)
-                    right[limits_[i].entry[p]] += change / duals.slacks[i] * limits_[i].coefficient[p];
-            Eigen::Matrix<double, 12, 1> span = Eigen::Matrix<double, 12, 1>::Zero();
-            for (std::size_t p = firstCheckpoint_[k]; p < firstCheckpoint_[k + 1]; ++p)
-            {
-                const MotionCheckpoint &point = problem_.checkpoints[p];
-                Eigen::Vector3d pose = Eigen::Vector3d::Zero();
-                for (std::size_t r = point.firstRow; r < point.lastRow; ++r)
-                    pose += change / duals.slacks[limits_.size() + r] * rowGradients_[r];
-                for (int e = 0; e < 3; ++e)
-                    span.segment<4>(4 * e) += pose[e] * weights_[p];
-            }
-            right += models_[k].carried(span);
-            for (int e = 0; e < NODE_SIZE; ++e)
-            {
-                right_[k][e] += problem_.isFixed(k, e) ? 0.0 : right[e];
-                right_[k + 1][e] += problem_.isFixed(k + 1, e) ? 0.0 : right[SECOND + e];
-            }
-        }
+        std::vector<NodeVector> right = right_;
+        for (std::size_t k = 0; k < right.size(); ++k)
+            right[k] += barrier * barrierSlope_[k];
+        return right;
     }
 
     void MotionProgram::apply(const std::vector<NodeVector> &step, std::vector<Eigen::Vector4d> &joints,

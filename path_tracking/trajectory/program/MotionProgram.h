@@ -47,9 +47,6 @@ namespace parking
             return limits_.size() + problem_.rows.size();
         }
 
-        /** \brief The interval that an inequality is about: it depends on the two nodes of that alone. */
-        std::size_t intervalOf(std::size_t inequality) const;
-
         /** \brief f, c and g at \e nodes, and what linearize() needs of them. \return f */
         double evaluate(const std::vector<NodeVector> &nodes, std::vector<Eigen::Vector4d> &joints,
                         std::vector<double> &values);
@@ -57,12 +54,9 @@ namespace parking
         /** \brief Linearises everything at the nodes that were evaluated last: after it, and until other nodes are
             evaluated, system(), right(), the gradients and apply() are valid.
 
-            The system is that of Newton's method for the barrier problem with \e barrier (mu), with inequalities and
-            joints eliminated: W + G^T (z / s) G + A^T A / \e softness. */
-        void linearize(const MotionDuals &duals, double barrier, double softness);
-
-        /** \brief What linearize() would give with another barrier, for less: only right() depends on it. */
-        void changeBarrier(const MotionDuals &duals, double from, double to);
+            The system is that of Newton's method for the barrier problem, with inequalities and joints eliminated:
+            W + G^T (z / s) G + A^T A / \e softness. */
+        void linearize(const MotionDuals &duals, double softness);
 
         /** \brief The matrix of the linearisation, to be factorised by the caller. */
         BlockTridiagonal &system()
@@ -70,11 +64,8 @@ namespace parking
             return system_;
         }
 
-        /** \brief The right side of the linear system, a vector for each node. */
-        const std::vector<NodeVector> &right() const
-        {
-            return right_;
-        }
+        /** \brief The right side of the linear system with \e barrier (mu), a vector for each node. */
+        std::vector<NodeVector> right(double barrier) const;
 
         /** \brief Gradient of the Lagrangian f + y c - z g. */
         const std::vector<NodeVector> &gradient() const
@@ -121,8 +112,8 @@ namespace parking
         Eigen::Vector4d jointsOf(const IntervalModel &model, const std::vector<NodeVector> &nodes,
                                  std::size_t interval) const;
         void addJoints(std::size_t interval, const MotionDuals &duals, double softness, IntervalTerms &terms);
-        void addLimitTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms) const;
-        void addRowTerms(std::size_t interval, const MotionDuals &duals, double barrier, IntervalTerms &terms);
+        void addLimitTerms(std::size_t interval, const MotionDuals &duals, IntervalTerms &terms) const;
+        void addRowTerms(std::size_t interval, const MotionDuals &duals, IntervalTerms &terms);
         Nearness nearnessOf(const MotionCheckpoint &point, double value) const;
         void scatter(std::size_t interval, const IntervalTerms &terms);
         void applyFixed();
@@ -151,6 +142,7 @@ namespace parking
         std::vector<JointRows> jointRows_;
         std::vector<Eigen::Vector3d> rowGradients_;
         BlockTridiagonal system_;
-        std::vector<NodeVector> right_, gradient_, costGradient_;
+        std::vector<NodeVector> right_, barrierSlope_;  // the right side is the first plus mu times the second
+        std::vector<NodeVector> gradient_, costGradient_;
     };
 }  // namespace parking

@@ -95,34 +95,6 @@ class TrajectoryTest(ProgramTest):
             self.assertEqual([float(text) for text in line.split(',')], [sample[field] for field in fields])
         self.refused_plan(bundled('parallel'), '--csv', 'a.csv', parts=['--trajectory'])
 
-    def test_a_limit_of_the_jerk_is_held_along_the_same_way(self):
-        free, limited = (self.planned(bundled('parallel'), '--trajectory', *options)
-                         for options in ((), ('--max-jerk', '1.5')))
-        self.assertGreater(limited['trajectory_optimization']['duration_s'],
-                           free['trajectory_optimization']['duration_s'] + 1.0)
-        last, goal = limited['planned_trajectory'][-1], free['planned_trajectory'][-1]
-        self.assertLess(math.hypot(last['x'] - goal['x'], last['y'] - goal['y']), 0.001)
-
-        def greatest_jerk(samples):
-            # Samples are no more than 5 cm apart: where the car is quick some lie within an interval of the motion,
-            # whose acceleration is that of all its parts. No interval is longer than that.
-            longest = 0.022
-            knots = samples[:1]
-            for sample, after in zip(samples[1:], samples[2:] + [None]):
-                if after is None or abs(sample['acceleration'] - knots[-1]['acceleration']) > 1e-9:
-                    knots.append(sample)
-            intervals = [(min(b['t'] - a['t'], longest), (b['v'] - a['v']) / (b['t'] - a['t']))
-                         for a, b in zip(knots, knots[1:])]
-            return max(abs(b[1] - a[1]) / (0.5 * (a[0] + b[0])) for a, b in zip(intervals, intervals[1:]))
-        self.assertGreater(greatest_jerk(free['planned_trajectory']), 3.0)
-        self.assertLess(greatest_jerk(limited['planned_trajectory']), 1.5001)
-        self.refused_plan(bundled('parallel'), '--max-jerk', '1', parts=['--trajectory'])
-        for text in ('0', '-1', 'nan', 'much', '1e9', '1e308', '10000.1', '0.0099'):
-            self.refused_plan(bundled('parallel'), '--trajectory', '--max-jerk', text,
-                              parts=['--max-jerk must be a number from 0.01 to 10000 m/s^3', text])
-        for text in ('0.01', '10000'):
-            self.plan(bundled('parallel'), '--trajectory', '--max-jerk', text)
-
     def test_paths_that_no_car_can_drive_are_refused_in_one_line(self):
         result = self.planned(bundled('parallel'), '--trajectory', '--set', 'parameter_set=basic_astar')
         self.assertEqual(result['planned_trajectory'], [])

@@ -14,7 +14,7 @@
 #endif
 #ifdef HAS_path_tracking
 #include <path_tracking/control/Mpc.h>
-#include <path_tracking/reference/SpeedProfile.h>
+#include <path_tracking/reference/TimedReference.h>
 #endif
 
 int main(int argc, char **argv)
@@ -45,9 +45,9 @@ int main(int argc, char **argv)
 
     bool drives = true;
 #ifdef HAS_path_tracking
-    const parking::SpeedProfile profile(path, parking::Vehicle());
+    const parking::TimedReference reference(parking::ReferencePath(path, parking::Vehicle()), parking::SpeedLimits());
     parking::Mpc controller(parking::Vehicle{}, parking::MpcParameters{});
-    drives = profile.duration() > 0.0 && !controller.solve(parking::MpcProblem()).usable;
+    drives = reference.duration() > 0.0 && !controller.solve(parking::MpcProblem()).usable;
 #endif
 
     bool parks = true;

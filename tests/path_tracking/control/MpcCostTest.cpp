@@ -139,28 +139,5 @@ namespace parking::test
                 }
             }
         }
-
-        TEST(MpcCost, DoesNotDependOnWhereTheMapLies)
-        {
-            const MpcParameters mpc;
-            for (std::uint64_t seed = 0; seed < 10; ++seed)
-            {
-                const MpcProblem problem = randomProblem(seed, mpc);
-                MpcProblem moved = problem;
-                const Pose frame{4.0e6, -7.0e6, 2.5};
-                moved.pose = compose(frame, problem.pose);
-                for (MpcReference &point : moved.reference)
-                    point.pose = compose(frame, point.pose);
-                MpcCost cost(Vehicle(), mpc);
-                Random random(seed);
-                const Eigen::VectorXd unknowns = randomUnknowns(random, problem, mpc);
-                Eigen::VectorXd expected, actual;
-                cost.setProblem(problem);
-                cost.evaluate(unknowns, expected, nullptr);
-                cost.setProblem(moved);
-                cost.evaluate(unknowns, actual, nullptr);
-                EXPECT_LT((expected - actual).norm(), 1e-6);
-            }
-        }
     }  // namespace
 }  // namespace parking::test

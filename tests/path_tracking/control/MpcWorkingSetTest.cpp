@@ -50,42 +50,6 @@ namespace parking::test
             return point;
         }
 
-        TEST(MpcWorkingSet, CutsToFeasiblePointsAndLeavesThoseAlone)
-        {
-            Random random(3);
-            for (int i = 0; i < 1000; ++i)
-            {
-                const HorizonLimits bounds = randomLimits(random);
-                Eigen::VectorXd point = randomPoint(random, bounds, 0.5);
-                cutToLimits(bounds, point);
-                EXPECT_TRUE(feasible(bounds, point));
-                Eigen::VectorXd again = point;
-                cutToLimits(bounds, again);
-                EXPECT_EQ(again, point);
-            }
-        }
-
-        TEST(MpcWorkingSet, ReturnsToTheBoxNoFasterThanAllowed)
-        {
-            const HorizonLimits bounds = limitsAfter(-0.25, 0.9);
-            Eigen::VectorXd point = Eigen::VectorXd::Zero(2 * STEPS);
-            cutToLimits(bounds, point);
-            EXPECT_NEAR(point[0], -0.15, 1e-12);
-            EXPECT_NEAR(point[2], -0.05, 1e-12);
-            EXPECT_NEAR(point[4], 0.0, 1e-12);
-            EXPECT_NEAR(point[1], 0.85, 1e-12);
-            EXPECT_NEAR(point[5], 0.75, 1e-12);
-        }
-
-        TEST(MpcWorkingSet, AtAnInnerPointEverythingIsFree)
-        {
-            const HorizonLimits bounds = limitsAfter(1.0, 0.0);
-            Eigen::VectorXd point(2 * STEPS);
-            for (Eigen::Index k = 0; k < STEPS; ++k)
-                point.segment<2>(2 * k) << 1.0, 0.0;
-            EXPECT_EQ(WorkingSet(bounds, point, Eigen::VectorXd::Ones(2 * STEPS)).freedom(), 2 * STEPS);
-        }
-
         /** Minimises a convex quadratic with the working set, the way the controller does. */
         Eigen::VectorXd minimise(const HorizonLimits &bounds, const Eigen::MatrixXd &hessian,
                                  const Eigen::VectorXd &linear, Eigen::VectorXd point)
@@ -156,24 +120,6 @@ namespace parking::test
                     cutToLimits(bounds, other);
                     EXPECT_GE(gradient.dot(other - best), -1e-4 * (1.0 + gradient.norm())) << seed;
                 }
-            }
-        }
-
-        TEST(MpcWorkingSet, ReducesDerivativesAsItExpandsSteps)
-        {
-            Random random(9);
-            const HorizonLimits bounds = limitsAfter(1.0, 0.2);
-            for (int i = 0; i < 100; ++i)
-            {
-                Eigen::VectorXd point = randomPoint(random, bounds, 0.6), gradient = randomPoint(random, bounds, 1.0);
-                cutToLimits(bounds, point);
-                const WorkingSet active(bounds, point, gradient);
-                Eigen::Matrix<double, 3, 2 *STEPS> full = Eigen::Matrix<double, 3, 2 * STEPS>::Random();
-                Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> reduced(3, active.freedom());
-                active.reduce(full, reduced.data());
-                const Eigen::VectorXd step = Eigen::VectorXd::Random(active.freedom());
-                const Eigen::VectorXd moved = active.expand(Eigen::VectorXd::Zero(2 * STEPS), step.data());
-                EXPECT_LT((full * moved - reduced * step).norm(), 1e-12);
             }
         }
     }  // namespace

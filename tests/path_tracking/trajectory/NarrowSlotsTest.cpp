@@ -17,6 +17,7 @@ namespace parking
     {
         using test::box;
         using test::checkerOf;
+        using test::enlarged;
         using test::Random;
 
         /** A slot, and a path out of it: the parked car stands in the origin. */
@@ -26,14 +27,6 @@ namespace parking
             std::vector<Polygon> obstacles;
             Path path;
         };
-
-        Vehicle enlarged(Vehicle car, double by)
-        {
-            car.frontOverhang += by;
-            car.rearOverhang += by;
-            car.width += 2.0 * by;
-            return car;
-        }
 
         /** How far the car gets along an arc before it comes within \e room metres of an obstacle. */
         double freeWay(const Exit &exit, const Pose &from, double curvature, double most, double room)
@@ -115,34 +108,23 @@ namespace parking
             }
         }
 
-        TEST(NarrowSlots, AlongAKerb)
+        TEST(NarrowSlots, AreLeftAndEntered)
         {
-            int slots = 0, optimised = 0;
-            for (std::uint64_t seed = 1; seed <= 16; ++seed)
+            for (const auto &[kind, slot] :
+                 {std::pair("parallel slot ", &parallelSlot), {"perpendicular slot ", &perpendicularSlot}})
             {
-                const Exit exit = parallelSlot(seed);
-                if (exit.path.pieces.empty())
-                    continue;
-                ++slots;
-                drivesOutAndIn(exit, "parallel slot " + std::to_string(seed), optimised);
+                int slots = 0, optimised = 0;
+                for (std::uint64_t seed = 1; seed <= 16; ++seed)
+                {
+                    const Exit exit = slot(seed);
+                    if (exit.path.pieces.empty())
+                        continue;
+                    ++slots;
+                    drivesOutAndIn(exit, kind + std::to_string(seed), optimised);
+                }
+                EXPECT_GE(slots, 12) << kind;
+                EXPECT_GE(optimised + 1, 2 * slots) << kind;
             }
-            EXPECT_GE(slots, 12);
-            EXPECT_GE(optimised + 1, 2 * slots);
-        }
-
-        TEST(NarrowSlots, SideBySide)
-        {
-            int slots = 0, optimised = 0;
-            for (std::uint64_t seed = 1; seed <= 16; ++seed)
-            {
-                const Exit exit = perpendicularSlot(seed);
-                if (exit.path.pieces.empty())
-                    continue;
-                ++slots;
-                drivesOutAndIn(exit, "perpendicular slot " + std::to_string(seed), optimised);
-            }
-            EXPECT_GE(slots, 12);
-            EXPECT_GE(optimised + 1, 2 * slots);
         }
     }  // namespace
 }  // namespace parking

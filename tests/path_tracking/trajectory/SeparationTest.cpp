@@ -51,35 +51,5 @@ namespace parking
                     EXPECT_GT(problem.rows[r].value(pose.x, pose.y, 1.0, 0.0), -0.02);
             }
         }
-
-        TEST(Separation, AsksAtEveryCheckpointWhetherToStopAndThenDoesNothingMore)
-        {
-            const Drive drive;
-            std::size_t all = 0;
-            const SeparationPlan whole(drive.pieces, drive.car, {}, drive.checkpoints, Drive::poseAt,
-                                       [&all]
-                                       {
-                                           ++all;
-                                           return false;
-                                       });
-            EXPECT_TRUE(whole.isComplete());
-            EXPECT_GE(all,
-                      2 * drive.checkpoints.size());  // where lines are chosen, and where more poses are looked for
-            for (std::size_t patience = 0; patience < all; patience += 7)
-            {
-                std::size_t asked = 0, posesAfter = 0;
-                const SeparationPlan plan(
-                    drive.pieces, drive.car, {}, drive.checkpoints,
-                    [&](std::size_t interval, double fraction)
-                    {
-                        posesAfter += asked > patience ? 1 : 0;
-                        return Drive::poseAt(interval, fraction);
-                    },
-                    [&] { return ++asked > patience; });
-                EXPECT_FALSE(plan.isComplete()) << patience;
-                EXPECT_EQ(asked, patience + 1);
-                EXPECT_EQ(posesAfter, 0U) << patience;
-            }
-        }
     }  // namespace
 }  // namespace parking

@@ -7,14 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 namespace parking
 {
     namespace
     {
-        constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-
         TEST(TimedMotion, AnArcAtConstantSpeedEndsWhereThePathDoes)
         {
             const Vehicle car;
@@ -73,6 +75,34 @@ namespace parking
             EXPECT_EQ(found, motion.knots.size());
         }
 
+        TEST(Trajectory, CsvReadsBackExactlyAndIsWrittenWholeOrNotAtAll)
+        {
+            const Trajectory example{{0.0, 1.0 / 3.0, -2e-17, 3.0, 0.0, 0.8, -0.75, 0.5},
+                                     {0.1, 4.48e9 + 0.125, 1e300, -3.0, -2.5, -1.0, 0.1, -0.5}};
+            const auto folder = std::filesystem::temp_directory_path() / "parking_trajectory_test";
+            std::filesystem::create_directories(folder);
+            writeCsv(example, (folder / "drive.csv").string());
+            std::ifstream stream(folder / "drive.csv");
+            std::string line;
+            std::getline(stream, line);
+            EXPECT_EQ(line, "t,x,y,yaw,v,a,steering,steering_rate");
+            for (const TrajectoryPoint &p : example)
+            {
+                ASSERT_TRUE(std::getline(stream, line));
+                std::istringstream cells(line);
+                for (const double value : {p.t, p.x, p.y, p.yaw, p.v, p.acceleration, p.steering, p.steeringRate})
+                {
+                    std::string cell;
+                    std::getline(cells, cell, ',');
+                    EXPECT_EQ(std::strtod(cell.c_str(), nullptr), value);
+                }
+            }
+            EXPECT_FALSE(std::getline(stream, line));
+            EXPECT_THROW(writeCsv(example, (folder / "missing" / "drive.csv").string()), Error);
+            EXPECT_FALSE(std::filesystem::exists(folder / "missing"));
+            std::filesystem::remove_all(folder);
+        }
+
         TEST(StopAndSteer, AStraightLineTakesWhatFullAccelerationAllows)
         {
             const Vehicle car;
@@ -104,27 +134,6 @@ namespace parking
                     const test::Verdict verdict = test::judge(sample(motion, car, 0.05), car, {});
                     EXPECT_EQ(verdict.fault, "") << seed;
                     EXPECT_TRUE(isSamePose(verdict.end, path.end(), 2e-3)) << seed;
-                }
-        }
-
-        TEST(StopAndSteer, RefusesWhatNoCarCanDrive)
-        {
-            const Vehicle car;
-            const auto drive = [&car](const Path &path)
-            {
-                return stopAndSteer(path, car, 0.0, 0.0);
-            };
-            EXPECT_THROW(drive({{}, {}}), Error);
-            EXPECT_THROW(drive({{}, {{0.0, NOT_A_NUMBER}}}), Error);
-            EXPECT_THROW(drive({{NOT_A_NUMBER, 0.0, 0.0}, {{0.0, 1.0}}}), Error);
-            EXPECT_THROW(drive({{}, {{0.0, 1.0}, PathPiece::turnOnTheSpot(1.0)}}), Error);
-            EXPECT_THROW(drive({{}, {{1.1 / car.minTurningRadius(), 1.0}}}), Error);
-            for (double Vehicle::*limit : {&Vehicle::maxSpeed, &Vehicle::maxAcceleration, &Vehicle::maxSteeringRate})
-                for (const double value : {0.0, -1.0, NOT_A_NUMBER})
-                {
-                    Vehicle broken;
-                    broken.*limit = value;
-                    EXPECT_THROW(stopAndSteer({{}, {{0.0, 1.0}}}, broken, 0.0, 0.0), Error);
                 }
         }
     }  // namespace

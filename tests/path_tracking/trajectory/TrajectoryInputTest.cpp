@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,35 +89,44 @@ namespace parking
                 }
             };
             const std::vector<double> below{-1.0, NO_NUMBER, INF}, notAbove{0.0, -1.0, NO_NUMBER, INF};
-            const std::vector<double> shares{0.0, -1.0, 2.0, NO_NUMBER, INF};
-            expect(
-                "margin", [](TrajectoryOptions &o, double v) { o.margin = v; }, below);
-            expect(
-                "preferred clearance", [](TrajectoryOptions &o, double v) { o.preferredClearance = v; }, below);
-            expect(
-                "time weight", [](TrajectoryOptions &o, double v) { o.weights.time = v; }, notAbove);
-            expect(
-                "effort weight", [](TrajectoryOptions &o, double v) { o.weights.effort = v; }, below);
-            expect(
-                "steering weight", [](TrajectoryOptions &o, double v) { o.weights.steering = v; }, below);
-            expect(
-                "nearness weight", [](TrajectoryOptions &o, double v) { o.weights.nearness = v; }, below);
-            expect(
-                "step", [](TrajectoryOptions &o, double v) { o.step = v; }, notAbove);
-            expect(
-                "share of the speed", [](TrajectoryOptions &o, double v) { o.speedShare = v; }, shares);
-            expect(
-                "share of the acceleration", [](TrajectoryOptions &o, double v) { o.accelerationShare = v; }, shares);
-            expect(
-                "share of the steering angle", [](TrajectoryOptions &o, double v) { o.steeringShare = v; }, shares);
-            expect(
-                "share of the steering rate", [](TrajectoryOptions &o, double v) { o.steeringRateShare = v; }, shares);
-            expect("initial steering angle", [](TrajectoryOptions &o, double v) { o.initialSteering = v; },
-                   {NO_NUMBER, INF});
-            expect("final steering angle", [](TrajectoryOptions &o, double v) { o.finalSteering = v; },
-                   {NO_NUMBER, INF});
-            expect("steering angle at an end", [](TrajectoryOptions &o, double v) { o.initialSteering = v; }, {1.0});
-            expect("steering angle at an end", [](TrajectoryOptions &o, double v) { o.finalSteering = v; }, {-1.0});
+            const std::vector<double> shares{0.0, -1.0, 2.0, NO_NUMBER, INF}, noNumber{NO_NUMBER, INF};
+            using O = TrajectoryOptions;
+            const auto option = [](double O::*field)
+            {
+                return [field](O &options, double value)
+                {
+                    options.*field = value;
+                };
+            };
+            const auto weight = [](double MotionWeights::*field)
+            {
+                return [field](O &options, double value)
+                {
+                    options.weights.*field = value;
+                };
+            };
+            const auto angle = [](std::optional<double> O::*field)
+            {
+                return [field](O &options, double value)
+                {
+                    options.*field = value;
+                };
+            };
+            expect("margin", option(&O::margin), below);
+            expect("preferred clearance", option(&O::preferredClearance), below);
+            expect("step", option(&O::step), notAbove);
+            expect("share of the speed", option(&O::speedShare), shares);
+            expect("share of the acceleration", option(&O::accelerationShare), shares);
+            expect("share of the steering angle", option(&O::steeringShare), shares);
+            expect("share of the steering rate", option(&O::steeringRateShare), shares);
+            expect("time weight", weight(&MotionWeights::time), notAbove);
+            expect("effort weight", weight(&MotionWeights::effort), below);
+            expect("steering weight", weight(&MotionWeights::steering), below);
+            expect("nearness weight", weight(&MotionWeights::nearness), below);
+            expect("initial steering angle", angle(&O::initialSteering), noNumber);
+            expect("final steering angle", angle(&O::finalSteering), noNumber);
+            expect("steering angle at an end", angle(&O::initialSteering), {1.0});
+            expect("steering angle at an end", angle(&O::finalSteering), {-1.0});
         }
 
         TEST(TrajectoryInput, APathThatIsNoneOfTheCarIsRefused)

@@ -23,17 +23,57 @@ namespace parking
         using test::obstaclesBeside;
         using test::Random;
 
-        TEST(TrajectoryOptimizer, AStraightLineTakesWhatFullAccelerationAllows)
+        /** Aside, round and back onto the line on which it begins. */
+        Path detour(double radius)
+        {
+            Path path{{}, {}};
+            for (const double side : {1.0, -1.0, -1.0, 1.0})
+                path.append({side / radius, PI / 3.0 * radius});
+            return path;
+        }
+
+        TEST(TrajectoryOptimizer, AStraightLineLosesNothingWhereverItsPeakIs)
         {
             const Vehicle car;
             const FootprintChecker checker = checkerOf({});
-            for (const double length : {1.0, 5.0, 20.0})
+            for (double length = 0.6; length < 25.0; length *= 1.17)
             {
                 const OptimizedTrajectory found = TrajectoryOptimizer(checker).optimize({{}, {{0.0, length}}});
                 const double bound = bangBang(length, car);
                 EXPECT_GE(found.motion.duration(), bound - 1e-6) << length;
-                EXPECT_LE(found.motion.duration(), bound * 1.01) << length;
+                EXPECT_LE(found.motion.duration(), bound * 1.0005) << length;
             }
+        }
+
+        TEST(TrajectoryOptimizer, CoarseStepsTakeHardlyLongerThanFineOnes)
+        {
+            const FootprintChecker checker = checkerOf({});
+            TrajectoryOptions fine;
+            fine.step = 0.1;
+            double coarseSum = 0.0, fineSum = 0.0;
+            for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            {
+                const Path path = test::randomReedsShepp(seed, 10.0);
+                coarseSum += TrajectoryOptimizer(checker).optimize(path).motion.duration();
+                fineSum += TrajectoryOptimizer(checker, fine).optimize(path).motion.duration();
+            }
+            EXPECT_LT(coarseSum, 1.0005 * fineSum);
+        }
+
+        TEST(TrajectoryOptimizer, OfPathsThatAreAlikeOneIsSolvedAndOfOthersEach)
+        {
+            // Round an obstacle that is not there, on two sides.
+            const auto swing = [](double side, double aside)
+            {
+                return Path{{0.0, aside, 0.0}, {{0.2 * side, 3.0}, {-0.2 * side, 6.0}, {0.2 * side, 3.0}}};
+            };
+            TrajectoryOptions options;
+            options.sharpest = false;
+            const FootprintChecker checker = checkerOf({});
+            const TrajectoryOptimizer optimizer(checker, options);
+            const std::size_t alone = optimizer.optimize(swing(1.0, 0.0)).rounds;
+            EXPECT_EQ(optimizer.optimizeBest({swing(1.0, 0.0), swing(1.0, 1e-3)}).rounds, alone);
+            EXPECT_GT(optimizer.optimizeBest({swing(1.0, 0.0), swing(-1.0, 0.0)}).rounds, alone);
         }
 
         TEST(TrajectoryOptimizer, HoldsEveryLimitTouchesNothingAndIsNeverSlower)
@@ -89,10 +129,7 @@ namespace parking
                     const double column = std::floor((near.x + random.between(-6.0, 6.0)) / side);
                     const double row = std::floor((near.y + random.between(-6.0, 6.0)) / side);
                     const Polygon cell = box((column + 0.5) * side, (row + 0.5) * side, side, side, 0.0);
-                    Vehicle larger = car;
-                    larger.frontOverhang += 0.02;
-                    larger.rearOverhang += 0.02;
-                    larger.width += 0.04;
+                    const Vehicle larger = test::enlarged(car, 0.02);
                     if (std::any_of(states.begin(), states.end(),
                                     [&](const PathState &state) { return test::touches(state.pose, larger, {cell}); }))
                         continue;
@@ -112,10 +149,7 @@ namespace parking
         {
             // A wide way round a box that is out of the optimiser's sight at first: straight on would be quicker.
             const Vehicle car;
-            const double turn = PI / 3.0, radius = 6.0;
-            Path path{{}, {}};
-            for (const double side : {1.0, -1.0, -1.0, 1.0})
-                path.append({side / radius, turn * radius});
+            const Path path = detour(6.0);
             const std::vector<Polygon> obstacles{box(11.5, 0.5, 1.0, 1.0, 0.0)};
             EXPECT_NE(
                 collisionsOf(TrajectoryOptimizer(checkerOf({})).optimize(path).motion, checkerOf(obstacles), 1).size(),
@@ -146,10 +180,7 @@ namespace parking
         {
             // Round a post as closely as it dares.
             const Vehicle car;
-            const double turn = PI / 3.0, radius = 4.0;
-            Path path{{}, {}};
-            for (const double side : {1.0, -1.0, -1.0, 1.0})
-                path.append({side / radius, turn * radius});
+            const Path path = detour(4.0);
             const std::vector<Polygon> post{box(7.5, -0.5, 1.0, 1.0, 0.0)};
             const FootprintChecker checker = checkerOf(post);
             double before = 0.0;
@@ -162,11 +193,8 @@ namespace parking
                 EXPECT_FALSE(found.fallback) << margin << ": " << found.reason;
                 // Between two checkpoints a curve comes nearer than at them, by some tenths of a millimetre.
                 const double kept = margin - std::min(0.5e-3, 0.1 * margin);
-                Vehicle larger = car;
-                larger.frontOverhang += kept;
-                larger.rearOverhang += kept;
-                larger.width += 2.0 * kept;
-                EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), larger, post).fault, "") << margin;
+                EXPECT_EQ(test::judge(sample(found.motion, car, 0.05), test::enlarged(car, kept), post).fault, "")
+                    << margin;
                 EXPECT_GT(found.motion.duration(), before) << margin;
                 before = found.motion.duration();
             }

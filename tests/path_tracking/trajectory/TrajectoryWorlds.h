@@ -27,15 +27,21 @@ namespace parking::test
         return corners;
     }
 
+    /** The car with a body that reaches \e by metres farther on all sides. */
+    inline Vehicle enlarged(Vehicle car, double by)
+    {
+        car.frontOverhang += by;
+        car.rearOverhang += by;
+        car.width += 2.0 * by;
+        return car;
+    }
+
     /** Boxes and triangles as near to the path as they fall without touching the car on it. */
     inline std::vector<Polygon> obstaclesBeside(const Path &path, const Vehicle &car, std::uint64_t seed, int attempts)
     {
         Random random(seed);
         const SampledPath states = path.sample(0.02);
-        Vehicle larger = car;  // what is between two states
-        larger.frontOverhang += 0.01;
-        larger.rearOverhang += 0.01;
-        larger.width += 0.02;
+        const Vehicle larger = enlarged(car, 0.01);  // what is between two states
         std::vector<Polygon> obstacles;
         for (int i = 0; i < attempts; ++i)
         {

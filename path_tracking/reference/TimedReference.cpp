@@ -1,4 +1,4 @@
-#include "path_tracking/reference/MotionReference.h"
+#include "path_tracking/reference/TimedReference.h"
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -12,7 +12,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double STEP = 0.02;         // seconds between two moments
+        constexpr double STEP = 0.02;         // seconds between two moments of a motion
         constexpr double WAY = 0.05;          // metres between two moments
         constexpr double LIMIT_SLACK = 1e-6;  // share of a limit that rounding may take
 
@@ -63,7 +63,46 @@ namespace parking
         }
     }  // namespace
 
-    MotionReference::MotionReference(const TimedMotion &motion, const Vehicle &vehicle)
+    TimedReference::TimedReference(const ReferencePath &path, const SpeedLimits &limits, double initialSteering)
+      : steeringRate_(limits.steeringRate),
+        cornerDeviation_(path.corners().deviation)
+    {
+        limits.validate();
+        const double most = path.vehicle().maxSteeringAngle;
+        if (!(std::abs(initialSteering) <= most + 1e-9))
+            throw Error("speed profile: the initial steering angle is " + formatNumber(initialSteering) +
+                        " rad; the car steers up to " + formatNumber(most) + " rad");
+        finalSteering_ = initialSteering;
+        for (std::size_t i = 0; i < path.legs().size(); ++i)
+        {
+            const ReferenceLeg &leg = path.legs()[i];
+            const std::vector<SpeedPoint> drive = fastestDrive(leg.steering, limits, path.vehicle());
+            const double angle = leg.steering.front().angle;
+            legs_.push_back({leg.direction, leg.beginLength, leg.endLength,
+                             std::abs(angle - finalSteering_) / limits.steeringRate, drive.back().t, angle});
+            finalSteering_ = leg.steering.back().angle;
+            std::vector<Moment> &moments = moments_.emplace_back();
+            const auto add = [&](const SpeedPoint &at)
+            {
+                moments.push_back({at.t, at.s, at.speed, path.steering(i, at.s), path.pose(i, at.s)});
+            };
+            add(drive.front());
+            for (std::size_t k = 1; k < drive.size(); ++k)
+            {
+                const SpeedPoint &a = drive[k - 1], &b = drive[k];
+                const double duration = b.t - a.t;
+                const double parts = std::ceil(duration * std::max(a.speed, b.speed) / WAY);
+                for (double p = 1.0; p < parts; p += 1.0)
+                {
+                    const double time = duration * p / parts, speed = a.speed + (b.speed - a.speed) * p / parts;
+                    add({a.t + time, a.s + 0.5 * time * (a.speed + speed), speed});
+                }
+                add(b);
+            }
+        }
+    }
+
+    TimedReference::TimedReference(const TimedMotion &motion, const Vehicle &vehicle)
       : steeringRate_((check(motion, vehicle), vehicle.maxSteeringRate))
     {
         double standstill = 0.0, s = 0.0, begin = 0.0;
@@ -99,50 +138,59 @@ namespace parking
         finalStandstill_ = standstill;
     }
 
-    TimedState MotionReference::between(const Moment &a, const Moment &b, double time) const
+    double TimedReference::duration() const
     {
-        const double h = b.t - a.t, part = h > 0.0 ? std::clamp((time - a.t) / h, 0.0, 1.0) : 1.0;
-        TimedState state;
-        state.speed = a.speed + part * (b.speed - a.speed);
-        state.steering = a.steering + part * (b.steering - a.steering);
-        // The speed is linear in time, and the way therefore quadratic.
-        const double way = part * h * 0.5 * (a.speed + state.speed), all = b.s - a.s;
-        const double share = all > 0.0 ? std::clamp(way / all, 0.0, 1.0) : part;
-        state.s = a.s + share * all;
-        state.pose = {a.pose.x + share * (b.pose.x - a.pose.x), a.pose.y + share * (b.pose.y - a.pose.y),
-                      wrapAngle(a.pose.yaw + share * (b.pose.yaw - a.pose.yaw))};
-        return state;
+        double sum = finalStandstill_;
+        for (const TimedLeg &leg : legs_)
+            sum += leg.standstill + leg.duration;
+        return sum;
     }
 
-    TimedState MotionReference::at(std::size_t leg, double time) const
+    Pose TimedReference::poseBetween(const Moment &a, const Moment &b, double s) const
+    {
+        const Pose chord = relativeTo(a.pose, b.pose);
+        const double length = std::copysign(b.s - a.s, chord.x);
+        Pose pose = b.s > a.s ? advance(a.pose, chord.yaw / length, length * (s - a.s) / (b.s - a.s)) : b.pose;
+        pose.yaw = wrapAngle(pose.yaw);
+        return pose;
+    }
+
+    TimedState TimedReference::at(std::size_t leg, double time) const
     {
         const std::vector<Moment> &moments = moments_[leg];
         const auto next = std::upper_bound(moments.begin() + 1, moments.end() - 1, time,
                                            [](double value, const Moment &moment) { return value < moment.t; });
-        return between(*(next - 1), *next, time);
+        const Moment &a = *(next - 1), &b = *next;
+        const double h = b.t - a.t, part = h > 0.0 ? std::clamp((time - a.t) / h, 0.0, 1.0) : 1.0;
+        TimedState state;
+        state.speed = a.speed + part * (b.speed - a.speed);
+        state.steering = a.steering + part * (b.steering - a.steering);
+        state.s = std::clamp(a.s + 0.5 * part * h * (a.speed + state.speed), a.s, b.s);
+        state.pose = poseBetween(a, b, state.s);
+        return state;
     }
 
-    const MotionReference::Moment &MotionReference::behind(std::size_t leg, double s) const
+    /** The first moment of a leg that is not before \e s, but not the very first. */
+    const TimedReference::Moment &TimedReference::behind(std::size_t leg, double s) const
     {
         const std::vector<Moment> &moments = moments_[leg];
         return *std::lower_bound(moments.begin() + 1, moments.end() - 1, s,
                                  [](const Moment &moment, double value) { return moment.s < value; });
     }
 
-    double MotionReference::steering(std::size_t leg, double s) const
+    double TimedReference::steering(std::size_t leg, double s) const
     {
         const Moment *b = &behind(leg, s), *a = b - 1;
         const double part = b->s > a->s ? std::clamp((s - a->s) / (b->s - a->s), 0.0, 1.0) : 1.0;
         return a->steering + part * (b->steering - a->steering);
     }
 
-    PathProjection MotionReference::project(std::size_t leg, const Pose &pose, double from, double to) const
+    PathProjection TimedReference::project(std::size_t leg, const Pose &pose, double from, double to) const
     {
         const TimedLeg &l = legs_[leg];
         from = std::clamp(from, l.beginLength, l.endLength);
         to = std::clamp(to, from, l.endLength);
         double best = std::numeric_limits<double>::infinity(), s = from;
-        Pose place;
         for (const Moment *b = &behind(leg, from); b <= &moments_[leg].back(); ++b)
         {
             const Moment *a = b - 1;
@@ -154,31 +202,30 @@ namespace parking
                 squared > 0.0
                     ? std::clamp(((pose.x - a->pose.x) * dx + (pose.y - a->pose.y) * dy) / squared, lowest, highest)
                     : lowest;
-            const Pose here{a->pose.x + part * dx, a->pose.y + part * dy,
-                            a->pose.yaw + part * (b->pose.yaw - a->pose.yaw)};
-            const double apart = std::hypot(pose.x - here.x, pose.y - here.y);
+            const double apart = std::hypot(pose.x - a->pose.x - part * dx, pose.y - a->pose.y - part * dy);
             if (apart < best)
             {
                 best = apart;
                 s = a->s + part * length;
-                place = here;
             }
             if (b->s >= to)
                 break;
         }
-        const Pose offset = relativeTo(place, pose);
-        return {s, offset.y, wrapAngle(offset.yaw), l.direction * offset.x, std::hypot(offset.x, offset.y)};
+        // From the chord to the arc: one step along it.
+        const auto offset = [&]
+        {
+            const Moment &b = behind(leg, s);
+            return relativeTo(poseBetween(*(&b - 1), b, s), pose);
+        };
+        s = std::clamp(s + l.direction * offset().x, from, to);
+        const Pose off = offset();
+        return {s, off.y, wrapAngle(off.yaw), l.direction * off.x, std::hypot(off.x, off.y)};
     }
 
-    Pose MotionReference::end() const
+    Pose TimedReference::end() const
     {
         Pose pose = moments_.back().back().pose;
         pose.yaw = wrapAngle(pose.yaw);
         return pose;
-    }
-
-    double MotionReference::steeringRate() const
-    {
-        return steeringRate_;
     }
 }  // namespace parking

@@ -1,8 +1,7 @@
-#include "path_tracking/simulation/ActuatorLag.h"
+#include "path_tracking/control/ActuatorLag.h"
+#include "path_tracking/control/PoseEstimator.h"
 #include "path_tracking/simulation/Plant.h"
-#include "path_tracking/simulation/PoseEstimator.h"
 
-#include "parking_geometry/Error.h"
 #include "tests/path_tracking/TestPaths.h"
 
 #include <gtest/gtest.h>
@@ -67,14 +66,15 @@ namespace parking::test
                 disturbances.accelerationLag = lag;
                 disturbances.steeringOffset = 0.02;
                 disturbances.speedBias = -0.05;
-                SteeringLagEstimator steering;
+                LagEstimator steering;
                 DriveLagEstimator acceleration;
                 double worst = 0.0;
                 drive(disturbances, 300, waves,
                       [&](const Command &before, const Command &command, const Measurement &last,
                           const Measurement &now, const Plant &plant)
                       {
-                          steering.learn(PERIOD, before.steering, command.steering, last.steering, now.steering);
+                          steering.learn(PERIOD, command.steering - before.steering, before.steering - last.steering,
+                                         command.steering - now.steering, LagEstimator::LEAST_ANGLE);
                           acceleration.learn(PERIOD, command.acceleration, last.speed, now.speed);
                           worst = std::abs(acceleration.acceleration() - plant.state().acceleration / 0.95);
                       });
@@ -143,19 +143,6 @@ namespace parking::test
             }
         }
 
-        TEST(PoseEstimator, RefusesBadParameters)
-        {
-            for (double EstimatorParameters::*field :
-                 {&EstimatorParameters::positionNoise, &EstimatorParameters::yawNoise, &EstimatorParameters::speedBias,
-                  &EstimatorParameters::steeringOffset, &EstimatorParameters::drift})
-                for (const double value : {0.0, -1.0, std::nan("")})
-                {
-                    EstimatorParameters parameters;
-                    parameters.*field = value;
-                    EXPECT_THROW(PoseEstimator(2.8, parameters), Error);
-                }
-        }
-
         TEST(Plant, BrakesAndHolds)
         {
             for (const double lag : {0.0, 0.2})
@@ -184,23 +171,6 @@ namespace parking::test
             EXPECT_NEAR(plant.state().steering, vehicle.maxSteeringRate, 1e-9);
             plant.drive({0.0, 3.0, false}, 2.0, {});
             EXPECT_NEAR(plant.state().steering, vehicle.maxSteeringAngle, 1e-9);
-        }
-
-        TEST(Plant, RefusesBadDisturbances)
-        {
-            const auto refused = [](const auto &change)
-            {
-                Disturbances disturbances;
-                change(disturbances);
-                EXPECT_THROW(Plant(Vehicle(), disturbances, {}, 0.0, 0.005), Error);
-            };
-            refused([](Disturbances &d) { d.steeringLag = -0.1; });
-            refused([](Disturbances &d) { d.accelerationLag = std::nan(""); });
-            refused([](Disturbances &d) { d.positionNoise = -0.1; });
-            refused([](Disturbances &d) { d.yawNoise = -0.1; });
-            refused([](Disturbances &d) { d.speedBias = -1.0; });
-            refused([](Disturbances &d) { d.steeringOffset = 1.0; });
-            EXPECT_THROW(Plant(Vehicle(), {}, {}, 0.0, 0.0), Error);
         }
     }  // namespace
 }  // namespace parking::test

@@ -1,4 +1,4 @@
-#include "path_tracking/simulation/ActuatorLag.h"
+#include "path_tracking/control/ActuatorLag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double LEAST_ANGLE = 0.005;        // radians that say something
-        constexpr double LEAST_ACCELERATION = 0.05;  // m/s^2, likewise
+        constexpr double LEAST_ACCELERATION = 0.05;  // m/s^2 that say something
         constexpr double SHORTEST_LAG = 1e-3;        // seconds; below it there is none
         constexpr double LONGEST_LAG = 0.5;          // seconds
         constexpr double GAIN = 0.2;  // share of what one period says that is believed; the first say more
@@ -50,13 +49,6 @@ namespace parking
         lag_ += std::max(GAIN, 1.0 / (1.0 + seen_)) * (observed - lag_);
         if (lag_ < SHORTEST_LAG)
             lag_ = 0.0;
-    }
-
-    void SteeringLagEstimator::learn(double duration, double commandBefore, double command, double wheelsBefore,
-                                     double wheels)
-    {
-        estimator_.learn(duration, command - commandBefore, commandBefore - wheelsBefore, command - wheels,
-                         LEAST_ANGLE);
     }
 
     void DriveLagEstimator::learn(double duration, double command, double speedBefore, double speed)

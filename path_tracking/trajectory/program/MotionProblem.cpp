@@ -1,4 +1,4 @@
-#include "path_tracking/trajectory/program/SolvedMotion.h"
+#include "path_tracking/trajectory/program/MotionProblem.h"
 
 #include "path_tracking/trajectory/program/IntervalModel.h"
 
@@ -23,6 +23,14 @@ namespace parking
             return share > AT_LIMIT ? 1 : share < -AT_LIMIT ? -1 : 0;
         }
     }  // namespace
+
+    Pose MotionProblem::poseAt(std::size_t interval, double fraction) const
+    {
+        const Eigen::Vector3d pose =
+            IntervalModel(directions[interval], vehicle.wheelbase, nodes[interval], nodes[interval + 1])
+                .poseAt(hermiteWeights(fraction));
+        return {pose[0], pose[1], pose[2]};
+    }
 
     TimedMotion motionOf(const MotionProblem &problem, const Pose &start)
     {

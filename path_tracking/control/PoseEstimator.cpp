@@ -1,4 +1,4 @@
-#include "path_tracking/simulation/PoseEstimator.h"
+#include "path_tracking/control/PoseEstimator.h"
 
 #include "parking_geometry/text/Require.h"
 #include "path_tracking/simulation/BicycleModel.h"

@@ -24,10 +24,13 @@ namespace parking
         Over a period in which the command changes by c, a value that trailed by b before trails by c o + b q after,
         with q = exp(-h / T) and o = T / h (1 - q); the lag T that explains what is seen is found by bisection, and a
         share of the difference is believed. This holds for an angle behind an evenly moving command, and for the mean
-        acceleration of a period behind a stepped one. */
+        acceleration of a period behind a stepped one. Angles are taken as measured: an offset, which command and
+        measurement share, does not matter. */
     class LagEstimator
     {
     public:
+        static constexpr double LEAST_ANGLE = 0.005;  ///< radians of steering that say something, see learn()
+
         /** \param lag seconds, known beforehand */
         explicit LagEstimator(double lag = 0.0) : lag_(lag)
         {
@@ -50,35 +53,6 @@ namespace parking
     private:
         double lag_;
         int seen_{0};
-    };
-
-    /** \brief Learns how far the wheels lag behind their command.
-
-        Angles are taken as measured, so that an offset of the wheels, which command and measurement share, does not
-        matter. */
-    class SteeringLagEstimator
-    {
-    public:
-        /** \param lag seconds, known beforehand */
-        explicit SteeringLagEstimator(double lag = 0.0) : estimator_(lag)
-        {
-        }
-
-        /** \brief Seconds that the wheels lag behind, as far as is known. */
-        double lag() const
-        {
-            return estimator_.lag();
-        }
-
-        /** \brief Learns from one period.
-
-            \param duration seconds
-            \param commandBefore,command radians, at the begin and the end of the period
-            \param wheelsBefore,wheels radians, as measured then */
-        void learn(double duration, double commandBefore, double command, double wheelsBefore, double wheels);
-
-    private:
-        LagEstimator estimator_;
     };
 
     /** \brief Learns how far the drive lags behind its command, and with it the acceleration of the moment. */
