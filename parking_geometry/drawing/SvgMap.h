@@ -124,10 +124,8 @@ namespace parking
         /** \brief A disc. \param radius pixels \return can it be seen? */
         bool drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
 
-        /** \brief A text centred on a point, with a pale halo. */
-        void drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour);
-
-        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule).
+        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule). What outlines of
+           neighbours have in common is not drawn: a stroke shows on the outer side only.
 
             \param outlines holes run the other way round than what they are in \return can its inside be seen? */
         bool drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);

@@ -39,6 +39,11 @@ namespace parking
         }
     }  // namespace
 
+    std::string scenarioName(const std::string &file)
+    {
+        return std::filesystem::path(file).stem().string();
+    }
+
     Scenario readScenario(const std::string &file, const ReaderOptions &options)
     {
         return parseScenario(file, readFile(file, TEXT_FILE_LIMIT), options);

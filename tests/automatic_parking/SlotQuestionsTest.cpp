@@ -150,19 +150,6 @@ TEST(SlotQuestions, NoBodyTurnsWhereTheBoundSaysSo)
     }
 }
 
-TEST(SlotQuestions, OneSweepIsLeftAlone)
-{
-    const Vehicle car;
-    ParkingSlot slot;
-    slot.side = SlotSide::Right;
-    const ParkingPlanner planner = inAisle(7.0);
-    const ReverseParkingResult sweep = ReverseParking(car, planner.parameters().sweep).plan(slot);
-    const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
-    ASSERT_TRUE(sweep.fits() && result.fits());
-    EXPECT_EQ(result.path.stretches().size(), 1u);
-    EXPECT_EQ(result.firstRadius, sweep.firstRadius);
-}
-
 TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
 {
     for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
@@ -221,21 +208,6 @@ TEST(SlotQuestions, EveryWayInIsAGoal)
     EXPECT_GE(driven.size(), 2u);
 }
 
-TEST(SlotQuestions, EqualInputsGiveEqualOutputs)
-{
-    const Vehicle car = vehicleByName("vw_golf8");
-    const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
-    const ParkingPlanner planner = inAisle(AISLE);
-    const ParkingPlan one = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
-    const ParkingPlan two = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
-    ASSERT_EQ(one.path.pieces.size(), two.path.pieces.size());
-    for (std::size_t i = 0; i < one.path.pieces.size(); ++i)
-    {
-        EXPECT_EQ(one.path.pieces[i].length, two.path.pieces[i].length);
-        EXPECT_EQ(one.path.pieces[i].curvature, two.path.pieces[i].curvature);
-    }
-}
-
 TEST(SlotQuestions, SmallestSlotIsSmallerThanForOneSweep)
 {
     const Vehicle car = vehicleByName("toyota_yaris");
@@ -280,6 +252,8 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     steep.kind = SlotKind::Angled;
     steep.angle = 2.0;
     expectError([&] { wayIntoSlot(planner, car, steep); }, {"slot", "angle"});
+
+    expectError([&] { smallestSlot(planner, car, slot, 0.0); }, {"smallest slot", "precision is 0"});
 
     PlanningParameters parameters = PlanningParameters::intoTightSlots();
     parameters.gaps.back() = 0.0;

@@ -5,7 +5,10 @@
 #include "tests/parking_geometry/ExpectError.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,98 +64,54 @@ TEST(ParkingSlot, GoalsPutTheBodyWhereItWasAsked)
     }
 }
 
-TEST(ParkingSlot, ASlotAsLargeAsTheCarHoldsItAndASmallerOneSaysByHowMuch)
+TEST(ParkingSlot, WhatIsWrongIsNamed)
 {
+    // An angled slot half a metre longer and 40 cm wider than the car.
     const Vehicle car;
-    ParkingSlot slot;
-    slot.length = car.length();
-    slot.width = car.width;
-    EXPECT_EQ(slot.goals(car).size(), 1u);
-    slot.length = car.length() - 0.123;
-    expectError([&] { slot.goals(car); }, {"slot", "length", "12.3 cm", "4.689 m"});
-    slot.length = 5.0;
-    slot.width = car.width - 0.02;
-    expectError([&] { slot.goals(car); }, {"slot", "width", "2 cm", "1.942 m"});
-}
-
-TEST(ParkingSlot, DepthAndOffsetMustKeepTheCarInside)
-{
-    const Vehicle car;
-    ParkingSlot slot;
-    slot.length = car.length() + 0.5;
-    slot.width = car.width + 0.4;
-    slot.depth = 0.5;
-    EXPECT_NO_THROW(slot.goals(car));
-    slot.depth = 0.51;
-    expectError([&] { slot.goals(car); }, {"depth", "1 cm", "outside", "0.5"});
-    slot.depth = -0.02;
-    expectError([&] { slot.goals(car); }, {"depth", "2 cm", "outside"});
-    slot.depth = 0.0;
-    slot.lateralOffset = -0.2;
-    EXPECT_NO_THROW(slot.goals(car));
-    slot.lateralOffset = 0.215;
-    expectError([&] { slot.goals(car); }, {"lateral offset", "1.5 cm", "0.2"});
-}
-
-TEST(ParkingSlot, BadFieldsAreNamed)
-{
-    const double notANumber = std::numeric_limits<double>::quiet_NaN();
-    const auto bad = [](const char *field, const std::function<void(ParkingSlot &)> &spoil)
+    const auto spoiled = [&car](const std::function<void(ParkingSlot &)> &spoil)
     {
         ParkingSlot slot;
         slot.kind = SlotKind::Angled;
-        EXPECT_NO_THROW(slot.validate());
+        slot.length = car.length() + 0.5;
+        slot.width = car.width + 0.4;
         spoil(slot);
-        expectError([&] { slot.validate(); }, {"slot", field});
+        return slot;
     };
-    bad("pose x", [&](ParkingSlot &slot) { slot.pose.x = notANumber; });
-    bad("pose y", [&](ParkingSlot &slot) { slot.pose.y = std::numeric_limits<double>::infinity(); });
-    bad("pose yaw", [&](ParkingSlot &slot) { slot.pose.yaw = notANumber; });
-    bad("length", [&](ParkingSlot &slot) { slot.length = -5.0; });
-    bad("length", [&](ParkingSlot &slot) { slot.length = 0.0; });
-    bad("width", [&](ParkingSlot &slot) { slot.width = -0.1; });
-    bad("width", [&](ParkingSlot &slot) { slot.width = notANumber; });
-    bad("angle", [&](ParkingSlot &slot) { slot.angle = 0.0; });
-    bad("angle", [&](ParkingSlot &slot) { slot.angle = 0.5 * PI + 1e-6; });
-    bad("depth", [&](ParkingSlot &slot) { slot.depth = notANumber; });
-    bad("lateral offset", [&](ParkingSlot &slot) { slot.lateralOffset = notANumber; });
-    ParkingSlot slot;
-    slot.kind = SlotKind::Angled;
-    slot.angle = 0.5 * PI;
-    EXPECT_NO_THROW(slot.validate());
-    slot.kind = SlotKind::Perpendicular;
-    slot.angle = -1.0;
-    EXPECT_NO_THROW(slot.validate()) << "only angled slots have an angle of their own";
-}
-
-TEST(ParkingSlot, APoseWhereDoublesAreTooFarApartIsRefused)
-{
-    for (double Pose::*const coordinate : {&Pose::x, &Pose::y})
-        for (const double sign : {-1.0, 1.0})
-        {
-            ParkingSlot slot;
-            slot.pose.*coordinate = sign * FARTHEST_COORDINATE;
-            EXPECT_NO_THROW(slot.validate());
-            slot.pose.*coordinate = sign * 5e11;
-            expectError([&] { slot.validate(); }, {coordinate == &Pose::x ? "slot: pose x is" : "slot: pose y is",
-                                                   "500000000000;", "at most 10000000000 m"});
-            slot.pose.*coordinate = sign * std::nextafter(FARTHEST_COORDINATE, 2e10);
-            expectError([&] { slot.goals(Vehicle()); }, {"slot: pose"});
-        }
-}
-
-TEST(ParkingSlot, OutlineIsTheRectangleCounterClockwise)
-{
-    RandomParking random(12);
-    for (int i = 0; i < 1000; ++i)
+    const auto good = [&](const std::function<void(ParkingSlot &)> &change)
     {
-        const ParkingSlot slot = random.slot(random.vehicle());
-        const Polygon outline = slot.outline();
-        ASSERT_EQ(outline.size(), 4u);
-        EXPECT_NEAR(signedArea(outline), slot.length * slot.width, 1e-9);
-        EXPECT_NEAR((outline[1] - outline[0]).norm(), slot.length, 1e-9);
-        EXPECT_TRUE(contains(outline, {slot.pose.x, slot.pose.y}));
+        EXPECT_EQ(spoiled(change).goals(car).size(), 1u);
+    };
+    const auto bad = [&](const std::vector<std::string> &words, const std::function<void(ParkingSlot &)> &spoil)
+    {
+        expectError([&] { spoiled(spoil).goals(car); }, words);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN(), far = std::nextafter(FARTHEST_COORDINATE, 2e10);
+    good([&](ParkingSlot &slot) { slot.length = car.length(), slot.width = car.width; });
+    good([](ParkingSlot &slot) { slot.depth = 0.5; });
+    good([](ParkingSlot &slot) { slot.lateralOffset = -0.2; });
+    good([](ParkingSlot &slot) { slot.angle = 0.5 * PI; });
+    good([](ParkingSlot &slot) { slot.kind = SlotKind::Perpendicular, slot.angle = -1.0; });
+    good([](ParkingSlot &slot) { slot.pose.x = -FARTHEST_COORDINATE, slot.pose.y = FARTHEST_COORDINATE; });
+    bad({"slot", "length", "12.3 cm", "4.689 m"}, [&](ParkingSlot &slot) { slot.length = car.length() - 0.123; });
+    bad({"slot", "width", "2 cm", "1.942 m"}, [&](ParkingSlot &slot) { slot.width = car.width - 0.02; });
+    bad({"depth", "1 cm", "outside", "0.5"}, [](ParkingSlot &slot) { slot.depth = 0.51; });
+    bad({"depth", "2 cm", "outside"}, [](ParkingSlot &slot) { slot.depth = -0.02; });
+    bad({"lateral offset", "1.5 cm", "0.2"}, [](ParkingSlot &slot) { slot.lateralOffset = 0.215; });
+    bad({"slot", "pose x"}, [&](ParkingSlot &slot) { slot.pose.x = nan; });
+    bad({"slot", "pose y"}, [](ParkingSlot &slot) { slot.pose.y = HUGE_VAL; });
+    bad({"slot", "pose yaw"}, [&](ParkingSlot &slot) { slot.pose.yaw = nan; });
+    // Where doubles are too far apart.
+    bad({"slot: pose x is 500000000000;", "at most 10000000000 m"}, [](ParkingSlot &slot) { slot.pose.x = 5e11; });
+    bad({"slot: pose y is -", "at most 10000000000 m"}, [&](ParkingSlot &slot) { slot.pose.y = -far; });
+    for (const double length : {-5.0, 0.0, 1001.0, nan})
+    {
+        bad({"slot", "length is "}, [&](ParkingSlot &slot) { slot.length = length; });
+        bad({"slot", "width is "}, [&](ParkingSlot &slot) { slot.width = length; });
     }
+    bad({"slot", "angle"}, [](ParkingSlot &slot) { slot.angle = 0.0; });
+    bad({"slot", "angle"}, [](ParkingSlot &slot) { slot.angle = 0.5 * PI + 1e-6; });
+    bad({"slot", "depth"}, [&](ParkingSlot &slot) { slot.depth = nan; });
+    bad({"slot", "lateral offset"}, [&](ParkingSlot &slot) { slot.lateralOffset = nan; });
 }
 
 TEST(ParkingSlot, TheAisleLiesOnTheSideThatWasSaid)

@@ -134,28 +134,3 @@ TEST(MultiStretchParking, ThePlannersPathIsReversedAndCounted)
     };
     expectError([&] { planInStretches(parking, slot, closed, shunts); }, {"multi-stretch", "free"});
 }
-
-TEST(MultiStretchParking, SmallestSlotBisects)
-{
-    const ReverseParking parking{Vehicle()};
-    ParkingSlot slot;
-    slot.kind = SlotKind::Parallel;
-    slot.length = 12.0;
-    const auto fits = [&](const ParkingSlot &tried)
-    {
-        return parking.plan(tried).fits();
-    };
-    const double least = smallestSlot(slot, &ParkingSlot::length, parking.vehicle().length(), fits, 1e-4);
-    EXPECT_NEAR(least, parking.plan(slot).neededSlotLength, 1e-4);
-    // No finer than numbers are, but it ends.
-    int asked = 0;
-    const auto counted = [&asked](const ParkingSlot &tried)
-    {
-        return ++asked < 1000 && tried.length > 5.1;
-    };
-    EXPECT_EQ(smallestSlot(slot, &ParkingSlot::length, 4.5, counted, 1e-300), std::nextafter(5.1, 6.0));
-    EXPECT_LT(asked, 100);
-    slot.length = 6.0;
-    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits); }, {"smallest slot", "larger"});
-    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits, 0.0); }, {"precision"});
-}

@@ -60,7 +60,6 @@ TEST(CurvatureProgram, FindsAProfileWithinTheLimits)
             program.reset(settings(rate), given, {});
             ASSERT_TRUE(program.solve()) << rate;
             expectWithinLimits(program, given);
-            EXPECT_LE(program.iterations(), 25);
         }
 }
 
@@ -118,20 +117,6 @@ TEST(CurvatureProgram, KeepsCorridorsOnEitherSide)
                 EXPECT_LE(end, corridors[i].high);
             }
     }
-}
-
-TEST(CurvatureProgram, GivenEndCurvaturesAreKept)
-{
-    const std::vector<Interval> given = intervals({{0.1, 5.0}, {-0.2, 4.0}, {0.05, 5.0}}, 0.15);
-    CurvatureProgram::Settings values = settings(0.15);
-    values.startCurvature = 0.1;
-    values.endCurvature = 0.05;
-    CurvatureProgram program;
-    program.reset(values, given, {});
-    ASSERT_TRUE(program.solve());
-    expectWithinLimits(program, given);
-    EXPECT_EQ(program.states().front()[2], 0.1);
-    EXPECT_NEAR(program.states().back()[2], 0.05, 1e-5);
 }
 
 TEST(CurvatureProgram, SensitivityIsThatOfTheModel)
