@@ -1,7 +1,6 @@
 #pragma once
 
 #include "automatic_parking/ParkingPlanner.h"
-#include "automatic_parking/ParkingStatus.h"
 #include "automatic_parking/QuickestTrajectory.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
