@@ -378,7 +378,7 @@ TEST(FootprintChecker, HoldsTheCompetitionsCases)
     {
         if (entry.path().extension() != ".csv")
             continue;
-        const Scenario scenario = readTpcapCase(entry.path().string());
+        const Scenario scenario = readScenario(entry.path().string());
         const FootprintChecker checker(ObstacleSet::fromScenario(scenario), scenario.vehicle);
         const PlainFclChecker fcl(ObstacleSet::fromScenario(scenario), scenario.vehicle);
         const PolygonOracle oracle(scenario);

@@ -52,7 +52,7 @@ namespace
         }
         Scenario readCase(const std::string &text)
         {
-            return readTpcapCase(folder_.write("case.csv", text));
+            return readScenario(folder_.write("case.csv", text));
         }
         void expectYamlError(const std::string &text, const std::vector<std::string> &parts)
         {
