@@ -95,20 +95,6 @@ namespace parking
         return planner.wayIn(problem, ParkingWorld(problem));
     }
 
-    ParkingPlan planIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
-                             const Pose &start)
-    {
-        checkStart(withSide(slot), vehicle, start, planner.parameters().sweep.aisleWidth);
-        if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
-        {
-            ParkingPlan plan;
-            plan.message = verdict->message;
-            plan.manoeuvre = *verdict;
-            return plan;
-        }
-        return planner.plan(slotProblem(planner.parameters(), vehicle, slot, start));
-    }
-
     double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
                         double precision)
     {

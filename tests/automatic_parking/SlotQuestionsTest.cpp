@@ -167,7 +167,7 @@ TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
                         slot.length += 4.2, slot.width += 0.4;
                     const ParkingPlanner planner = inAisle(aisle);
                     const Pose start = inTheAisle(slot, -8.0);
-                    const ParkingPlan plan = planIntoSlot(planner, car, slot, start);
+                    const ParkingPlan plan = planner.plan(slotProblem(planner.parameters(), car, slot, start));
                     ASSERT_TRUE(plan.found) << plan.message;
                     EXPECT_EQ(plan.manoeuvre.path.stretches().size() == 1, !tight);
                     EXPECT_LT(gap(plan.arcs.start, start), 1e-9);
@@ -236,12 +236,6 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     ParkingSlot slot;
     slot.side = SlotSide::Right;
     const ParkingPlanner planner = inAisle(6.0);
-    expectError([&] { planIntoSlot(planner, car, slot, {-1.0, 0.0, 0.0}); }, {"start", "cm into the slot"});
-    expectError(
-        [&] {
-            planIntoSlot(planner, car, slot, {8.0, 0.0, 0.5 * PI});
-        },
-        {"start", "cm beyond the aisle of 6 m"});
     ParkingSlot small = slot;
     small.length = 4.5;
     expectError([&] { wayIntoSlot(planner, car, small); }, {"slot", "length", "18.9 cm"});
