@@ -302,7 +302,7 @@ namespace parking
             return true;
         }
 
-        /** Why the controller stopped, when another plan may mend that. */
+        /** Why the controller stopped, when another plan may help. */
         static std::string whyStopped(const DriveResult &drive)
         {
             for (const DriveRecord &record : drive.log)
@@ -385,7 +385,7 @@ namespace parking
             return collisionsOf(rest, *checker, 1).empty();
         }
 
-        /** Is it over? Otherwise \e reason says why to plan anew. */
+        /** Is it over? Otherwise \e reason says why to replan. */
         bool judge(const DriveResult &drive, std::string &reason)
         {
             if (drive.evaluation.collisions > 0)
@@ -398,7 +398,7 @@ namespace parking
                 reason = cause_.empty() ? drive.message : cause_;
                 if (!cause_.empty() && !hopeless_)
                     return false;
-                // The controller stopped for a reason that another path would not mend, or there is no map for one.
+                // The controller stopped for a reason that another path would not remove, or there is no map for one.
                 finish(ParkingStatus::Stopped, reason);
                 return true;
             }

@@ -27,15 +27,15 @@ namespace parking
         constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWorth
 
         /** A step of the ladder: how far to stay away from everything, and how tightly to turn. Metres. */
-        struct Rung
+        struct ClearanceLevel
         {
-            double gap;           ///< what is asked for
+            double gap;           ///< required
             double radius;        ///< of the tightest turn
             double searchMargin;  ///< by which the body is enlarged for searches
             double checkMargin;   ///< and for constructed manoeuvres and smoothing
         };
 
-        /** What a rung has led to: a way from start to goal, or, where only the way in was asked for, that. */
+        /** What a level has led to: a way from start to goal, or, where only the way in is required, that. */
         struct Candidate
         {
             ReverseParkingResult manoeuvre;  ///< the way into the slot; no pieces where there is none
@@ -45,7 +45,7 @@ namespace parking
             /** Metres, 0 for a way in alone; infinite when nothing was found. */
             double cost{std::numeric_limits<double>::infinity()};
             std::size_t stretches{0};                         ///< at the slot
-            Rung rung{};                                      ///< what it was found with
+            ClearanceLevel level{};                           ///< what it was found with
             std::shared_ptr<const FootprintChecker> checker;  ///< within whose margin it may be smoothed
 
             bool found() const
@@ -72,7 +72,7 @@ namespace parking
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        /** The making of one plan: climbs the ladder, compares what its rungs lead to, and smooths the best. */
+        /** The making of one plan: climbs the ladder, compares what its levels lead to, and smooths the best. */
         class Planning
         {
         public:
@@ -103,8 +103,8 @@ namespace parking
                 plan_.approach = std::move(best.approach);
                 plan_.manoeuvre = std::move(best.manoeuvre);
                 plan_.arcs = std::move(best.arcs);
-                plan_.gap = best.rung.gap;
-                plan_.turningRadius = best.rung.radius;
+                plan_.gap = best.level.gap;
+                plan_.turningRadius = best.level.radius;
                 smooth(*best.checker);
                 plan_.clearance = world_.clearance(plan_.path);
                 plan_.message =
@@ -158,7 +158,7 @@ namespace parking
                 return false;
             }
 
-            /** The car stands where it shall stand. */
+            /** The car stands at its goal already. */
             bool stay(const Pose &goal)
             {
                 plan_.found = true;
@@ -182,7 +182,7 @@ namespace parking
                 return parameters_.interrupted && parameters_.interrupted();
             }
 
-            /** Is the time up, or has somebody interrupted? */
+            /** Is the time up, or was planning interrupted? */
             bool isOver() const
             {
                 return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
@@ -196,17 +196,17 @@ namespace parking
 
             /** A step for WayIn::InStretches: its searches keep up to a tolerance less than asked, and smoothing may
                 use half of the gap. */
-            Rung rungInStretches(double gap, double radius) const
+            ClearanceLevel levelInStretches(double gap, double radius) const
             {
                 return {gap, radius, gap - tuning_.sweepTolerance, 0.5 * gap};
             }
 
             /** All tries, in their order. */
-            std::vector<Rung> ladder() const
+            std::vector<ClearanceLevel> ladder() const
             {
                 const std::vector<double> &gaps = parameters_.gaps;
                 const double smallest = scenario_.vehicle.minTurningRadius(), factor = parameters_.radiusFactor;
-                std::vector<Rung> rungs;
+                std::vector<ClearanceLevel> levels;
                 if (inStretches_)
                 {
                     // The gap, and with it the reserve of steering, is given up step by step.
@@ -214,44 +214,44 @@ namespace parking
                     for (std::size_t i = 0; i < gaps.size(); ++i)
                     {
                         const double kept = gaps.size() > 1 ? (last - static_cast<double>(i)) / last : 1.0;
-                        rungs.push_back(rungInStretches(gaps[i], (1.0 + kept * (factor - 1.0)) * smallest));
+                        levels.push_back(levelInStretches(gaps[i], (1.0 + kept * (factor - 1.0)) * smallest));
                     }
-                    return rungs;
+                    return levels;
                 }
                 for (const double each : factor > 1.0 ? std::vector<double>{factor, 1.0} : std::vector<double>{1.0})
                     for (const double gap : gaps)
                         if (gap == 0.0 || gap < mostGap_)
-                            rungs.push_back({gap, each * smallest, gap, gap});
-                return rungs;
+                            levels.push_back({gap, each * smallest, gap, gap});
+                return levels;
             }
 
             /** The best of all tries. */
             Candidate climb()
             {
-                const std::vector<Rung> rungs = ladder();
+                const std::vector<ClearanceLevel> levels = ladder();
                 Candidate best;
-                for (std::size_t i = 0; i < rungs.size(); ++i)
+                for (std::size_t i = 0; i < levels.size(); ++i)
                 {
-                    if (isOver() || !isWorthTrying(rungs[i], best))
+                    if (isOver() || !isWorthTrying(levels[i], best))
                         break;
-                    const bool last = !best.found() && i + 1 == rungs.size();
+                    const bool last = !best.found() && i + 1 == levels.size();
                     if (isLate() && !last)
                         continue;
-                    Candidate next = find(rungs[i], last);
+                    Candidate next = find(levels[i], last);
                     if (isBetter(next, best))
                         best = std::move(next);
                 }
                 return best;
             }
 
-            bool isWorthTrying(const Rung &rung, const Candidate &best) const
+            bool isWorthTrying(const ClearanceLevel &level, const Candidate &best) const
             {
                 if (!best.found())
                     return true;
                 if (inStretches_)
                     return best.stretches > tuning_.manyStretches;
                 // Nothing that a smaller gap allows can be shorter than the bare curve.
-                return rung.radius == best.rung.radius && leastLength(rung.radius) + worth(rung.gap) < price(best);
+                return level.radius == best.level.radius && leastLength(level.radius) + worth(level.gap) < price(best);
             }
 
             bool isBetter(const Candidate &next, const Candidate &best) const
@@ -260,7 +260,7 @@ namespace parking
                     return next.found();
                 if (inStretches_)
                     return static_cast<double>(next.stretches) <=
-                           (1.0 - tuning_.worthASmallerGap) * static_cast<double>(best.stretches);
+                           (1.0 - tuning_.minStretchSaving) * static_cast<double>(best.stretches);
                 return price(next) < price(best);
             }
 
@@ -271,7 +271,7 @@ namespace parking
 
             double price(const Candidate &candidate) const
             {
-                return candidate.cost + worth(candidate.rung.gap);
+                return candidate.cost + worth(candidate.level.gap);
             }
 
             /** Length of the shortest curve to any goal, obstacles or not. */
@@ -290,25 +290,26 @@ namespace parking
                 std::shared_ptr<const FootprintChecker> search, check;
             };
 
-            Checkers checkers(const Rung &rung)
+            Checkers checkers(const ClearanceLevel &level)
             {
                 const Stopwatch loading;
-                Checkers body{world_.enlarged(rung.searchMargin), nullptr};
-                body.check = rung.checkMargin == rung.searchMargin ? body.search : world_.enlarged(rung.checkMargin);
+                Checkers body{world_.enlarged(level.searchMargin), nullptr};
+                body.check = level.checkMargin == level.searchMargin ? body.search : world_.enlarged(level.checkMargin);
                 plan_.loadingTime += loading.seconds();
                 return body;
             }
 
-            /** What \e rung allows. \param last there is no other: the search all the way is granted all of the time */
-            Candidate find(Rung rung, bool last)
+            /** What \e level allows. \param last there is no other: the search all the way is granted all of the time
+             */
+            Candidate find(ClearanceLevel level, bool last)
             {
-                Checkers body = checkers(rung);
+                Checkers body = checkers(level);
                 if (!body.search || !body.check)
                     return {};
                 const bool constructed = scenario_.slot && parameters_.wayIn != WayIn::Searched;
                 std::vector<ReverseParkingResult> ways;
                 if (constructed)
-                    ways = waysIn(rung, body);
+                    ways = waysIn(level, body);
                 // What was not found out of the slot is not looked for into it.
                 if (ways.empty() && (onlyWayIn_ || (constructed && inStretches_)))
                     return {};
@@ -321,35 +322,35 @@ namespace parking
                 else
                 {
                     const double most = tuning_.shareOfStartGap * startRoom_;
-                    if (inStretches_ && most < rung.gap)
+                    if (inStretches_ && most < level.gap)
                     {
-                        rung = rungInStretches(most, rung.radius);
-                        body = checkers(rung);
+                        level = levelInStretches(most, level.radius);
+                        body = checkers(level);
                     }
                     if (!ways.empty())
-                        best = throughManoeuvre(ways, fromStart(rung), *body.search);
+                        best = throughManoeuvre(ways, fromStart(level), *body.search);
                     if (!best.found() || !inStretches_)
                     {
-                        Candidate whole = allTheWay(fromStart(rung), *body.search, last);
+                        Candidate whole = allTheWay(fromStart(level), *body.search, last);
                         if (whole.cost * tuning_.manoeuvrePreference < best.cost)
                             best = std::move(whole);
                     }
                 }
-                best.rung = rung;
+                best.level = level;
                 best.checker = body.check;
                 best.stretches = ways.empty() ? 0 : ways.front().path.stretches().size();
                 return best;
             }
 
-            /** The ways into the slot that \e rung allows, from P in the aisle to the parked pose: all that are one
+            /** The ways into the slot that \e level allows, from P in the aisle to the parked pose: all that are one
                 sweep, otherwise the best in several stretches. */
-            std::vector<ReverseParkingResult> waysIn(const Rung &rung, const Checkers &body)
+            std::vector<ReverseParkingResult> waysIn(const ClearanceLevel &level, const Checkers &body)
             {
                 ReverseParkingOptions sweep = parameters_.sweep;
-                sweep.clearance = inStretches_ ? rung.gap : 0.0;  // otherwise the checker has it already
+                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise the checker has it already
                 if (!inStretches_ && sweep.preferredRadius == 0.0)
                     sweep.preferredRadius =
-                        std::max(rung.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
+                        std::max(level.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
                 const ReverseParking parking(scenario_.vehicle, sweep);
                 const FootprintQueries queries = queriesOf(*body.check);
                 std::vector<ReverseParkingResult> ways = parking.planAll(*scenario_.slot, queries);
@@ -364,7 +365,7 @@ namespace parking
                 {
                     const auto leave = [&](const SlotExitTask &task)
                     {
-                        return search(*body.search, {task.parked, task.exits, Box{task.min, task.max}, rung.radius,
+                        return search(*body.search, {task.parked, task.exits, Box{task.min, task.max}, level.radius,
                                                      tuning_.gearChangeInSlot, false, parameters_.expansionsPerGap});
                     };
                     result = planInStretches(parking, *scenario_.slot, queries, leave);
@@ -388,12 +389,12 @@ namespace parking
                 std::uint64_t expansions;  ///< 0: as many as there is time for
             };
 
-            SearchTask fromStart(const Rung &rung) const
+            SearchTask fromStart(const ClearanceLevel &level) const
             {
                 return {scenario_.start,
                         {},
                         scenario_.bounds,
-                        rung.radius,
+                        level.radius,
                         parameters_.gearChangePenalty,
                         true,
                         parameters_.expansionsPerGap};

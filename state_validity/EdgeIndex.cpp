@@ -205,7 +205,7 @@ namespace parking
             delete cell.load(std::memory_order_relaxed);
     }
 
-    /** What is there, made when first asked for. Several threads may make the same; the first to finish wins. */
+    /** What is there, made lazily. Several threads may make the same; the first to finish wins. */
     template <class T, class Make>
     const T &EdgeIndex::once(std::atomic<T *> &place, const Make &make)
     {

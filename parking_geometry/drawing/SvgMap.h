@@ -15,7 +15,7 @@ namespace parking
         constexpr const char *FORWARD = "#2563eb";        ///< driven forwards
         constexpr const char *REVERSE = "#ea580c";        ///< driven in reverse
         constexpr const char *START = "#334155";          ///< the car where it stands
-        constexpr const char *GOAL = "#059669";           ///< the car where it shall stand, and its slot
+        constexpr const char *GOAL = "#059669";           ///< the car at its goal, and its slot
         constexpr const char *OBSTACLE = "#b4bdca";       ///< inside of an obstacle
         constexpr const char *OBSTACLE_EDGE = "#66717f";  ///< outline of an obstacle
         constexpr const char *OUTSIDE = "#e1e6ed";        ///< beyond the end of the map, or of a world of polygons

@@ -26,7 +26,7 @@ namespace parking
     class CurvatureProgram
     {
     public:
-        /** \brief What the program goes by at all nodes. */
+        /** \brief What the program uses at all nodes. */
         struct Settings
         {
             double maxCurvature{0.3};  ///< kMax, 1/m

@@ -218,7 +218,7 @@ namespace parking
                 if (i < intervals_.size())
                     pose = advance(pose, intervals_[i].curvature, intervals_[i].length);
             }
-            // The end that was asked for, in the turn count of the integration.
+            // The required end, in the turn count of the integration.
             Node &last = nodes_.back();
             const Pose end = part.arcs.end();
             last.pose = {end.x, end.y, last.pose.yaw + wrapAngle(end.yaw + turnedRound - last.pose.yaw)};
