@@ -1,6 +1,5 @@
 #include "automatic_parking/AutomaticParking.h"
 
-#include "automatic_parking/StopSupervisor.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace parking
@@ -28,7 +28,7 @@ namespace parking
 
         /** Share of what the brake is counted on for that a drive uses by itself; the rest is to correct with. */
         constexpr double BRAKE_USED = 0.95;
-        /** Metres that the supervisor keeps even where the plan keeps nothing: poses are known no better. */
+        /** Metres that the guard keeps even where the plan keeps nothing: poses are known no better. */
         constexpr double LEAST_GAP = 0.005;
 
         double yawBetween(const Pose &a, const Pose &b)
@@ -228,7 +228,7 @@ namespace parking
             return std::min(parameters_.stopClearance, std::max(LEAST_GAP, 0.5 * leg.plan.clearance));
         }
 
-        /** Takes back a plan on which the supervisor would stop the car, as it leads nearer to obstacles than that. */
+        /** Takes back a plan on which the guard would stop the car, as it leads nearer to obstacles than that. */
         void refuseTooNarrow(ParkingPlan &plan) const
         {
             if (!plan.found || plan.path.pieces.empty() || plan.clearance >= LEAST_GAP ||
@@ -239,9 +239,18 @@ namespace parking
                 "the way leaves " + rounded(1e3 * plan.clearance, 0.1) + " mm to obstacles, too little to drive";
         }
 
-        void supervise(const ParkingLeg &leg)
+        /** May the car give a command that needs \e stoppingWay to come to rest again, from where it is now?
+
+            As long as every command was allowed, the car can stop without touching anything: with the brake in reserve,
+            after the delay that commands were seen to have, with wheels that follow as they were seen to, or do not.
+            For obstacles that were not there before it stops at once. Where it is nearer than the gap already, which
+            errors of measurement and control may cause, the gap does not count; where it is believed to touch
+            something, nothing is forbidden: it must be able to leave. */
+        bool canStop(const Path &stoppingWay) const
         {
-            supervisor_.emplace(world_, gapOf(leg));
+            if (enlarged_ && enlarged_->isFree(stoppingWay.start))
+                return isPathFree(*enlarged_, stoppingWay);
+            return !world_.footprint().isFree(stoppingWay.start) || world_.isFree(stoppingWay);
         }
 
         /** Drives the plan of \e leg; false when it cannot be driven. */
@@ -259,8 +268,8 @@ namespace parking
             loop.setValidity([this](const Pose &pose) { return world_.footprint().isFree(pose); });
             loop.setSolve(solve_);
             cause_.clear();
-            supervise(leg);
-            loop.setGuard([this](const TrackingStep &step) { return supervisor_->allows(step.stoppingWay); });
+            enlarged_ = world_.enlarged(gapOf(leg));
+            loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingWay); });
             loop.setMonitor([this, &leg](const DriveRecord &record) { return watch(leg, record); });
             try
             {
@@ -293,7 +302,7 @@ namespace parking
             return true;
         }
 
-        /** Why the controller stopped, when another plan may mend that. */
+        /** Why the controller stopped, when another plan may help. */
         static std::string whyStopped(const DriveResult &drive)
         {
             for (const DriveRecord &record : drive.log)
@@ -353,9 +362,9 @@ namespace parking
             const ParkingWorld before = world_;
             world_ = ParkingWorld(changed, fclContactTest());
             scenario_ = std::move(changed);
-            supervise(leg);
+            enlarged_ = world_.enlarged(gapOf(leg));
             const double driven = std::max(0.0, s - parameters_.lookBack), gap = gapOf(leg);
-            // What is passed nearer than the supervisor allows would be crept past, with nothing left for the
+            // What is passed nearer than the guard allows would be crept past, with nothing left for the
             // controller's errors; where it was like that before, it was planned like that.
             if (moved)
                 cause_ = "the goal has changed";
@@ -376,7 +385,7 @@ namespace parking
             return collisionsOf(rest, *checker, 1).empty();
         }
 
-        /** Is it over? Otherwise \e reason says why to plan anew. */
+        /** Is it over? Otherwise \e reason says why to replan. */
         bool judge(const DriveResult &drive, std::string &reason)
         {
             if (drive.evaluation.collisions > 0)
@@ -389,7 +398,7 @@ namespace parking
                 reason = cause_.empty() ? drive.message : cause_;
                 if (!cause_.empty() && !hopeless_)
                     return false;
-                // The controller stopped for a reason that another path would not mend, or there is no map for one.
+                // The controller stopped for a reason that another path would not remove, or there is no map for one.
                 finish(ParkingStatus::Stopped, reason);
                 return true;
             }
@@ -427,9 +436,9 @@ namespace parking
         Pose goal_;
         double time_{0.0};
         double steering_{0.0};
-        bool hopeless_{false};                      // is there no use in planning again?
-        std::optional<StopSupervisor> supervisor_;  // of the drive under way
-        std::string cause_;                         // why the drive under way was stopped by watch(); empty otherwise
+        bool hopeless_{false};                              // is there no use in planning again?
+        std::shared_ptr<const FootprintChecker> enlarged_;  // the body and what it keeps while it stops
+        std::string cause_;  // why the drive under way was stopped by watch(); empty otherwise
         ParkingResult result_;
     };
 

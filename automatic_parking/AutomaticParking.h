@@ -1,7 +1,6 @@
 #pragma once
 
 #include "automatic_parking/ParkingPlanner.h"
-#include "automatic_parking/ParkingStatus.h"
 #include "automatic_parking/QuickestTrajectory.h"
 #include "parking_geometry/Scenario.h"
 #include "path_tracking/simulation/ClosedLoop.h"
@@ -18,7 +17,7 @@ namespace parking
     /** \brief Everything that parking may be tuned with. */
     struct ParkingParameters
     {
-        PlanningParameters planning;  ///< of every plan, the first one and those made anew
+        PlanningParameters planning;  ///< of every plan, the first one and replans
         /** Of the controller and of the simulated car. The time of disturbances runs on from drive to drive. */
         ClosedLoopParameters drive;
 
@@ -35,13 +34,13 @@ namespace parking
         double motionClearance{0.03};
 
         std::size_t maxReplans{3};        ///< plans after the first one
-        double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and plans anew
+        double replanCrossTrack{0.25};    ///< metres beside the path at which the car stops and replans
         double replanHeadingError{0.35};  ///< radians off the path's heading, likewise
-        double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off plans anew
+        double goalTolerance{0.15};       ///< metres from the goal; a car that stands farther off replans
         double goalYawTolerance{0.0349};  ///< radians (2 degrees), likewise
         /** Metres that the body keeps on the way that it needs to stop (half of what the plan keeps, where that is
            less, but 5 mm); a car that could not slows down before. What appears nearer to the way ahead is a reason to
-           plan anew. drive.tracking.brakeReserve is what it counts on the brake for. */
+           replan. drive.tracking.brakeReserve is what it counts on the brake for. */
         double stopClearance{0.03};
         double lookBack{0.1};  ///< metres of path behind the car that a changed map must leave free, too
 
@@ -100,7 +99,7 @@ namespace parking
             the car believes in. Nothing: all is as before.
 
             Obstacles, goals and slot of the new scenario count; its start and its car do not. Its coordinates must be
-            those of the first one (same worldOffset). A scenario that makes no sense is a safe stop. */
+            those of the first one (same worldOffset). An invalid scenario leads to a safe stop. */
         using MapUpdate = std::function<std::optional<Scenario>(double time, const Pose &car)>;
 
         /** \brief Throws parking::Error for parameters out of their range. */
@@ -120,12 +119,12 @@ namespace parking
 
         /** \brief Parks the car of \e scenario.
 
-            Throws parking::Error for a scenario that makes no sense (no goal, an invalid car); everything else is in
+            Throws parking::Error for an invalid scenario (no goal, an invalid car); everything else is in
             the result.
             \param start where the car really stands, when that is not where the scenario believes it to be */
         ParkingResult park(const Scenario &scenario, const std::optional<Pose> &start = std::nullopt) const;
 
-        /** \brief Drives a path that somebody else has planned, an OMPL planner for example, in the world of \e
+        /** \brief Drives a path from elsewhere, that of an OMPL planner for example, in the world of \e
             scenario and without replanning. The result has one leg, whose plan holds nothing but the path. */
         ParkingResult drive(const Scenario &scenario, const Path &path) const;
 

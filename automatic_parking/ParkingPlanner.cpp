@@ -1,14 +1,21 @@
 #include "automatic_parking/ParkingPlanner.h"
 
-#include "automatic_parking/PlanningTries.h"
+#include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
+#include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/curves/ReedsShepp.h"
+#include "parking_geometry/manoeuvres/MultiStretchParking.h"
 #include "parking_geometry/text/Text.h"
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,22 +23,63 @@ namespace parking
 {
     namespace
     {
-        using namespace planning;
+        constexpr double SAME_POSE = 1e-6;  // metres and radians, as for joined()
+        constexpr double GAP_UNIT = 0.25;   // metres, of PlanningParameters::gapWorth
 
-        constexpr double GAP_UNIT = 0.25;  // metres, of PlanningParameters::gapWorth
+        /** A step of the ladder: how far to stay away from everything, and how tightly to turn. Metres. */
+        struct ClearanceLevel
+        {
+            double gap;           ///< required
+            double radius;        ///< of the tightest turn
+            double searchMargin;  ///< by which the body is enlarged for searches
+            double checkMargin;   ///< and for constructed manoeuvres and smoothing
+        };
+
+        /** What a level has led to: a way from start to goal, or, where only the way in is required, that. */
+        struct Candidate
+        {
+            ReverseParkingResult manoeuvre;  ///< the way into the slot; no pieces where there is none
+            Path approach,                   ///< from the start to where the manoeuvre begins, or all the way
+                arcs;                        ///< both, from start to goal
+            Pose goal;                       ///< the pose that the way ends at
+            /** Metres, 0 for a way in alone; infinite when nothing was found. */
+            double cost{std::numeric_limits<double>::infinity()};
+            std::size_t stretches{0};                         ///< at the slot
+            ClearanceLevel level{};                           ///< what it was found with
+            std::shared_ptr<const FootprintChecker> checker;  ///< within whose margin it may be smoothed
+
+            bool found() const
+            {
+                return cost < std::numeric_limits<double>::infinity();
+            }
+        };
+
+        /** Seconds since it was made. */
+        class Stopwatch
+        {
+        public:
+            double seconds() const
+            {
+                return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+            }
+
+        private:
+            std::chrono::steady_clock::time_point begin_{std::chrono::steady_clock::now()};
+        };
 
         std::string centimetres(double metres)
         {
             return formatNumber(std::round(100.0 * metres)) + " cm";
         }
 
-        /** The making of one plan. */
+        /** The making of one plan: climbs the ladder, compares what its levels lead to, and smooths the best. */
         class Planning
         {
         public:
             Planning(const Scenario &scenario, const PlanningParameters &parameters, const ParkingWorld &world)
               : scenario_(scenario),
                 parameters_(parameters),
+                tuning_(parameters.tuning),
                 world_(world),
                 inStretches_(parameters.wayIn == WayIn::InStretches)
             {
@@ -41,16 +89,12 @@ namespace parking
             {
                 if (!checkEnds())
                     return std::move(plan_);
-                Tries tries(scenario_, parameters_, world_, startRoom_, false);
-                Candidate best = climb(tries);
-                plan_.loadingTime = tries.loadingTime();
-                plan_.planningTime = tries.seconds() - plan_.loadingTime;
-                plan_.tries = tries.count();
-                plan_.search = tries.statistics();
+                Candidate best = climb();
+                plan_.planningTime = watch_.seconds() - plan_.loadingTime;
                 if (!best.found())
                 {
-                    fail(ParkingStatus::NoPath, whyNot(tries));
-                    plan_.manoeuvre = tries.verdict().value_or(ReverseParkingResult{});
+                    fail(ParkingStatus::NoPath, whyNot());
+                    plan_.manoeuvre = verdict_.value_or(ReverseParkingResult{});
                     return std::move(plan_);
                 }
                 plan_.found = true;
@@ -59,8 +103,8 @@ namespace parking
                 plan_.approach = std::move(best.approach);
                 plan_.manoeuvre = std::move(best.manoeuvre);
                 plan_.arcs = std::move(best.arcs);
-                plan_.gap = best.rung.gap;
-                plan_.turningRadius = best.rung.radius;
+                plan_.gap = best.level.gap;
+                plan_.turningRadius = best.level.radius;
                 smooth(*best.checker);
                 plan_.clearance = world_.clearance(plan_.path);
                 plan_.message =
@@ -71,9 +115,9 @@ namespace parking
 
             ReverseParkingResult wayIn()
             {
-                Tries tries(scenario_, parameters_, world_, 0.0, true);
-                Candidate best = climb(tries);
-                return best.found() ? std::move(best.manoeuvre) : tries.verdict().value_or(ReverseParkingResult{});
+                onlyWayIn_ = true;
+                Candidate best = climb();
+                return best.found() ? std::move(best.manoeuvre) : verdict_.value_or(ReverseParkingResult{});
             }
 
         private:
@@ -108,12 +152,13 @@ namespace parking
                 else
                 {
                     mostGap_ = std::min(startRoom_, goalRoom);
+                    watch_ = Stopwatch();
                     return true;
                 }
                 return false;
             }
 
-            /** The car stands where it shall stand. */
+            /** The car stands at its goal already. */
             bool stay(const Pose &goal)
             {
                 plan_.found = true;
@@ -124,20 +169,44 @@ namespace parking
                 return false;
             }
 
-            std::string whyNot(const Tries &tries) const
+            std::string whyNot() const
             {
-                if (tries.verdict() && inStretches_)
-                    return tries.verdict()->message;
-                return tries.isOver() ? "no path was found within " + formatNumber(parameters_.timeLimit) + " s"
-                                      : "there is no path for this car";
+                if (verdict_ && inStretches_)
+                    return verdict_->message;
+                return isOver() ? "no path was found within " + formatNumber(parameters_.timeLimit) + " s"
+                                : "there is no path for this car";
+            }
+
+            bool isInterrupted() const
+            {
+                return parameters_.interrupted && parameters_.interrupted();
+            }
+
+            /** Is the time up, or was planning interrupted? */
+            bool isOver() const
+            {
+                return isInterrupted() || watch_.seconds() > parameters_.timeLimit;
+            }
+
+            /** Is it time for the last resort? */
+            bool isLate() const
+            {
+                return isInterrupted() || watch_.seconds() > tuning_.shareForTries * parameters_.timeLimit;
+            }
+
+            /** A step for WayIn::InStretches: its searches keep up to a tolerance less than asked, and smoothing may
+                use half of the gap. */
+            ClearanceLevel levelInStretches(double gap, double radius) const
+            {
+                return {gap, radius, gap - tuning_.sweepTolerance, 0.5 * gap};
             }
 
             /** All tries, in their order. */
-            std::vector<Rung> ladder() const
+            std::vector<ClearanceLevel> ladder() const
             {
                 const std::vector<double> &gaps = parameters_.gaps;
                 const double smallest = scenario_.vehicle.minTurningRadius(), factor = parameters_.radiusFactor;
-                std::vector<Rung> rungs;
+                std::vector<ClearanceLevel> levels;
                 if (inStretches_)
                 {
                     // The gap, and with it the reserve of steering, is given up step by step.
@@ -145,45 +214,44 @@ namespace parking
                     for (std::size_t i = 0; i < gaps.size(); ++i)
                     {
                         const double kept = gaps.size() > 1 ? (last - static_cast<double>(i)) / last : 1.0;
-                        rungs.push_back(
-                            rungInStretches(gaps[i], (1.0 + kept * (factor - 1.0)) * smallest, parameters_.tuning));
+                        levels.push_back(levelInStretches(gaps[i], (1.0 + kept * (factor - 1.0)) * smallest));
                     }
-                    return rungs;
+                    return levels;
                 }
                 for (const double each : factor > 1.0 ? std::vector<double>{factor, 1.0} : std::vector<double>{1.0})
                     for (const double gap : gaps)
                         if (gap == 0.0 || gap < mostGap_)
-                            rungs.push_back({gap, each * smallest, gap, gap});
-                return rungs;
+                            levels.push_back({gap, each * smallest, gap, gap});
+                return levels;
             }
 
             /** The best of all tries. */
-            Candidate climb(Tries &tries) const
+            Candidate climb()
             {
-                const std::vector<Rung> rungs = ladder();
+                const std::vector<ClearanceLevel> levels = ladder();
                 Candidate best;
-                for (std::size_t i = 0; i < rungs.size(); ++i)
+                for (std::size_t i = 0; i < levels.size(); ++i)
                 {
-                    if (tries.isOver() || !isWorthTrying(rungs[i], best))
+                    if (isOver() || !isWorthTrying(levels[i], best))
                         break;
-                    const bool last = !best.found() && i + 1 == rungs.size();
-                    if (tries.isLate() && !last)
+                    const bool last = !best.found() && i + 1 == levels.size();
+                    if (isLate() && !last)
                         continue;
-                    Candidate next = tries.find(rungs[i], last);
+                    Candidate next = find(levels[i], last);
                     if (isBetter(next, best))
                         best = std::move(next);
                 }
                 return best;
             }
 
-            bool isWorthTrying(const Rung &rung, const Candidate &best) const
+            bool isWorthTrying(const ClearanceLevel &level, const Candidate &best) const
             {
                 if (!best.found())
                     return true;
                 if (inStretches_)
-                    return best.stretches > parameters_.tuning.manyStretches;
+                    return best.stretches > tuning_.manyStretches;
                 // Nothing that a smaller gap allows can be shorter than the bare curve.
-                return rung.radius == best.rung.radius && leastLength(rung.radius) + worth(rung.gap) < price(best);
+                return level.radius == best.level.radius && leastLength(level.radius) + worth(level.gap) < price(best);
             }
 
             bool isBetter(const Candidate &next, const Candidate &best) const
@@ -192,18 +260,18 @@ namespace parking
                     return next.found();
                 if (inStretches_)
                     return static_cast<double>(next.stretches) <=
-                           (1.0 - parameters_.tuning.worthASmallerGap) * static_cast<double>(best.stretches);
+                           (1.0 - tuning_.minStretchSaving) * static_cast<double>(best.stretches);
                 return price(next) < price(best);
             }
 
             double worth(double gap) const
             {
-                return parameters_.gapWorth * GAP_UNIT / (gap + parameters_.tuning.gapOffset);
+                return parameters_.gapWorth * GAP_UNIT / (gap + tuning_.gapOffset);
             }
 
             double price(const Candidate &candidate) const
             {
-                return candidate.cost + worth(candidate.rung.gap);
+                return candidate.cost + worth(candidate.level.gap);
             }
 
             /** Length of the shortest curve to any goal, obstacles or not. */
@@ -214,6 +282,205 @@ namespace parking
                 for (const Pose &goal : scenario_.goals)
                     least = std::min(least, curves.distance(scenario_.start, goal));
                 return least;
+            }
+
+            /** The body, enlarged for searches and for everything else; null where it is larger than the world. */
+            struct Checkers
+            {
+                std::shared_ptr<const FootprintChecker> search, check;
+            };
+
+            Checkers checkers(const ClearanceLevel &level)
+            {
+                const Stopwatch loading;
+                Checkers body{world_.enlarged(level.searchMargin), nullptr};
+                body.check = level.checkMargin == level.searchMargin ? body.search : world_.enlarged(level.checkMargin);
+                plan_.loadingTime += loading.seconds();
+                return body;
+            }
+
+            /** What \e level allows. \param last there is no other: the search all the way is granted all of the time
+             */
+            Candidate find(ClearanceLevel level, bool last)
+            {
+                Checkers body = checkers(level);
+                if (!body.search || !body.check)
+                    return {};
+                const bool constructed = scenario_.slot && parameters_.wayIn != WayIn::Searched;
+                std::vector<ReverseParkingResult> ways;
+                if (constructed)
+                    ways = waysIn(level, body);
+                // What was not found out of the slot is not looked for into it.
+                if (ways.empty() && (onlyWayIn_ || (constructed && inStretches_)))
+                    return {};
+                Candidate best;
+                if (onlyWayIn_)
+                {
+                    best.manoeuvre = ways.front();
+                    best.cost = 0.0;
+                }
+                else
+                {
+                    const double most = tuning_.shareOfStartGap * startRoom_;
+                    if (inStretches_ && most < level.gap)
+                    {
+                        level = levelInStretches(most, level.radius);
+                        body = checkers(level);
+                    }
+                    if (!ways.empty())
+                        best = throughManoeuvre(ways, fromStart(level), *body.search);
+                    if (!best.found() || !inStretches_)
+                    {
+                        Candidate whole = allTheWay(fromStart(level), *body.search, last);
+                        if (whole.cost * tuning_.manoeuvrePreference < best.cost)
+                            best = std::move(whole);
+                    }
+                }
+                best.level = level;
+                best.checker = body.check;
+                best.stretches = ways.empty() ? 0 : ways.front().path.stretches().size();
+                return best;
+            }
+
+            /** The ways into the slot that \e level allows, from P in the aisle to the parked pose: all that are one
+                sweep, otherwise the best in several stretches. */
+            std::vector<ReverseParkingResult> waysIn(const ClearanceLevel &level, const Checkers &body)
+            {
+                ReverseParkingOptions sweep = parameters_.sweep;
+                sweep.clearance = inStretches_ ? level.gap : 0.0;  // otherwise the checker has it already
+                if (!inStretches_ && sweep.preferredRadius == 0.0)
+                    sweep.preferredRadius =
+                        std::max(level.radius, tuning_.manoeuvreRadius * scenario_.vehicle.minTurningRadius());
+                const ReverseParking parking(scenario_.vehicle, sweep);
+                const FootprintQueries queries = queriesOf(*body.check);
+                std::vector<ReverseParkingResult> ways = parking.planAll(*scenario_.slot, queries);
+                ReverseParkingResult result = ways.front();
+                ways.erase(std::remove_if(ways.begin(), ways.end(),
+                                          [](const ReverseParkingResult &way)
+                                          { return !way.fits() || way.path.pieces.empty(); }),
+                           ways.end());
+                if (!ways.empty())
+                    return ways;
+                if (inStretches_)
+                {
+                    const auto leave = [&](const SlotExitTask &task)
+                    {
+                        return search(*body.search, {task.parked, task.exits, Box{task.min, task.max}, level.radius,
+                                                     tuning_.gearChangeInSlot, false, parameters_.expansionsPerGap});
+                    };
+                    result = planInStretches(parking, *scenario_.slot, queries, leave);
+                    if (result.fits())
+                        return {std::move(result)};
+                    result.message += "; nor was a way in several stretches found";
+                }
+                if (!verdict_)
+                    verdict_ = std::move(result);
+                return ways;
+            }
+
+            struct SearchTask
+            {
+                Pose from;
+                std::vector<Pose> to;
+                Box bounds;  ///< of the rear axle
+                double radius;
+                double gearChange;
+                bool bothSides;            ///< search from both ends; otherwise out of \e from
+                std::uint64_t expansions;  ///< 0: as many as there is time for
+            };
+
+            SearchTask fromStart(const ClearanceLevel &level) const
+            {
+                return {scenario_.start,
+                        {},
+                        scenario_.bounds,
+                        level.radius,
+                        parameters_.gearChangePenalty,
+                        true,
+                        parameters_.expansionsPerGap};
+            }
+
+            /** To where one of \e ways begins, and on along it. */
+            Candidate throughManoeuvre(const std::vector<ReverseParkingResult> &ways, SearchTask task,
+                                       const FootprintChecker &checker)
+            {
+                Candidate candidate;
+                for (const ReverseParkingResult &way : ways)
+                    task.to.push_back(way.path.start);
+                candidate.approach = search(checker, task);
+                for (const ReverseParkingResult &way : ways)
+                    if (isSamePose(candidate.approach.end(), way.path.start, SAME_POSE))
+                    {
+                        candidate.manoeuvre = way;
+                        candidate.goal = way.goal;
+                        candidate.arcs = joined(candidate.approach, way.path);
+                        candidate.cost = cost(candidate.arcs);
+                        break;
+                    }
+                return candidate;
+            }
+
+            /** The search's own way to one of the goals. */
+            Candidate allTheWay(SearchTask task, const FootprintChecker &checker, bool last)
+            {
+                Candidate candidate;
+                if (inStretches_)
+                    task.gearChange = tuning_.gearChangeInSlot;
+                if (last && std::isfinite(parameters_.timeLimit))
+                    task.expansions = 0;
+                std::copy_if(scenario_.goals.begin(), scenario_.goals.end(), std::back_inserter(task.to),
+                             [&checker](const Pose &goal) { return checker.isFree(goal); });
+                if (task.to.empty())
+                    return candidate;
+                candidate.approach = candidate.arcs = search(checker, task);
+                if (candidate.arcs.pieces.empty())
+                    return candidate;
+                for (const Pose &goal : task.to)
+                    if (isSamePose(candidate.arcs.end(), goal, SAME_POSE))
+                        candidate.goal = goal;
+                candidate.cost = cost(candidate.arcs);
+                return candidate;
+            }
+
+            /** Without pieces when nothing was found. */
+            Path search(const FootprintChecker &checker, const SearchTask &task)
+            {
+                ++plan_.tries;
+                FootprintEnvironment environment(checker, task.bounds, tuning_.sweepTolerance);
+                search::PlanRequest request;
+                request.starts = {task.from};
+                request.goals = task.to;
+                request.car = search::carInSpace(checker.vehicle(), checker.margin(), task.bounds);
+                request.car.turningRadius = task.radius;
+                request.parameters.bidirectional = task.bothSides;
+                request.parameters.searchFrom = task.bothSides ? "goal" : "start";
+                request.parameters.gearChangePenalty = task.gearChange;
+                request.parameters.steeringChangePenalty = parameters_.steeringChangePenalty;
+                request.parameters.preferredClearance = parameters_.preferredClearance;
+                request.parameters.clearanceCost = parameters_.clearanceCost;
+                request.parameters.detours = task.bothSides;  // out of a slot they lead in more stretches
+                request.parameters.approximate = false;
+                request.maxExpansions = task.expansions;
+                request.stop = [this, isLast = task.expansions == 0]
+                {
+                    return isLast ? isOver() : isLate();
+                };
+                search::PlanResult result = search::plan(environment, request);
+                plan_.search += result.statistics;
+                return result.outcome == search::PlanOutcome::Solved ? std::move(result.path) : Path{task.from, {}};
+            }
+
+            /** Cost as of the car itself, so that paths planned with different gaps can be compared. */
+            double cost(const Path &path) const
+            {
+                FootprintEnvironment environment(world_.footprint(), scenario_.bounds, tuning_.sweepTolerance);
+                search::CostModel model;
+                model.gearChangePenalty = parameters_.gearChangePenalty;
+                model.steeringChangePenalty = parameters_.steeringChangePenalty;
+                model.fullLockCurvature = 1.0 / scenario_.vehicle.minTurningRadius();
+                model.preferredClearance = parameters_.preferredClearance;
+                model.clearanceCost = parameters_.clearanceCost;
+                return search::price(model, path, environment).cost;
             }
 
             void smooth(const FootprintChecker &checker)
@@ -235,13 +502,41 @@ namespace parking
 
             const Scenario &scenario_;
             const PlanningParameters &parameters_;
+            const PlanningTuning &tuning_;
             const ParkingWorld &world_;
             const bool inStretches_;
-            double startRoom_{0.0};  ///< metres, what the start leaves all round the body
-            double mostGap_{std::numeric_limits<double>::infinity()};  ///< metres, what start and goal leave
+            bool onlyWayIn_{false};  // the part at the slot is enough, wherever the car comes from
+            double startRoom_{0.0};  // metres, what the start leaves all round the body
+            double mostGap_{std::numeric_limits<double>::infinity()};  // metres, what start and goal leave
+            Stopwatch watch_;                                          // of the tries
+            std::optional<ReverseParkingResult> verdict_;              // of the first try that found no way in: why not
             ParkingPlan plan_;
         };
     }  // namespace
+
+    std::string toString(ParkingStatus status)
+    {
+        switch (status)
+        {
+            case ParkingStatus::Parked:
+                return "parked";
+            case ParkingStatus::InvalidStart:
+                return "invalid_start";
+            case ParkingStatus::InvalidGoal:
+                return "invalid_goal";
+            case ParkingStatus::NoPath:
+                return "no_path";
+            case ParkingStatus::NotDrivable:
+                return "not_drivable";
+            case ParkingStatus::Collision:
+                return "collision";
+            case ParkingStatus::Stopped:
+                return "stopped";
+            case ParkingStatus::MissedGoal:
+                return "missed_goal";
+        }
+        return "stopped";
+    }
 
     ParkingPlanner::ParkingPlanner(const PlanningParameters &parameters, ContactTestMaker contact)
       : parameters_((parameters.validate(), parameters)),

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "automatic_parking/ParkingStatus.h"
 #include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/PlanningParameters.h"
 #include "ompl_improved_astar/search/SearchContext.h"
@@ -14,6 +13,23 @@
 
 namespace parking
 {
+    /** \brief How a parking manoeuvre ended. */
+    enum class ParkingStatus
+    {
+        Parked,        ///< the car stands where it was asked to
+        InvalidStart,  ///< the car touches an obstacle, or is outside of the world, where it starts
+        InvalidGoal,   ///< it would at its goal
+        NoPath,        ///< the planner found no path within its time
+        NotDrivable,   ///< the path cannot be driven: a curvature that the car has not, for example
+        Collision,     ///< the driven body touched an obstacle
+        Stopped,       ///< a safe stop on the way, and no replanning left or allowed
+        MissedGoal     ///< it stands, but farther from the goal than the tolerances say
+    };
+
+    /** \brief Names as in results: parked, invalid_start, invalid_goal, no_path, not_drivable, collision, stopped,
+        missed_goal. */
+    std::string toString(ParkingStatus status);
+
     /** \brief What planning came to, stage by stage. */
     struct ParkingPlan
     {
@@ -42,7 +58,7 @@ namespace parking
         search::SearchStatistics search;  ///< of all tries
     };
 
-    /** \brief Plans how a car gets from where it stands to where it shall stand (paper, "Overall Workflow").
+    /** \brief Plans how a car gets from its start to its goal (paper, "Overall Workflow").
 
         A ladder of tries, from a wide gap round the body to a narrow one. Each of them:
         1. constructs the ways into the slot (ReverseParking), or searches one out of the slot (planInStretches()),
@@ -67,7 +83,7 @@ namespace parking
 
         /** \brief Plans from scenario.start; never throws for a problem that has no solution.
 
-            Throws parking::Error for a scenario that makes no sense: no goal, a car or a slot that is not valid, a slot
+            Throws parking::Error for an invalid scenario: no goal, a car or a slot that is not valid, a slot
             smaller than the car in a world that has room for the car there. */
         ParkingPlan plan(const Scenario &scenario) const;
 

@@ -40,7 +40,7 @@ namespace parking
             @{ */
         double gearChangeInSlot{4.0};   ///< metres that a change of direction may save on the way out of the slot
         std::size_t manyStretches{8};   ///< ways in of more stretches are sought with the next gap, too,
-        double worthASmallerGap{0.25};  ///< which is taken when it saves this share of them
+        double minStretchSaving{0.25};  ///< which is taken when it saves this share of them
         double shareOfStartGap{0.9};    ///< a start nearer to obstacles than the gap is left with this share of its own
         /** @} */
 

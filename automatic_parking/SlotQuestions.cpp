@@ -1,6 +1,6 @@
 #include "automatic_parking/SlotQuestions.h"
 
-#include "parking_geometry/manoeuvres/MultiStretchParking.h"
+#include "parking_geometry/Error.h"
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 #include "parking_geometry/text/Text.h"
 
@@ -95,38 +95,37 @@ namespace parking
         return planner.wayIn(problem, ParkingWorld(problem));
     }
 
-    ParkingPlan planIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
-                             const Pose &start)
-    {
-        checkStart(withSide(slot), vehicle, start, planner.parameters().sweep.aisleWidth);
-        if (std::optional<ReverseParkingResult> verdict = hopeless(planner.parameters(), vehicle, withSide(slot)))
-        {
-            ParkingPlan plan;
-            plan.message = verdict->message;
-            plan.manoeuvre = *verdict;
-            return plan;
-        }
-        return planner.plan(slotProblem(planner.parameters(), vehicle, slot, start));
-    }
-
     double smallestSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
                         double precision)
     {
+        if (!(precision > 0.0))
+            throw Error("smallest slot: precision is " + formatNumber(precision) +
+                        "; it must be a positive number of metres");
         const PlanningTuning &tuning = planner.parameters().tuning;
         const bool parallel = slot.kind == SlotKind::Parallel;
         double ParkingSlot::*const dimension = parallel ? &ParkingSlot::length : &ParkingSlot::width;
         const double least = (parallel ? vehicle.length() : vehicle.width) + 2.0 * planner.parameters().gaps.back();
-        const auto fits = [&](const ParkingSlot &tried)
+        const auto fits = [&](const ParkingSlot &size)
         {
-            return wayIntoSlot(planner, vehicle, tried).fits();
+            return wayIntoSlot(planner, vehicle, size).fits();
         };
-        ParkingSlot largest = slot;
-        largest.depth.reset();
-        largest.lateralOffset = 0.0;
-        largest.*dimension = std::max(slot.*dimension, least);
-        for (double grown = 0.0; !fits(largest); grown += tuning.growthStep, largest.*dimension += tuning.growthStep)
+        ParkingSlot tried = slot;
+        tried.depth.reset();
+        tried.lateralOffset = 0.0;
+        tried.*dimension = std::max(slot.*dimension, least);
+        for (double grown = 0.0; !fits(tried); grown += tuning.growthStep, tried.*dimension += tuning.growthStep)
             if (grown >= tuning.mostGrowth)
                 return std::numeric_limits<double>::infinity();
-        return smallestSlot(largest, dimension, least, fits, precision);
+        // By bisection, as larger slots are never worse.
+        double low = least, high = tried.*dimension;
+        while (high - low > precision)
+        {
+            tried.*dimension = 0.5 * (low + high);
+            // A precision may be finer than the numbers are.
+            if (!(tried.*dimension > low && tried.*dimension < high))
+                break;
+            (fits(tried) ? high : low) = tried.*dimension;
+        }
+        return high;
     }
 }  // namespace parking

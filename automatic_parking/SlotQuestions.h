@@ -16,20 +16,14 @@ namespace parking
     // their side lie on the right. The planner should be one of PlanningParameters::intoTightSlots(). All functions
     // throw parking::Error for an invalid slot and for one smaller than the car, naming the missing centimetres.
 
-    /** \brief The problem: \e slot in its regular world, large enough for \e start where that is given. */
+    /** \brief The problem: \e slot in its regular world, large enough for \e start where that is given; all the way
+       from there is what ParkingPlanner::plan() makes of it. */
     Scenario slotProblem(const PlanningParameters &parameters, const Vehicle &vehicle, const ParkingSlot &slot,
                          const std::optional<Pose> &start = std::nullopt);
 
     /** \brief The part at the slot: from P in the aisle to the parked pose. Its path says in how many stretches,
         neededSlotLength and neededAisleWidth what one sweep would need. */
     ReverseParkingResult wayIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot);
-
-    /** \brief All the way from \e start.
-
-        Throws parking::Error when the car at \e start already reaches into the slot, or beyond the aisle, saying how
-       far (see checkStart()). */
-    ParkingPlan planIntoSlot(const ParkingPlanner &planner, const Vehicle &vehicle, const ParkingSlot &slot,
-                             const Pose &start);
 
     /** \brief The shortest parallel slot, or the narrowest other one, in metres, that the car gets into in however many
         stretches; centre, and the rest of \e slot, stay as they are.

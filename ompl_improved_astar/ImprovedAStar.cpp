@@ -50,8 +50,6 @@ namespace ompl::geometric
         using parking::search::PathPlanner;
         using parking::search::PlanOutcome;
 
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
         // Between states asked for along a motion with a checker that knows states only, in turning radii.
         constexpr double CHECK_STEP = 0.02;
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles
@@ -154,10 +152,10 @@ namespace ompl::geometric
         std::string reason;                         ///< why there is no solution, where known
         bool hasSolution{false};                    ///< there is an exact one: path
         Path path;                                  ///< the best one by the problem's objective
-        double plannedCost{INFINITE};               ///< of path, by the planner's own model
+        double plannedCost{HUGE_VAL};               ///< of path, by the planner's own model
         double proximity{0.0};                      ///< of that, for being near to obstacles
         std::vector<Pose> states;                   ///< of it, for OMPL
-        base::Cost bestCost{INFINITE};              ///< of path
+        base::Cost bestCost{HUGE_VAL};              ///< of path
         base::OptimizationObjectivePtr objective;   ///< that bestCost is of; none: length and proximity, in metres
         std::vector<Pose> solution;                 ///< what was reported last, when it was exact
         base::SpaceInformationPtr si;               ///< that of the planner
@@ -212,7 +210,7 @@ namespace ompl::geometric
             outcome = PlanOutcome::Timeout;
             reason.clear();
             solution.clear();
-            bestCost = base::Cost(INFINITE);
+            bestCost = base::Cost(HUGE_VAL);
             objective.reset();
         }
 
@@ -278,7 +276,7 @@ namespace ompl::geometric
     ImprovedAStar::ImprovedAStar(const ob::SpaceInformationPtr &si)
       : ob::Planner(si, "ImprovedAStar"),
         query_(std::make_unique<Query>(si)),
-        bestCost_(INFINITE)
+        bestCost_(HUGE_VAL)
     {
         specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
         specs_.approximateSolutions = true;
@@ -337,7 +335,7 @@ namespace ompl::geometric
     {
         pis_.restart();
         query_->forget();
-        bestCost_ = INFINITE;
+        bestCost_ = HUGE_VAL;
         expanded_ = 0;
     }
 
@@ -575,7 +573,7 @@ namespace ompl::geometric
 
     double ImprovedAStar::suboptimalityBound()
     {
-        return query_->hasSolution ? query_->planner.suboptimalityBound(query_->plannedCost) : INFINITE;
+        return query_->hasSolution ? query_->planner.suboptimalityBound(query_->plannedCost) : HUGE_VAL;
     }
 
     Path ImprovedAStar::smoothed(const Path &path, const ob::PlannerTerminationCondition &ptc) const
@@ -714,7 +712,7 @@ namespace ompl::geometric
 
     double ImprovedAStar::differenceFromGoal(const ob::State *state) const
     {
-        double difference = INFINITE;
+        double difference = HUGE_VAL;
         const ob::Goal &goal = *pdef_->getGoal();
         if (!goal.hasType(ob::GOAL_STATE) && !goal.hasType(ob::GOAL_STATES))
         {

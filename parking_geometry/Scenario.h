@@ -15,7 +15,7 @@
 
 namespace parking
 {
-    /** \brief A parking problem: obstacles, a car, where it stands and where it shall stand.
+    /** \brief A parking problem: obstacles, a car, its start and its goals.
 
         All coordinates are local: metres relative to \e worldOffset, which readers choose so that numbers near the
         problem are small (some cases sit at 4e9 m, where a double resolves a micrometre only). A world coordinate is

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace parking
 {
@@ -13,7 +12,6 @@ namespace parking
         constexpr double MAX_BUCKETS = 4.0e6;    // larger worlds get larger buckets
         constexpr double CELL_OF_BUCKETS = 4.0;  // side of a cell in buckets
         constexpr std::size_t BLOCK_SIZE = 8;
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         // Rounding of rotated coordinates within a few kilometres of the frame, with room to spare.
         constexpr double ROUNDING = 1e-10;
         // An edge that is cut off at its very end has no length left, by which nothing must be divided.
@@ -207,7 +205,7 @@ namespace parking
             delete cell.load(std::memory_order_relaxed);
     }
 
-    /** What is there, made when first asked for. Several threads may make the same; the first to finish wins. */
+    /** What is there, made lazily. Several threads may make the same; the first to finish wins. */
     template <class T, class Make>
     const T &EdgeIndex::once(std::atomic<T *> &place, const Make &make)
     {
@@ -230,13 +228,13 @@ namespace parking
         const Eigen::Vector2d hair(1e-9, 1e-9);
         Box box{low - hair, low + Eigen::Vector2d(cellSize_, cellSize_) + hair};
         if (column == 0)
-            box.min.x() = -INFINITE;
+            box.min.x() = -HUGE_VAL;
         if (row == 0)
-            box.min.y() = -INFINITE;
+            box.min.y() = -HUGE_VAL;
         if (column + 1 == cellColumns_)
-            box.max.x() = INFINITE;
+            box.max.x() = HUGE_VAL;
         if (row + 1 == cellRows_)
-            box.max.y() = INFINITE;
+            box.max.y() = HUGE_VAL;
 
         // Edges by their place along the curve, the place in the higher half of a key and the edge in the lower one.
         const std::size_t *const first = &first_[row * cellColumns_ + column];
@@ -261,7 +259,7 @@ namespace parking
         {
             Block &block = cell->blocks[k];
             block.edges = std::min(BLOCK_SIZE, order.size() - k * BLOCK_SIZE);
-            Eigen::Vector2d least(INFINITE, INFINITE), most(-INFINITE, -INFINITE);
+            Eigen::Vector2d least(HUGE_VAL, HUGE_VAL), most(-HUGE_VAL, -HUGE_VAL);
             Edge piece{};
             Eigen::Vector2d along(0.0, 0.0);
             for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
@@ -349,7 +347,7 @@ namespace parking
 
     int EdgeIndex::side(const OrientedBox &box, double band) const
     {
-        double smallest = INFINITE;
+        double smallest = HUGE_VAL;
         for (const BlockInBox &each : near(box.x, box.y))
             if (each.gap(box) <= band)
             {
@@ -399,7 +397,7 @@ namespace parking
         OrientedBox enlarged = box;
         enlarged.halfLength = sweep.halfLength + moved;
         enlarged.halfWidth = sweep.halfWidth + moved;
-        double first = INFINITE;
+        double first = HUGE_VAL;
         BoxSweep left = sweep;
         left.length += OVERRUN;
         const double c = box.cosine, s = box.sine;
@@ -427,7 +425,7 @@ namespace parking
 
     double EdgeIndex::distance(double x, double y) const
     {
-        double smallest = INFINITE;  // squared
+        double smallest = HUGE_VAL;  // squared
         for (const BlockInBox &each : near(x, y))
             if (squaredDistanceToBox(x - each.x, y - each.y, each.ex, each.ey) < smallest)
                 smallest = std::min(smallest, each.block->squaredDistance(x, y));
@@ -436,7 +434,7 @@ namespace parking
 
     double EdgeIndex::distance(const OrientedBox &box) const
     {
-        double smallest = INFINITE;
+        double smallest = HUGE_VAL;
         for (const BlockInBox &each : near(box.x, box.y))
         {
             if (each.gap(box) >= smallest)
@@ -455,7 +453,7 @@ namespace parking
     double EdgeIndex::distanceToAll(const OrientedBox &box) const
     {
         const double circumradius = std::hypot(box.halfLength, box.halfWidth);
-        double smallest = INFINITE;
+        double smallest = HUGE_VAL;
         const auto look = [&](std::size_t column, std::size_t row)
         {
             const std::size_t cell = row * cellColumns_ + column;

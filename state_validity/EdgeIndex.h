@@ -18,7 +18,7 @@ namespace parking
         The world is cut into square cells, and edges at the borders between cells; edges of a cell that lie together
         form blocks of eight with a box round them, so that most blocks are passed over whole. Smaller squares, the
         buckets, have lists of the blocks within \e reach of any of their points, so one list answers a query whole.
-        Blocks and lists are made when first asked for: their cost grows with the area that is searched, not with the
+        Blocks and lists are made lazily: their cost grows with the area that is searched, not with the
         map. Safe for const calls from several threads. */
     class EdgeIndex
     {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -21,7 +20,6 @@ namespace parking
         // A body enlarged on all sides reaches out up to sqrt(2) times as far at its corners, and along the normals of
         // edges there; with room to spare.
         constexpr double CORNER = 1.5;
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         // Rounding of rotated coordinates within a few kilometres of the frame.
         constexpr double ROUNDING = 1e-11;
 
@@ -119,7 +117,7 @@ namespace parking
         const Circle &middle = covering_[covering_.size() / 2];
         if (room > enough || atCentre + middle.offset - middle.radius <= least)
             return room;
-        double ofCircles = INFINITE;
+        double ofCircles = HUGE_VAL;
         for (const Circle &circle : covering_)
         {
             const double x = box.x + box.cosine * circle.offset, y = box.y + box.sine * circle.offset;
@@ -195,7 +193,7 @@ namespace parking
     double FootprintChecker::clearance(const Pose &pose) const
     {
         CheckCounts counts;
-        return clearance(pose, INFINITE, counts);
+        return clearance(pose, HUGE_VAL, counts);
     }
 
     double FootprintChecker::clearance(const Pose &pose, double enough, CheckCounts &counts) const
@@ -210,7 +208,7 @@ namespace parking
             ++counts.byField;
             return bound;
         }
-        double circles = INFINITE;
+        double circles = HUGE_VAL;
         for (const Circle &circle : covering_)
             circles = std::min(circles,
                                field_.lowerBound(box.x + box.cosine * circle.offset, box.y + box.sine * circle.offset) -
@@ -308,7 +306,7 @@ namespace parking
         SweepStart start{boxAt(obstacles_.toLocal(from)), tolerance, tolerance, 0.0};
         const OrientedBox &box = start.box;
         const double corner = CORNER * tolerance;
-        start.room = roomRound(box, corner, INFINITE) - corner;
+        start.room = roomRound(box, corner, HUGE_VAL) - corner;
         if (start.room > 0.0)
         {
             ++counts.byField;
@@ -367,7 +365,7 @@ namespace parking
                                      direction,
                                      stride};
                 const double contact = edges_.firstContact(box, sweep, cosine, sine);
-                if (contact <= stride || (contact < INFINITE && stride < left))
+                if (contact <= stride || (contact < HUGE_VAL && stride < left))
                     return std::clamp(driven + contact - start.tolerance, 0.0, wanted);
             }
             driven += stride;

@@ -104,7 +104,7 @@ namespace parking
         bool keeps(const Pose &pose, double clearance, CheckCounts &counts) const;
 
         /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
-           reports: dear where no obstacle is within a metre. */
+           reports: costly where no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;
 
         /** \brief How far the car can drive along an arc without touching an obstacle: exact, not sampled.

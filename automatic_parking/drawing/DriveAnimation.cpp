@@ -1,6 +1,6 @@
 #include "automatic_parking/drawing/DriveAnimation.h"
 
-#include "automatic_parking/drawing/DriveAnimationPage.h"
+#include "automatic_parking/drawing/DriveFigure.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/drawing/SvgScenario.h"
 #include "parking_geometry/drawing/SvgText.h"
@@ -18,6 +18,12 @@ namespace parking
         constexpr double UNIT = 1e-4;            // metres, radians and so on to which numbers are written
         constexpr double DRAWN_STEP = 0.1;       // metres between the states of a drawn path
         constexpr double RIGHT_OF_FRAME = 16.0;  // pixels for half of the last tick's label
+        constexpr double PLOT_WIDTH = 944.0;     // pixels
+
+        // The page, with marks for what belongs to a drive.
+        const char *const PAGE =
+#include "DriveAnimationPage.inc"
+            ;
 
         std::string number(double value)
         {
@@ -86,24 +92,32 @@ namespace parking
                 map.addLegend({"planned trajectory", style, SvgSample::Line});
         }
 
-        /** Of the map and of what the page itself draws: the track behind the car, and the plots. */
-        std::string legendOf(SvgMap map, const Trajectory &drive)
+        /** Of the map, and of the track behind the car, which the page draws. */
+        std::string legendOf(SvgMap map)
         {
-            SvgStyle driven, reverse, limit;
+            SvgStyle driven;
             driven.stroke = svg_colour::DRIVEN;
             driven.strokeWidth = 2.0;
-            reverse.fill = svg_colour::REVERSE;
-            reverse.fillOpacity = 0.09;
-            limit.stroke = "#64748b";
-            limit.dash = "6 4";
             map.addLegend({"driven", driven, SvgSample::Line});
-            if (std::any_of(drive.begin(), drive.end(), [](const TrajectoryPoint &point) { return point.v < -1e-3; }))
-                map.addLegend({"in reverse (plots)", reverse});
-            map.addLegend({"limit of the car (plots)", limit, SvgSample::Line});
             std::string text;
             for (const SvgLegendEntry &entry : map.legend())
                 text += "<li><svg width=\"" + px(SAMPLE_WIDTH) + "\" height=\"16\" aria-hidden=\"true\">" +
                         legendSample(entry, 0.0, 0.0) + "</svg>" + escaped(entry.label) + "</li>\n";
+            return text;
+        }
+
+        /** Speed, acceleration and steering angle over time, each with a cursor, which the page moves. */
+        std::string plotsOf(const Trajectory &driven, const Vehicle &car, const Trajectory &reference)
+        {
+            std::string text;
+            for (SvgPlot &plot : drivePlots(driven, car, reference))
+            {
+                plot.xRange = {driven.front().t, driven.back().t};
+                text += "<div class=\"panel\"><svg class=\"plot\" viewBox=\"0 0 " + px(PLOT_WIDTH) + ' ' +
+                        px(plot.height) + "\">\n" + plot.toSvg(0.0, 0.0, PLOT_WIDTH) + "<path d=\"M0 " +
+                        px(SvgPlot::ABOVE) + 'V' + px(plot.height - SvgPlot::BELOW) + "\" stroke=\"" +
+                        svg_colour::FORWARD + "\" stroke-width=\"1.5\"/>\n</svg></div>\n";
+            }
             return text;
         }
 
@@ -143,21 +157,15 @@ namespace parking
         add("v", column(driven, &TrajectoryPoint::v));
         add("a", column(driven, &TrajectoryPoint::acceleration));
         add("steering", column(driven, &TrajectoryPoint::steering));
-        add("plannedT", column(reference, &TrajectoryPoint::t));
-        add("plannedV", column(reference, &TrajectoryPoint::v));
-        add("plannedA", column(reference, &TrajectoryPoint::acceleration));
-        add("plannedSteering", column(reference, &TrajectoryPoint::steering));
         add("wheelbase", number(car.wheelbase));
         add("frontOverhang", number(car.frontOverhang));
         add("rearOverhang", number(car.rearOverhang));
         add("width", number(car.width));
-        add("maxSpeed", number(car.maxSpeed));
-        add("maxAcceleration", number(car.maxAcceleration));
-        add("maxSteering", number(car.maxSteeringAngle));
-        add("scale", formatNumber(map.scale()));
+        add("plotLeft", number(SvgPlot::LEFT));
+        add("plotRight", number(PLOT_WIDTH - SvgPlot::RIGHT));
         data += "}";
 
-        std::string page = DRIVE_ANIMATION_PAGE;
+        std::string page = PAGE;
         replace(page, "@VIEW@",
                 px(-SvgMap::LEFT_OF_FRAME) + " 0 " + px(SvgMap::LEFT_OF_FRAME + map.width() + RIGHT_OF_FRAME) + ' ' +
                     px(map.height() + SvgMap::BELOW_FRAME));
@@ -167,11 +175,10 @@ namespace parking
                     formatNumber(-map.scale() * map.view().min.x()) + " " +
                     formatNumber(map.scale() * map.view().max.y()) + ")");
         replace(page, "@DRIVEN@", svg_colour::DRIVEN);
-        replace(page, "@REVERSE@", svg_colour::REVERSE);
-        replace(page, "@FORWARD@", svg_colour::FORWARD);
         replace(page, "@DATA@", data);
         replace(page, "@MAP@", map.toSvg(0.0, 0.0));
-        replace(page, "@LEGEND@", legendOf(map, driven));
+        replace(page, "@LEGEND@", legendOf(map));
+        replace(page, "@PLOTS@", plotsOf(driven, car, reference));
         // What users write comes last, so that no mark in it is taken for one of the page's.
         replace(page, "@SUBTITLE@", escaped(subtitle));
         replace(page, "@TITLE@", escaped(title));

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace parking
@@ -21,7 +20,6 @@ namespace parking
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
         constexpr double SAMPLING = 0.1;          // metres between states
         constexpr double SAME = 1e-4;             // metres and radians: rounding of long paths
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
         using Clock = std::chrono::steady_clock;
 
@@ -126,10 +124,10 @@ namespace parking
     double ScenarioPlanner::clearance(const ScenarioPlan &plan) const
     {
         if (!plan.hasPath())
-            return INFINITE;
+            return HUGE_VAL;
         if (!plan.isDisc)
             return leastClearance(footprint_, plan.path);
-        double least = INFINITE;
+        double least = HUGE_VAL;
         for (const PathState &state : plan.path.sample(SAMPLING))
             least = std::min(least, circle().clearance(state.pose.x, state.pose.y));
         return least;

@@ -73,7 +73,7 @@ namespace parking
         {
             return 0.5 * scenario_.vehicle.width;
         }
-        /** \brief The checker of that circle; made when it is first asked for. */
+        /** \brief The checker of that circle; made lazily. */
         const CircleChecker &circle() const;
 
         /** \brief Plans from the start to a goal. Equal inputs give equal paths as long as the time suffices.
@@ -88,7 +88,7 @@ namespace parking
         std::unique_ptr<search::MotionEnvironment> environment(const PlannerParameters &parameters) const;
 
         /** \brief States no more than 0.1 m apart; the first one at the start, of an exact plan the last one at the
-            goal, not up to rounding but as it was asked for. Empty without a path. */
+            goal, not up to rounding but exactly. Empty without a path. */
         SampledPath states(const ScenarioPlan &plan) const;
 
         /** \brief Least distance in metres between body (or circle) and obstacles along the path, to a millimetre or

@@ -3,7 +3,7 @@
 #include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/planners/PluginLoader.h"
 #include "benchmarks/programs/PlanOptions.h"
-#include "benchmarks/programs/PlanResult.h"
+#include "benchmarks/programs/PlanReport.h"
 #include "benchmarks/system/CommandLine.h"
 #include "benchmarks/system/LongStep.h"
 #include "parking_geometry/Error.h"
@@ -50,7 +50,7 @@ namespace
             requireNoInput(options.outputFiles(), scenario.files);
             return Problem(std::move(scenario), settings);
         }();
-        PlanResult result;
+        PlanReport result;
         result.planner = entry.name;
         result.parameters = parametersJson(*problem.prepare(entry, options.settings).planner);
         for (std::size_t run = 0; run < options.runs; ++run)

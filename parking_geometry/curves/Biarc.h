@@ -9,7 +9,7 @@ namespace parking
 {
     /** \brief Two arcs that lead from \e from to \e to exactly, with one tangent where they meet.
 
-        For poses that are nearly on one arc already, such as neighbouring states on somebody's smooth curve: what is
+        For poses that are nearly on one arc already, such as neighbouring states on a smooth curve: what is
         missing is spread over both arcs. Of all such pairs the one whose tangents reach equally far from either end is
         taken (K. M. Bolton, "Biarc curves", Computer-Aided Design 7(2), 1975).
 

@@ -168,21 +168,6 @@ namespace parking
         return result;
     }
 
-    Path Path::first(double driven) const
-    {
-        const Cut cut = cutAt(pieces, driven);
-        Path result{start, {}};
-        for (std::size_t i = 0; i < cut.piece; ++i)
-            result.append(pieces[i]);
-        if (cut.driven > 0.0)
-        {
-            PathPiece begun = pieces[cut.piece];
-            begun.length = begun.direction() * cut.driven;
-            result.append(begun);
-        }
-        return result;
-    }
-
     Pose Path::at(double driven) const
     {
         return poseAt(*this, cutAt(pieces, driven));
@@ -255,14 +240,5 @@ namespace parking
     double pathLength(const SampledPath &path)
     {
         return path.empty() ? 0.0 : path.back().arcLength - path.front().arcLength;
-    }
-
-    std::size_t countCusps(const SampledPath &path)
-    {
-        std::size_t changes = 0;
-        for (std::size_t i = 2; i < path.size(); ++i)
-            if (path[i].direction != path[i - 1].direction)
-                ++changes;
-        return changes;
     }
 }  // namespace parking

@@ -146,10 +146,6 @@ namespace parking
             way there is cut, or left whole where it begins or ends within a nanometre. */
         Path rest(double driven) const;
 
-        /** \brief The first \e driven metres (0 to length()) of the path: what rest() leaves out. A turn on the spot at
-            their very end is left to the rest. */
-        Path first(double driven) const;
-
         /** \brief The pose after \e driven metres (0 to length()): where rest() starts. */
         Pose at(double driven) const;
 
@@ -169,7 +165,4 @@ namespace parking
 
     /** \brief Metres driven along \e path. */
     double pathLength(const SampledPath &path);
-
-    /** \brief Number of changes of direction along \e path. */
-    std::size_t countCusps(const SampledPath &path);
 }  // namespace parking

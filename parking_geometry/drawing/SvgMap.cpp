@@ -162,17 +162,6 @@ namespace parking
         return true;
     }
 
-    void SvgMap::drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour)
-    {
-        if (!isVisible({centre}))
-            return;
-        const Eigen::Vector2d at = toPixels(centre);
-        layerText(SvgLayer::Marks) +=
-            textElement(at.x(), at.y() + 4.5, 13.0, colour, "middle", text,
-                        " font-weight=\"600\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-opacity=\"0.85\" "
-                        "paint-order=\"stroke\" stroke-linejoin=\"round\"");
-    }
-
     bool SvgMap::drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style)
     {
         std::string data;
@@ -201,7 +190,8 @@ namespace parking
             data += 'Z';
         }
         if (!data.empty())
-            layerText(layer) += "<path d=\"" + data + "\" fill-rule=\"evenodd\"" + attributes(style) + "/>\n";
+            layerText(layer) +=
+                "<path d=\"" + data + "\" fill-rule=\"evenodd\" paint-order=\"stroke\"" + attributes(style) + "/>\n";
         return std::abs(area) > SEEN;
     }
 

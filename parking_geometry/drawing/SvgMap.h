@@ -15,7 +15,7 @@ namespace parking
         constexpr const char *FORWARD = "#2563eb";        ///< driven forwards
         constexpr const char *REVERSE = "#ea580c";        ///< driven in reverse
         constexpr const char *START = "#334155";          ///< the car where it stands
-        constexpr const char *GOAL = "#059669";           ///< the car where it shall stand, and its slot
+        constexpr const char *GOAL = "#059669";           ///< the car at its goal, and its slot
         constexpr const char *OBSTACLE = "#b4bdca";       ///< inside of an obstacle
         constexpr const char *OBSTACLE_EDGE = "#66717f";  ///< outline of an obstacle
         constexpr const char *OUTSIDE = "#e1e6ed";        ///< beyond the end of the map, or of a world of polygons
@@ -124,10 +124,8 @@ namespace parking
         /** \brief A disc. \param radius pixels \return can it be seen? */
         bool drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
 
-        /** \brief A text centred on a point, with a pale halo. */
-        void drawText(const Eigen::Vector2d &centre, const std::string &text, const std::string &colour);
-
-        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule).
+        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule). What outlines of
+           neighbours have in common is not drawn: a stroke shows on the outer side only.
 
             \param outlines holes run the other way round than what they are in \return can its inside be seen? */
         bool drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);

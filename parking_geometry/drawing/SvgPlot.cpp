@@ -178,7 +178,7 @@ namespace parking
                             " values of x and " + std::to_string(each.y.size()) + " of y; there must be as many");
         const Range across = padded(xRange.value_or(rangeOf(series, &SvgSeries::x, {})), 0.0);
         const Range upwards = yRange ? padded(*yRange, 0.0) : padded(rangeOf(series, &SvgSeries::y, limits), 0.06);
-        const Axis x{across, 62.0, width - 10.0}, y{upwards, height - 40.0, 30.0};
+        const Axis x{across, LEFT, width - RIGHT}, y{upwards, height - BELOW, ABOVE};
 
         std::string text = "<g transform=\"translate(" + px(left) + ' ' + px(top) + ")\">\n";
         for (const SvgBand &band : bands)

@@ -29,6 +29,11 @@ namespace parking
     /** \brief A line plot: a panel below the map. */
     struct SvgPlot
     {
+        static constexpr double LEFT = 62.0;   ///< pixels on the left of the frame, for its ticks
+        static constexpr double RIGHT = 10.0;  ///< pixels on the right of the frame
+        static constexpr double ABOVE = 30.0;  ///< pixels above the frame, for the title
+        static constexpr double BELOW = 40.0;  ///< pixels below the frame, for its ticks
+
         std::string title;                                ///< above the panel
         std::string xLabel;                               ///< with the unit
         std::string yLabel;                               ///< with the unit

@@ -1,9 +1,9 @@
 #include "parking_geometry/drawing/SvgScenario.h"
 
-#include "parking_geometry/drawing/CellOutlines.h"
-
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace parking
 {
@@ -56,15 +56,69 @@ namespace parking
                 map.addLegend({"outside of the map", style});
         }
 
+        /** Rectangles that together cover exactly the cells of one kind near the window. Each is a run of cells in a
+           row, extended upwards as long as the rows above have the same run. */
+        std::vector<Polygon> rectanglesOf(const OccupancyGrid &grid, Cell kind, const Box &window)
+        {
+            const auto toCells = [&grid](const Eigen::Vector2d &point) -> Eigen::Vector2d
+            {
+                return positionOf(relativeTo(grid.origin(), {point.x(), point.y(), 0.0})) / grid.resolution();
+            };
+            Box cells{toCells(window.min), toCells(window.min)};
+            for (const Eigen::Vector2d &corner : cornersOf(window))
+                cells.include(toCells(corner));
+            const auto index = [](double value, std::size_t end)
+            {
+                return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(end)));
+            };
+            const std::size_t firstColumn = index(std::floor(cells.min.x()), grid.width());
+            const std::size_t endColumn = index(std::ceil(cells.max.x()), grid.width());
+            const std::size_t firstRow = index(std::floor(cells.min.y()), grid.height());
+            const std::size_t endRow = index(std::ceil(cells.max.y()), grid.height());
+
+            std::vector<Polygon> rectangles;
+            using Columns = std::pair<std::size_t, std::size_t>;
+            std::map<Columns, std::size_t> open;  // runs of the row below, and the row in which each began
+            for (std::size_t row = firstRow; row <= endRow; ++row)
+            {
+                std::map<Columns, std::size_t> runs;
+                for (std::size_t column = firstColumn; row < endRow && column < endColumn; ++column)
+                {
+                    const std::size_t begin = column;
+                    while (column < endColumn && grid.at(column, row) == kind)
+                        ++column;
+                    if (column == begin)
+                        continue;
+                    const auto below = open.find({begin, column});
+                    runs[{begin, column}] = below != open.end() ? below->second : row;
+                    if (below != open.end())
+                        open.erase(below);
+                }
+                for (const auto &[columns, begin] : open)
+                {
+                    rectangles.emplace_back();
+                    for (const auto &[x, y] : {Columns{columns.first, begin}, Columns{columns.second, begin},
+                                               Columns{columns.second, row}, Columns{columns.first, row}})
+                        rectangles.back().push_back(
+                            positionOf(compose(grid.origin(), {static_cast<double>(x) * grid.resolution(),
+                                                               static_cast<double>(y) * grid.resolution(), 0.0})));
+                }
+                open = std::move(runs);
+            }
+            return rectangles;
+        }
+
         void drawObstacles(SvgMap &map, const Scenario &scenario)
         {
             const SvgStyle style = filled(svg_colour::OBSTACLE, svg_colour::OBSTACLE_EDGE);
             bool seen = false;
             for (const Polygon &polygon : scenario.polygons)
                 seen |= map.drawPolygon(SvgLayer::Obstacles, polygon, style);
+            SvgStyle cells = style;
+            cells.strokeWidth = 2.0;  // of which the outer half is seen
             if (scenario.grid)
-                seen |= map.drawOutlines(SvgLayer::Obstacles, outlineCells(*scenario.grid, Cell::Occupied, map.view()),
-                                         style);
+                seen |= map.drawOutlines(SvgLayer::Obstacles, rectanglesOf(*scenario.grid, Cell::Occupied, map.view()),
+                                         cells);
             if (seen)
                 map.addLegend({"obstacle", style});
         }
@@ -73,7 +127,7 @@ namespace parking
         {
             const SvgStyle style = filled(svg_colour::UNKNOWN);
             if (scenario.grid &&
-                map.drawOutlines(SvgLayer::Ground, outlineCells(*scenario.grid, Cell::Unknown, map.view()), style))
+                map.drawOutlines(SvgLayer::Ground, rectanglesOf(*scenario.grid, Cell::Unknown, map.view()), style))
                 map.addLegend(
                     {scenario.unknownIsOccupied ? "unknown (not to be entered)" : "unknown (taken as free)", style});
         }

@@ -19,13 +19,13 @@ namespace parking
     /** \brief The keys of a vehicle in files: name and the fields of Vehicle in snake case. */
     Vehicle vehicleFromYaml(const YamlMap &map);
 
-    /** \brief readTpcapCase() from text that is already in memory.
+    /** \brief A TPCAP case, see readScenario().
 
         \param file named in errors
         \param vehicle as for readVehicle(); empty: the car of TPCAP */
     Scenario parseTpcapCase(const std::string &file, const std::string &text, const std::string &vehicle);
 
-    /** \brief readYamlScenario() from text that is already in memory.
+    /** \brief A scenario in YAML, see readScenario().
 
         \param file named in errors, and where a vehicle file that it names is looked for
         \param vehicle as for readVehicle(), in the place of the one that the text names; empty: that one */

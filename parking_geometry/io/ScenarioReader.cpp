@@ -22,11 +22,6 @@ namespace parking
             return text;
         }
 
-        std::string readText(const std::string &file)
-        {
-            return withoutMark(file, readFile(file, TEXT_FILE_LIMIT));
-        }
-
         /** A case begins with a number and a comma; YAML cannot, for its top is a mapping. A file that begins with
             neither and has no "key:" at all is a damaged case when it is called one. */
         bool looksLikeTpcap(const std::string &file, const std::string &text)
@@ -39,6 +34,11 @@ namespace parking
         }
     }  // namespace
 
+    std::string scenarioName(const std::string &file)
+    {
+        return std::filesystem::path(file).stem().string();
+    }
+
     Scenario readScenario(const std::string &file, const ReaderOptions &options)
     {
         return parseScenario(file, readFile(file, TEXT_FILE_LIMIT), options);
@@ -49,15 +49,5 @@ namespace parking
         text = withoutMark(file, std::move(text));
         return looksLikeTpcap(file, text) ? parseTpcapCase(file, text, options.vehicle)
                                           : parseYamlScenario(file, text, options.vehicle);
-    }
-
-    Scenario readTpcapCase(const std::string &file, const ReaderOptions &options)
-    {
-        return parseTpcapCase(file, readText(file), options.vehicle);
-    }
-
-    Scenario readYamlScenario(const std::string &file, const ReaderOptions &options)
-    {
-        return parseYamlScenario(file, readText(file), options.vehicle);
     }
 }  // namespace parking

@@ -17,7 +17,10 @@ namespace parking
         std::string vehicle;
     };
 
-    /** \brief Reads a scenario file, YAML or TPCAP CSV, recognised by content.
+    /** \brief Reads a scenario file, recognised by content: YAML (see docs/scenario-format.md) or a TPCAP case.
+
+        A case is one line of comma-separated numbers: start x, y, yaw, goal x, y, yaw, the number of obstacles, the
+        vertex count of each, then all vertices. The local frame of either has its origin at the start.
 
         Throws parking::Error with one line naming the file and the line or field that is wrong. So do all readers here,
         also for missing, empty, truncated and absurdly large files. */
@@ -27,13 +30,6 @@ namespace parking
 
         \param file named in errors, and where files that the text names are looked for */
     Scenario parseScenario(const std::string &file, std::string text, const ReaderOptions &options = {});
-
-    /** \brief Reads a TPCAP case: one line of comma-separated numbers: start x, y, yaw, goal x, y, yaw, the number of
-        obstacles, the vertex count of each, then all vertices. The local frame has its origin at the start. */
-    Scenario readTpcapCase(const std::string &file, const ReaderOptions &options = {});
-
-    /** \brief Reads a YAML scenario (see docs/scenario-format.md). The local frame has its origin at the start. */
-    Scenario readYamlScenario(const std::string &file, const ReaderOptions &options = {});
 
     /** \brief Reads a ROS map_server map: the YAML file and the PGM (P2, P5) or PNG image that it names.
 

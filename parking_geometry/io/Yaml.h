@@ -11,7 +11,7 @@ namespace parking
 {
     /** \brief A YAML mapping read strictly: every error names the file, the line and the key.
 
-        Keys that nobody knows, keys given twice and values of another kind than asked for are errors; numbers are
+        Unknown keys, keys given twice and values of another kind than required are errors; numbers are
         finite. */
     class YamlMap
     {

@@ -1,7 +1,6 @@
 #include "parking_geometry/manoeuvres/MultiStretchParking.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,26 +97,5 @@ namespace parking
             best.path = out.reversed();
         }
         return best;
-    }
-
-    double smallestSlot(const ParkingSlot &slot, double ParkingSlot::*dimension, double least,
-                        const std::function<bool(const ParkingSlot &)> &fits, double precision)
-    {
-        if (!(precision > 0.0))
-            throw Error("smallest slot: precision is " + formatNumber(precision) +
-                        "; it must be a positive number of metres");
-        if (!fits(slot))
-            throw Error("smallest slot: the slot to begin with does not fit; begin with a larger one");
-        double low = least, high = slot.*dimension;
-        ParkingSlot tried = slot;
-        while (high - low > precision)
-        {
-            tried.*dimension = 0.5 * (low + high);
-            // A precision may be finer than the numbers are.
-            if (!(tried.*dimension > low && tried.*dimension < high))
-                break;
-            (fits(tried) ? high : low) = tried.*dimension;
-        }
-        return high;
     }
 }  // namespace parking

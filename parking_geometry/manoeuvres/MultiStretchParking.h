@@ -45,12 +45,4 @@ namespace parking
         Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */
     ReverseParkingResult planInStretches(const ReverseParking &parking, const ParkingSlot &slot,
                                          const FootprintQueries &world, const SlotExitPlanner &planner);
-
-    /** \brief The least \e dimension (&ParkingSlot::length or &ParkingSlot::width), to \e precision metres, with which
-        \e fits still says yes; centre and the rest of the slot stay as they are.
-
-        Bisection between \e least, which need not fit, and the slot's own dimension, which must (else parking::Error);
-        sound when larger slots are never worse. */
-    double smallestSlot(const ParkingSlot &slot, double ParkingSlot::*dimension, double least,
-                        const std::function<bool(const ParkingSlot &)> &fits, double precision = 0.01);
 }  // namespace parking

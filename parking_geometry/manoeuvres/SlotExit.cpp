@@ -9,8 +9,6 @@ namespace parking
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
         /** Of both arcs out of a parallel slot: a right angle, but for rounding. */
         constexpr double LARGEST_TURN = 0.5 * PI + 1e-9;
 
@@ -131,7 +129,7 @@ namespace parking
         if (body.trail <= slot.kerbGap)
             return 0.0;
         return slot.kerbGap <= 0.0
-                   ? INFINITE
+                   ? HUGE_VAL
                    : (body.trail * body.trail - slot.kerbGap * slot.kerbGap) / (2.0 * slot.kerbGap) - body.halfWidth;
     }
 

@@ -1,10 +1,6 @@
 #include "parking_geometry/manoeuvres/SlotSurroundings.h"
 
-#include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace parking
@@ -41,41 +37,6 @@ namespace parking
         Polygon parallelogram(const Vector2d &corner, const Vector2d &a, const Vector2d &b)
         {
             return {corner, corner + a, corner + a + b, corner + b};
-        }
-
-        /** How deep two convex polygons overlap: the shortest way out along the normals of their sides; negative when
-            they do not. */
-        double overlap(const std::array<Vector2d, 4> &a, const Polygon &b)
-        {
-            double least = std::numeric_limits<double>::infinity();
-            const auto alongNormals = [&](const auto &polygon)
-            {
-                for (std::size_t i = 0; i < polygon.size(); ++i)
-                {
-                    const Vector2d edge = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
-                    const Vector2d normal(-edge.y(), edge.x());
-                    double lowA = normal.dot(a[0]), highA = lowA, lowB = normal.dot(b[0]), highB = lowB;
-                    for (const Vector2d &corner : a)
-                    {
-                        lowA = std::min(lowA, normal.dot(corner));
-                        highA = std::max(highA, normal.dot(corner));
-                    }
-                    for (const Vector2d &corner : b)
-                    {
-                        lowB = std::min(lowB, normal.dot(corner));
-                        highB = std::max(highB, normal.dot(corner));
-                    }
-                    least = std::min(least, std::min(highA, highB) - std::max(lowA, lowB));
-                }
-            };
-            alongNormals(a);
-            alongNormals(b);
-            return least;
-        }
-
-        std::string inCentimetres(double metres)
-        {
-            return formatNumber(std::round(metres * 1000.0) / 10.0) + " cm";
         }
     }  // namespace
 
@@ -116,27 +77,5 @@ namespace parking
                 std::reverse(polygon.begin(), polygon.end());
         }
         return obstacles;
-    }
-
-    void checkStart(const ParkingSlot &slot, const Vehicle &vehicle, const Pose &start, double aisleWidth)
-    {
-        slot.validate();
-        const std::array<Vector2d, 4> body = vehicle.footprint(start);
-        constexpr double TOLERANCE = 1e-9;
-        if (const double inside = overlap(body, slot.outline()); inside > TOLERANCE)
-            throw Error("start: the car reaches " + inCentimetres(inside) +
-                        " into the slot; it must stand outside of it");
-        if (slot.side == SlotSide::Either && slot.kind != SlotKind::Perpendicular)
-            return;
-        const SlotSide side = slot.side == SlotSide::Left ? SlotSide::Left : SlotSide::Right;
-        const MouthLine mouth = mouthLine(slot);
-        const Vector2d corner = toWorld(slot, side, mouth.corner);
-        const Vector2d inward = toWorld(slot, side, mouth.corner + mouth.inward) - corner;
-        double beyond = 0.0;
-        for (const Vector2d &each : body)
-            beyond = std::max(beyond, inward.dot(each - corner) - aisleWidth);
-        if (beyond > TOLERANCE)
-            throw Error("start: the car reaches " + inCentimetres(beyond) + " beyond the aisle of " +
-                        formatNumber(aisleWidth) + " m");
     }
 }  // namespace parking

@@ -2,8 +2,6 @@
 
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/Polygon.h"
-#include "parking_geometry/Pose.h"
-#include "parking_geometry/Vehicle.h"
 
 #include <limits>
 #include <vector>
@@ -25,11 +23,4 @@ namespace parking
     std::vector<Polygon> slotSurroundings(const ParkingSlot &slot, SlotSide side,
                                           double aisleWidth = std::numeric_limits<double>::infinity(),
                                           double reach = 15.0);
-
-    /** \brief Throws parking::Error when a car that starts at \e start already reaches into the slot, or beyond the far
-        side of the aisle, saying how far.
-
-        \param aisleWidth as above; the far side is known only when the slot is perpendicular or says its side */
-    void checkStart(const ParkingSlot &slot, const Vehicle &vehicle, const Pose &start,
-                    double aisleWidth = std::numeric_limits<double>::infinity());
 }  // namespace parking

@@ -13,7 +13,7 @@ namespace parking
     {
         constexpr double CURVATURE = 1.0001;  // share of the greatest curvature that may be used
         constexpr double NO_TURN = 1e-6;      // radians on the spot that are rounding
-        constexpr double FAR = 4.0;           // metres: more room than this is not asked for
+        constexpr double FAR = 4.0;           // metres: more clearance than this does not matter
         constexpr double STRAIGHT = 8.0;      // metres of a straight drive that are looked at as one
 
         std::string rounded(double value)

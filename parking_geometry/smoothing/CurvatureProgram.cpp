@@ -211,7 +211,7 @@ namespace parking
         for (std::size_t i = 0; i < corridors_.size(); ++i)
             frontBounds_[i].middle = rearBounds_[i].middle = corridors_[i].middle;
         double gap = START_MULTIPLIER, centring = 0.1;
-        for (iterations_ = 1; iterations_ <= MAX_ITERATIONS; ++iterations_)
+        for (int iteration = 1; iteration <= MAX_ITERATIONS; ++iteration)
         {
             const double target = centring * gap;
             newtonStep(target);

@@ -26,7 +26,7 @@ namespace parking
     class CurvatureProgram
     {
     public:
-        /** \brief What the program goes by at all nodes. */
+        /** \brief What the program uses at all nodes. */
         struct Settings
         {
             double maxCurvature{0.3};  ///< kMax, 1/m
@@ -80,12 +80,6 @@ namespace parking
         /** \brief Change of (y, psi) at the end per change of the curvature at each node, in the linear model. */
         void endSensitivity(std::vector<Eigen::Vector2d> &sensitivity) const;
 
-        /** \brief Iterations of the last solve(), for measurements. */
-        int iterations() const
-        {
-            return iterations_;
-        }
-
     private:
         struct Stage
         {
@@ -126,6 +120,5 @@ namespace parking
         std::vector<State> x_, next_;
         std::vector<double> u_, nextU_;
         std::vector<Bound> curvatureBounds_, rateBounds_, frontBounds_, rearBounds_;
-        int iterations_{0};
     };
 }  // namespace parking

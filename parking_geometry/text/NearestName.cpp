@@ -49,7 +49,7 @@ namespace parking
 
     std::string nearestName(const std::string &name, const std::vector<std::string> &known)
     {
-        // Cut: nobody means a name by a thousand letters, and the table is quadratic.
+        // Cut: no name has a thousand letters, and the table is quadratic.
         const std::string wanted = lowerCase(name.substr(0, 64));
         std::string best;
         std::size_t bestDistance = 0;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 namespace parking::python
@@ -33,9 +34,8 @@ namespace parking::python
                  {"steering_change_penalty", &P::steeringChangePenalty},
                  {"preferred_clearance", &P::preferredClearance},
                  {"clearance_cost", &P::clearanceCost}}};
-            constexpr double INFINITE = std::numeric_limits<double>::infinity();
             const double aisle =
-                values.contains("aisle_width") ? numberFrom(values["aisle_width"], "aisle_width") : INFINITE;
+                values.contains("aisle_width") ? numberFrom(values["aisle_width"], "aisle_width") : HUGE_VAL;
             P parameters = tight ? P::intoTightSlots(aisle) : P();
             parameters.sweep.aisleWidth = aisle;
             for (const auto &[key, value] : values)

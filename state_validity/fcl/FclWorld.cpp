@@ -104,7 +104,7 @@ namespace parking
         pose.linear()(1, 0) = box.sine;
         pose.linear()(1, 1) = box.cosine;
         pose.translation() = fcl::Vector3d(box.x, box.y, 0.0);
-        // A copy shares the shape; making an object anew would write to the shape, which other threads are reading.
+        // A copy shares the shape; making another object would write to the shape, which other threads are reading.
         fcl::CollisionObjectd body(body_);
         body.setTransform(pose);
         body.computeAABB();

@@ -1,8 +1,7 @@
 #include "state_validity/sweeps/PathSweep.h"
 
-#include "parking_geometry/curves/PathArcs.h"
-
 #include <algorithm>
+#include <cmath>
 
 namespace parking
 {
@@ -91,7 +90,21 @@ namespace parking
                        (sweeping.bothWays && isFree(advance(begin, arc), {arc.curvature, -arc.length})) ||
                        (covered > 0.0 && isClothoidFree(sweeping, begin, part, std::min(covered, FINER * deviation)));
             };
-            return visitArcs({from, {clothoid}}, sweeping.checker.farthestPoint(), deviation, isPartFree);
+            // Each part of the length h becomes the arc of its mean curvature, begun where the part begins on the
+            // clothoid, so that nothing adds up. On the way the heading differs by at most |s| h^2 / 8, s being the
+            // sharpness, and the position by at most |s| h^3 / 12: no point of the body, within r of the rear axle,
+            // deviates by more than |s| h^2 (r / 8 + h / 12).
+            const double length = clothoid.driven(), reach = sweeping.checker.farthestPoint();
+            const double share = std::abs(clothoid.sharpness) * (reach / 8.0 + length / 12.0) / deviation;
+            const int count = 1 + static_cast<int>(length * std::sqrt(share));
+            for (int i = 0; i < count; ++i)
+            {
+                const double begin = length * i / count, end = length * (i + 1) / count;
+                const PathPiece arc{clothoid.curvatureAt(0.5 * (begin + end)), clothoid.length / count};
+                if (!isPartFree(advance(from, clothoid, begin), arc))
+                    return false;
+            }
+            return true;
         }
 
         bool isPathFree(const Sweeping &sweeping, const Path &path)

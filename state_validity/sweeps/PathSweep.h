@@ -9,7 +9,7 @@ namespace parking
     /** \brief Is every motion along \e path free? Swept, not sampled: see FootprintChecker::freeLength(), which keeps a
         millimetre from the obstacles.
 
-        Clothoids are swept as arcs from which no point of the body deviates by more than 0.1 mm (see visitArcs()).
+        Clothoids are swept as arcs from which no point of the body deviates by more than 0.1 mm.
         Turns on the spot, which no car can make, are covered by poses. */
     bool isPathFree(const FootprintChecker &checker, const Path &path);
 

@@ -150,19 +150,6 @@ TEST(SlotQuestions, NoBodyTurnsWhereTheBoundSaysSo)
     }
 }
 
-TEST(SlotQuestions, OneSweepIsLeftAlone)
-{
-    const Vehicle car;
-    ParkingSlot slot;
-    slot.side = SlotSide::Right;
-    const ParkingPlanner planner = inAisle(7.0);
-    const ReverseParkingResult sweep = ReverseParking(car, planner.parameters().sweep).plan(slot);
-    const ReverseParkingResult result = wayIntoSlot(planner, car, slot);
-    ASSERT_TRUE(sweep.fits() && result.fits());
-    EXPECT_EQ(result.path.stretches().size(), 1u);
-    EXPECT_EQ(result.firstRadius, sweep.firstRadius);
-}
-
 TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
 {
     for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
@@ -180,7 +167,7 @@ TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
                         slot.length += 4.2, slot.width += 0.4;
                     const ParkingPlanner planner = inAisle(aisle);
                     const Pose start = inTheAisle(slot, -8.0);
-                    const ParkingPlan plan = planIntoSlot(planner, car, slot, start);
+                    const ParkingPlan plan = planner.plan(slotProblem(planner.parameters(), car, slot, start));
                     ASSERT_TRUE(plan.found) << plan.message;
                     EXPECT_EQ(plan.manoeuvre.path.stretches().size() == 1, !tight);
                     EXPECT_LT(gap(plan.arcs.start, start), 1e-9);
@@ -221,21 +208,6 @@ TEST(SlotQuestions, EveryWayInIsAGoal)
     EXPECT_GE(driven.size(), 2u);
 }
 
-TEST(SlotQuestions, EqualInputsGiveEqualOutputs)
-{
-    const Vehicle car = vehicleByName("vw_golf8");
-    const ParkingSlot slot = tightSlot(SlotKind::Perpendicular, car);
-    const ParkingPlanner planner = inAisle(AISLE);
-    const ParkingPlan one = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
-    const ParkingPlan two = planIntoSlot(planner, car, slot, inTheAisle(slot, -7.0));
-    ASSERT_EQ(one.path.pieces.size(), two.path.pieces.size());
-    for (std::size_t i = 0; i < one.path.pieces.size(); ++i)
-    {
-        EXPECT_EQ(one.path.pieces[i].length, two.path.pieces[i].length);
-        EXPECT_EQ(one.path.pieces[i].curvature, two.path.pieces[i].curvature);
-    }
-}
-
 TEST(SlotQuestions, SmallestSlotIsSmallerThanForOneSweep)
 {
     const Vehicle car = vehicleByName("toyota_yaris");
@@ -264,12 +236,6 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     ParkingSlot slot;
     slot.side = SlotSide::Right;
     const ParkingPlanner planner = inAisle(6.0);
-    expectError([&] { planIntoSlot(planner, car, slot, {-1.0, 0.0, 0.0}); }, {"start", "cm into the slot"});
-    expectError(
-        [&] {
-            planIntoSlot(planner, car, slot, {8.0, 0.0, 0.5 * PI});
-        },
-        {"start", "cm beyond the aisle of 6 m"});
     ParkingSlot small = slot;
     small.length = 4.5;
     expectError([&] { wayIntoSlot(planner, car, small); }, {"slot", "length", "18.9 cm"});
@@ -280,6 +246,8 @@ TEST(SlotQuestions, WhatIsWrongIsNamed)
     steep.kind = SlotKind::Angled;
     steep.angle = 2.0;
     expectError([&] { wayIntoSlot(planner, car, steep); }, {"slot", "angle"});
+
+    expectError([&] { smallestSlot(planner, car, slot, 0.0); }, {"smallest slot", "precision is 0"});
 
     PlanningParameters parameters = PlanningParameters::intoTightSlots();
     parameters.gaps.back() = 0.0;

@@ -38,7 +38,6 @@ namespace parking_test
     using parking::Pose;
     using Status = ob::PlannerStatus;
 
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     constexpr double SAME = 1e-12;  // metres and radians, of poses that are equal up to rounding
 
     /** \brief The status of an infeasible problem: up to OMPL 1.5 the same as of a time-out. */
@@ -293,7 +292,7 @@ namespace parking_test
                 kind_ == Space::SE2 ? planner->parameters().turningRadius : vehicle.minTurningRadius();
             EXPECT_LE(std::abs(step.yaw), 1.001 * length / radius + ROUNDING) << "turns too sharply";
             EXPECT_LE(std::abs(step.y), CHORD * length + ROUNDING) << "slides sideways";
-            EXPECT_GE(step.x, mayReverse ? -INFINITE : -ROUNDING) << "reverses";
+            EXPECT_GE(step.x, mayReverse ? -HUGE_VAL : -ROUNDING) << "reverses";
         }
 
         Space kind_;

@@ -22,12 +22,6 @@ namespace
     }
 }  // namespace
 
-TEST(FootprintQueries, AWorldWithoutCallablesIsFree)
-{
-    EXPECT_TRUE(isPathFree({}, Vehicle(), Path{{}, {{0.1, 5.0}}}));
-    EXPECT_TRUE(isPathFree({}, Vehicle(), Path()));
-}
-
 TEST(FootprintQueries, ThePathCallableDecidesAlone)
 {
     FootprintQueries queries;
@@ -75,23 +69,6 @@ TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenThePoses)
         }
 }
 
-TEST(FootprintQueries, WithoutClearancePosesAreAskedEvery10Centimetres)
-{
-    const Path path{{}, {{0.1, 5.0}, {0.1, -3.0, 0.05}, PathPiece::turnOnTheSpot(1.0)}};
-    std::vector<Pose> asked;
-    FootprintQueries queries;
-    queries.isFree = [&](const Pose &pose)
-    {
-        asked.push_back(pose);
-        return true;
-    };
-    EXPECT_TRUE(isPathFree(queries, Vehicle(), path));
-    EXPECT_LT(asked.size(), 250u);
-    for (const PathState &state : path.sample(0.01))
-        EXPECT_TRUE(std::any_of(asked.begin(), asked.end(),
-                                [&](const Pose &pose) { return positionDistance(pose, state.pose) <= 0.05 + 1e-9; }));
-}
-
 TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
 {
     // Pins that the outer front corner hits half way along arcs of several lengths: the clearances at both ends add up
@@ -113,20 +90,6 @@ TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
         EXPECT_FALSE(isPathFree(world.queries(), car, path)) << length;
     }
     EXPECT_GT(beyondHalf, 0);
-}
-
-TEST(FootprintQueries, ZeroClearanceLeavesTheDecisionToIsFree)
-{
-    const Vehicle car;
-    // Along a wall that the body touches.
-    const double y = 0.5 * car.width;
-    const PolygonWorld world(car, {{{-5.0, y}, {15.0, y}, {15.0, y + 1.0}, {-5.0, y + 1.0}}});
-    const Path path{{}, {{0.0, 5.0}}};
-    FootprintQueries queries = world.queries();
-    ASSERT_EQ(queries.clearance(path.start), 0.0);
-    EXPECT_TRUE(isPathFree(queries, car, path));
-    queries.isFree = nullptr;
-    EXPECT_FALSE(isPathFree(queries, car, path));
 }
 
 TEST(FootprintQueries, AgreesWithDenseSampling)
@@ -169,18 +132,4 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
     }
     EXPECT_GT(free, 60);
     EXPECT_GT(blocked, 60);
-}
-
-TEST(FootprintQueries, AsksSeldomWhereThereIsRoom)
-{
-    const Vehicle car;
-    int asked = 0;
-    FootprintQueries queries;
-    queries.clearance = [&](const Pose &)
-    {
-        ++asked;
-        return 5.0;
-    };
-    EXPECT_TRUE(isPathFree(queries, car, Path{{}, {{0.0, 30.0}}}));
-    EXPECT_LE(asked, 8);
 }

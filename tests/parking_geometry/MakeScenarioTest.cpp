@@ -38,19 +38,6 @@ namespace
         }
     }
 
-    TEST(MakeScenario, ASlotGivesTheGoals)
-    {
-        Scenario scenario = somePlace(100.0, 50.0);
-        scenario.goals.clear();
-        scenario.slot = ParkingSlot();
-        scenario.slot->pose = {105.0, 47.0, 0.5 * PI};
-        scenario.slot->entry = SlotEntry::Either;
-        const Scenario made = makeScenario(scenario, "here");
-        ASSERT_EQ(made.goals.size(), 2u);
-        EXPECT_NEAR(made.slot->pose.x, 5.0, 1e-9);
-        EXPECT_NEAR(made.goals.front().x, 5.0, 1e-9);
-    }
-
     TEST(MakeScenario, GoalsInASlotAreExactWhereverItLies)
     {
         const auto goals = [](double far)
@@ -74,16 +61,6 @@ namespace
                 EXPECT_EQ(there[i].yaw, here[i].yaw) << far;
             }
         }
-    }
-
-    TEST(MakeScenario, AMapIsMovedToo)
-    {
-        Scenario scenario = somePlace(5.0, 5.0);
-        scenario.polygons.clear();
-        scenario.grid = OccupancyGrid(100, 100, 0.5, {-10.0, -20.0, 0.0});
-        const Scenario made = makeScenario(scenario, "here");
-        EXPECT_EQ(made.grid->origin().x, -15.0);
-        EXPECT_EQ(made.bounds.min.y(), -25.0);
     }
 
     TEST(MakeScenario, NamesWhatIsWrong)

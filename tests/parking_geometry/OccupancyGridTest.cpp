@@ -22,13 +22,6 @@ TEST(OccupancyGrid, CellsAreStoredRowByRowFromTheLowerLeft)
     EXPECT_EQ(grid.at(1, 1), Cell::Free);
 }
 
-TEST(OccupancyGrid, IsFilledAsAsked)
-{
-    const OccupancyGrid grid(4, 4, 1.0, {}, Cell::Unknown);
-    for (const Cell cell : grid.cells())
-        EXPECT_EQ(cell, Cell::Unknown);
-}
-
 TEST(OccupancyGrid, OutlineFollowsTheOriginAndItsYaw)
 {
     const OccupancyGrid grid(40, 20, 0.5, {1.0, 2.0, 0.5 * PI});

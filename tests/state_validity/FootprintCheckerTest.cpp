@@ -5,6 +5,7 @@
 #include "parking_geometry/io/ScenarioReader.h"
 #include "state_validity/fcl/FclContactTest.h"
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -16,7 +17,6 @@ using namespace parking_test;
 namespace
 {
     const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-    const double INFINITE = std::numeric_limits<double>::infinity();
     const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
 
     ObstacleSet box(const std::vector<Polygon> &polygons = {})
@@ -214,7 +214,7 @@ TEST(FootprintChecker, KnowsExactClearancesInTheMiddleOfALongWorld)
     for (int i = 0; i < 2000; ++i)
     {
         const Pose pose{random.between(50.0, 31950.0), random.between(-5.0, 8.0), random.between(-PI, PI)};
-        double room = INFINITE;
+        double room = HUGE_VAL;
         for (const Eigen::Vector2d &corner : vehicle.footprint(pose))
             room = std::min({room, corner.y() + 10.0, 13.0 - corner.y()});
         EXPECT_NEAR(checker.exactClearance(pose), std::max(room, 0.0), 1e-9);
@@ -304,7 +304,7 @@ TEST(FootprintChecker, PosesThatAreNotFiniteAreNotFree)
 {
     const FootprintChecker checker(box(), {});
     const PlainFclChecker fcl(box(), {});
-    for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE})
+    for (const double bad : {NOT_A_NUMBER, HUGE_VAL, -HUGE_VAL})
         for (const Pose &pose : {Pose{bad, 0.0, 0.0}, Pose{0.0, bad, 0.0}, Pose{0.0, 0.0, bad}})
         {
             EXPECT_FALSE(checker.isFree(pose));
@@ -313,7 +313,7 @@ TEST(FootprintChecker, PosesThatAreNotFiniteAreNotFree)
             EXPECT_EQ(checker.exactClearance(pose), 0.0);
             EXPECT_EQ(checker.freeLength(pose, 0.1, 1.0), 0.0);
         }
-    for (const double bad : {NOT_A_NUMBER, INFINITE})
+    for (const double bad : {NOT_A_NUMBER, HUGE_VAL})
     {
         EXPECT_EQ(checker.freeLength({}, bad, 1.0), 0.0);
         EXPECT_EQ(checker.freeLength({}, 0.1, bad), 0.0);
@@ -340,7 +340,7 @@ TEST(FootprintChecker, RefusesBadInput)
     };
     expect([] { FootprintChecker(box(), {}, -0.1); }, "-0.1");
     expect([] { FootprintChecker(box(), {}, NOT_A_NUMBER); }, "margin");
-    expect([] { FootprintChecker(box(), {}, INFINITE); }, "margin");
+    expect([] { FootprintChecker(box(), {}, HUGE_VAL); }, "margin");
     expect([] { FootprintChecker(box(), {}, 0.0, {}, -1.0); }, "resolution");
     Vehicle vehicle;
     vehicle.width = 0.0;
@@ -378,7 +378,7 @@ TEST(FootprintChecker, HoldsTheCompetitionsCases)
     {
         if (entry.path().extension() != ".csv")
             continue;
-        const Scenario scenario = readTpcapCase(entry.path().string());
+        const Scenario scenario = readScenario(entry.path().string());
         const FootprintChecker checker(ObstacleSet::fromScenario(scenario), scenario.vehicle);
         const PlainFclChecker fcl(ObstacleSet::fromScenario(scenario), scenario.vehicle);
         const PolygonOracle oracle(scenario);

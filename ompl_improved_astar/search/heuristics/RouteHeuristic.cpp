@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace parking::search
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr int STRAIGHT = 12, DIAGONAL = 17;  // lengths of the steps
         constexpr int REFINEMENTS = 3;               // halvings of a cell in doubt
         constexpr std::uint64_t CELLS_BETWEEN_STOPS = 1024, CELLS_LOADED_BETWEEN_STOPS = 64;
@@ -189,7 +187,7 @@ namespace parking::search
             return 0.0;
         CellState &state = states_.at(cell->x(), cell->y());
         if (state.g == UNREACHED && !isPassable(state, *cell))
-            return INFINITE;
+            return HUGE_VAL;
         // The search settles cells beside the route to its aim late. Another aim costs as much as some of the open
         // cells.
         const std::uint64_t nextAim = settled_ + std::max<std::uint64_t>(MIN_CELLS_PER_AIM, open_.size() / 4);
@@ -198,7 +196,7 @@ namespace parking::search
             if (settled_ == nextAim)
                 aimAt(*cell);
             if (!settleNext())
-                return stopped_ || (open_.empty() && !leftGrid_) ? INFINITE : 0.0;
+                return stopped_ || (open_.empty() && !leftGrid_) ? HUGE_VAL : 0.0;
         }
         return state.g * (resolution_ / STRAIGHT);
     }
@@ -209,13 +207,13 @@ namespace parking::search
         const CellState *const state = cell ? states_.find(cell->x(), cell->y()) : nullptr;
         if (state != nullptr && state->settled)
             return state->g * (resolution_ / STRAIGHT);
-        return cell && open_.empty() && !leftGrid_ ? std::optional(INFINITE) : std::nullopt;
+        return cell && open_.empty() && !leftGrid_ ? std::optional(HUGE_VAL) : std::nullopt;
     }
 
     double RouteHeuristic::estimate(const Pose &pose)
     {
         const double length = distance(pose.x, pose.y);
-        return length < INFINITE ? std::max(0.0, length - resolution_) : 0.0;
+        return length < HUGE_VAL ? std::max(0.0, length - resolution_) : 0.0;
     }
 
     double RouteHeuristic::lowerBound(const Pose &pose)
@@ -229,7 +227,7 @@ namespace parking::search
 
     bool RouteHeuristic::provesUnreachable(const Pose &pose)
     {
-        return distance(pose.x, pose.y) == INFINITE && !stopped_;
+        return distance(pose.x, pose.y) == HUGE_VAL && !stopped_;
     }
 
     Eigen::Vector2d RouteHeuristic::nearestReachable(const Eigen::Vector2d &goal)
@@ -237,7 +235,7 @@ namespace parking::search
         const std::optional<Cell> cell = cellAt(goal.x(), goal.y());
         while (!(cell && states_.at(cell->x(), cell->y()).settled) && settleNext())
             continue;
-        Eigen::Vector2d nearest(INFINITE, INFINITE);
+        Eigen::Vector2d nearest(HUGE_VAL, HUGE_VAL);
         states_.forEach(
             [&](std::int32_t column, std::int32_t row, const CellState &state)
             {
@@ -251,7 +249,7 @@ namespace parking::search
     std::optional<Pose> RouteHeuristic::placeOnRoute(double x, double y, double ahead, double around)
     {
         const double length = distance(x, y);
-        if (length <= ahead + around || length == INFINITE)
+        if (length <= ahead + around || length == HUGE_VAL)
             return std::nullopt;
         Cell cell = *cellAt(x, y);
         double driven = 0.0;

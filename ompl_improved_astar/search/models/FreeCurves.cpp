@@ -1,14 +1,13 @@
 #include "ompl_improved_astar/search/models/FreeCurves.h"
 
 #include <array>
-#include <limits>
+#include <cmath>
 #include <tuple>
 
 namespace parking::search
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr double CAR_LENGTH = 6.0;  // metres, about: poses nearer to each other are only swept
 
         /** Where a curve begins, where each of its pieces ends. */
@@ -48,7 +47,7 @@ namespace parking::search
     {
         Joints joints;
         if (!findFreeJoints(environment_, gap, curve, joints))
-            return INFINITE;
+            return HUGE_VAL;
         double sum = 0.0;
         for (std::size_t n = 0; n < curve.count; ++n)
         {
@@ -72,10 +71,10 @@ namespace parking::search
             // shows sooner that most of it collides.
             const bool isPricedFirst = clear > 0.0;
             if (!isPricedFirst && !isRestFree())
-                return INFINITE;
+                return HUGE_VAL;
             sum += cost_.proximity(joints[k], piece, environment_, clear, max - sum);
             if (sum > max || (isPricedFirst && !isRestFree()))
-                return INFINITE;
+                return HUGE_VAL;
         }
         return sum;
     }

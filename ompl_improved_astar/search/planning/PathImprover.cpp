@@ -12,7 +12,6 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr std::size_t DENSE_KNOTS = 6;   // before a knot: a curve may begin at any of them
         constexpr std::size_t TURNED_KNOTS = 3;  // that one curve passes while the car is turned
 
@@ -200,7 +199,7 @@ namespace parking::search
         const double gain = tuning::MIN_GAIN * curves_.turningRadius();
         const PathPiece next = lane == 0 && knot + 1 < knots_.size() ? PathPiece(knots_[knot + 1].piece) : PathPiece();
         const PathPiece *const after = next.length != 0.0 ? &next : nullptr;
-        const double useful = lane == 0 ? INFINITE : usefulCost(knot, own.pose, pass);
+        const double useful = lane == 0 ? HUGE_VAL : usefulCost(knot, own.pose, pass);
         const auto max = [&]
         {
             return std::min(useful, own.cost + (after != nullptr ? cost_.join(own.last, *after) : 0.0)) - gain;

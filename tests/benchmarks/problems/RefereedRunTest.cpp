@@ -1,7 +1,7 @@
 // Planners that lie about their paths: what the programs make of them.
 
 #include "benchmarks/problems/PlanRun.h"
-#include "benchmarks/programs/PlanResult.h"
+#include "benchmarks/programs/PlanReport.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/automatic_parking/ParkingProblems.h"
 
@@ -41,7 +41,7 @@ namespace
         std::vector<Pose> poses_;
     };
 
-    PlanResult planned(const Problem &problem, const std::vector<Pose> &poses)
+    PlanReport planned(const Problem &problem, const std::vector<Pose> &poses)
     {
         const PlannerEntry entry{"liar",
                                  "",
@@ -49,7 +49,7 @@ namespace
                                  [&poses](const ompl::base::SpaceInformationPtr &si)
                                  { return std::make_shared<Liar>(si, poses); },
                                  {}};
-        PlanResult result;
+        PlanReport result;
         result.planner = entry.name;
         result.runs.push_back(planOnce(problem, entry, {}, 1.0, 1));
         return result;
@@ -81,7 +81,7 @@ namespace
                 if (space == SpaceKind::ReedsShepp && poses.size() > 1 && poses[1].x > 1e100)
                     continue;
                 SCOPED_TRACE(toString(space) + " " + toString(fault));
-                const PlanResult result = planned(problem, poses);
+                const PlanReport result = planned(problem, poses);
                 const PlanRun &run = result.first();
                 ASSERT_TRUE(run.path.has_value());
                 EXPECT_EQ(toString(run.path->recheck.fault), toString(fault)) << run.path->recheck.reason;
@@ -94,7 +94,7 @@ namespace
                 EXPECT_NE(resultSummary(problem, result).find("NOT VALID"), std::string::npos);
                 EXPECT_FALSE(resultSvg(problem, result).empty());
             }
-            const PlanResult honest = planned(problem, {start, aside, behind, goal});
+            const PlanReport honest = planned(problem, {start, aside, behind, goal});
             EXPECT_TRUE(honest.first().isSolved()) << honest.first().reason;
             EXPECT_EQ(exitStatus(honest.first()), 0);
         }
@@ -104,12 +104,12 @@ namespace
     {
         const Problem problem(parking_test::openGround(20.0), {});
         const Scenario &scenario = problem.scenario();
-        const PlanResult far = planned(problem, {scenario.start, {3e5, 0.0, 0.0}, scenario.goals.front()});
+        const PlanReport far = planned(problem, {scenario.start, {3e5, 0.0, 0.0}, scenario.goals.front()});
         ASSERT_TRUE(far.first().path.has_value());
         EXPECT_FALSE(far.first().isSolved());
         EXPECT_GT(far.first().path->length, 5.9e5);
         EXPECT_LT(far.first().path->states().size(), 10100u);
-        const PlanResult near = planned(problem, {scenario.start, scenario.goals.front()});
+        const PlanReport near = planned(problem, {scenario.start, scenario.goals.front()});
         EXPECT_TRUE(near.first().isSolved());
         EXPECT_GE(near.first().path->states().size(), 201u);
     }
@@ -117,7 +117,7 @@ namespace
     TEST(RefereedRun, AnExactSolutionWithoutStatesIsNone)
     {
         const Problem problem(parking_test::openGround(20.0), {});
-        const PlanResult result = planned(problem, {});
+        const PlanReport result = planned(problem, {});
         EXPECT_FALSE(result.first().path.has_value());
         EXPECT_NE(result.first().status, PlanStatus::Exact);
         EXPECT_NE(result.first().reason.find("no path"), std::string::npos);

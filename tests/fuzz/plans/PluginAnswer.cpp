@@ -1,7 +1,7 @@
 // What planners from elsewhere may answer: any states, any status. Nothing that is wrong is taken for a solution.
 
 #include "benchmarks/problems/PlanRun.h"
-#include "benchmarks/programs/PlanResult.h"
+#include "benchmarks/programs/PlanReport.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/fuzz/plans/SmallWorld.h"
 
@@ -107,7 +107,7 @@ namespace parking_test::fuzz
         {
             return std::make_shared<Liar>(si, answer);
         };
-        parking::PlanResult result;
+        parking::PlanReport result;
         result.planner = entry.name;
         accepts("", [&] { result.runs.push_back(planOnce(problem, entry, {}, 1.0, 1)); });
         if (result.runs.empty())

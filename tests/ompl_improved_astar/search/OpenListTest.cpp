@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <string>
@@ -26,8 +26,7 @@ namespace
         /** Few different values, so that ties are common. */
         void push()
         {
-            constexpr double INFINITE = std::numeric_limits<double>::infinity();
-            const double f = random_.chance(0.05) ? INFINITE : random_.below(12), h = random_.below(4);
+            const double f = random_.chance(0.05) ? HUGE_VAL : random_.below(12), h = random_.below(4);
             list_->push(f, h, inserted_);
             oracle_.emplace(f, h, inserted_++);
         }

@@ -71,20 +71,6 @@ TEST(PathPiece, WithSharpnessIsTheLimitOfManySmallArcs)
     }
 }
 
-TEST(PathPiece, WithoutSharpnessIsAnArc)
-{
-    RandomParking random(2);
-    for (int i = 0; i < 10000; ++i)
-    {
-        const Pose start = random.pose(5.0);
-        const double curvature = random.between(-0.5, 0.5), length = random.between(-9.0, 9.0);
-        const Pose arc = advance(start, curvature, length);
-        ASSERT_EQ(gap(advance(start, PathPiece(Arc{curvature, length})), arc), 0.0);
-        // Hardly any sharpness takes the other branch, and must agree.
-        ASSERT_LT(positionDistance(advance(start, PathPiece(curvature, length, 1e-14)), arc), 1e-10);
-    }
-}
-
 TEST(PathPiece, DrivenBackEndsWhereItBegan)
 {
     RandomParking random(3);
@@ -101,23 +87,6 @@ TEST(PathPiece, DrivenBackEndsWhereItBegan)
     }
 }
 
-TEST(Path, ReversedTwiceIsTheSame)
-{
-    RandomParking random(4);
-    for (int i = 0; i < 2000; ++i)
-    {
-        const Path path = anyPath(random), back = path.reversed(), again = back.reversed();
-        EXPECT_LT(gap(back.start, path.end()), 1e-12);
-        EXPECT_LT(gap(back.end(), path.start), 1e-10);
-        EXPECT_LT(gap(again.start, path.start), 1e-10);
-        EXPECT_NEAR(back.length(), path.length(), 1e-12);
-        EXPECT_EQ(back.cusps(), path.cusps());
-        ASSERT_EQ(again.pieces.size(), path.pieces.size());
-        for (std::size_t k = 0; k < path.pieces.size(); ++k)
-            EXPECT_TRUE(isSame(again.pieces[k], path.pieces[k]));
-    }
-}
-
 TEST(Path, SamplesLieOnThePathAtMostAStepApart)
 {
     RandomParking random(5);
@@ -129,7 +98,6 @@ TEST(Path, SamplesLieOnThePathAtMostAStepApart)
         EXPECT_LT(gap(states.front().pose, path.start), 1e-15);
         EXPECT_LT(gap(states.back().pose, path.end()), 1e-11);
         EXPECT_NEAR(pathLength(states), path.length(), 1e-11);
-        EXPECT_EQ(countCusps(states), path.cusps());
         // Every state lies where the pieces lead, and every end of a piece is among the states.
         Pose pose = path.start;
         double before = 0.0;
@@ -222,22 +190,6 @@ TEST(Path, ATurnOnTheSpotIsNoCuspAndNoWay)
     EXPECT_EQ(onlyTurn.sample(0.1).size(), 2u);
 }
 
-TEST(Path, PartsFollowEachOther)
-{
-    RandomParking random(8);
-    for (int i = 0; i < 2000; ++i)
-    {
-        const Path path = anyPath(random);
-        const std::size_t middle = path.pieces.size() / 2;
-        const Path first = path.part(0, middle), second = path.part(middle, path.pieces.size());
-        EXPECT_EQ(gap(first.start, path.start), 0.0);
-        EXPECT_LT(gap(first.end(), second.start), 1e-12);
-        EXPECT_LT(gap(second.end(), path.end()), 1e-12);
-        EXPECT_NEAR(first.length() + second.length(), path.length(), 1e-12);
-        EXPECT_EQ(first.pieces.size() + second.pieces.size(), path.pieces.size());
-    }
-}
-
 TEST(Path, TheRestEndsWhereThePathDoes)
 {
     RandomParking random(23);
@@ -248,43 +200,16 @@ TEST(Path, TheRestEndsWhereThePathDoes)
         const Path rest = path.rest(driven);
         EXPECT_NEAR(rest.length(), length - driven, 1e-9);
         EXPECT_LT(gap(rest.end(), path.end()), 1e-9);
+        EXPECT_LT(gap(path.at(driven), rest.start), 1e-12);
         // It begins where the path is by then: a rest of the rest is the rest of both.
         EXPECT_LT(gap(path.rest(0.5 * driven).rest(0.5 * driven).start, rest.start), 1e-9);
     }
     // A turn where the rest begins is still to be made.
     const Path corner{{}, {{0.0, 2.0}, PathPiece::turnOnTheSpot(1.0), {0.0, 1.0}}};
     EXPECT_EQ(corner.rest(2.0).pieces.size(), 2U);
-    EXPECT_LT(gap(corner.rest(2.0).start, {2.0, 0.0, 0.0}), 1e-12);
-    EXPECT_LT(gap(corner.rest(2.5).start, {2.0 + 0.5 * std::cos(1.0), 0.5 * std::sin(1.0), 1.0}), 1e-12);
-    EXPECT_TRUE(corner.rest(3.0).pieces.empty());
-}
-
-TEST(Path, TheFirstMetresEndWhereTheRestBegins)
-{
-    RandomParking random(29);
-    for (int i = 0; i < 300; ++i)
-    {
-        const Path path = anyPath(random);
-        const double length = path.length(), driven = random.between(0.0, length);
-        const Path first = path.first(driven), rest = path.rest(driven);
-        EXPECT_NEAR(first.length(), driven, 1e-9);
-        EXPECT_LT(gap(first.start, path.start), 1e-12);
-        EXPECT_LT(gap(path.at(driven), rest.start), 1e-12);
-        EXPECT_LT(positionDistance(path.first(length).end(), path.end()), 1e-9);  // but for turns at the end
-        EXPECT_TRUE(path.first(0.0).pieces.empty());
-        EXPECT_LT(gap(path.at(0.0), path.start), 1e-12);
-        // Both together are the path again.
-        Path whole = first;
-        whole.extend(rest);
-        EXPECT_NEAR(whole.length(), length, 1e-9);
-        EXPECT_LT(gap(whole.end(), path.end()), 1e-9);
-    }
-    // A turn at the very end is left to the rest.
-    const Path corner{{}, {{0.0, 2.0}, PathPiece::turnOnTheSpot(1.0), {0.0, 1.0}}};
-    EXPECT_EQ(corner.first(2.0).pieces.size(), 1U);
     EXPECT_LT(gap(corner.at(2.0), {2.0, 0.0, 0.0}), 1e-12);
-    EXPECT_EQ(corner.first(2.5).pieces.size(), 3U);
-    EXPECT_LT(gap(corner.at(2.5), corner.rest(2.5).start), 1e-12);
+    EXPECT_LT(gap(corner.at(2.5), {2.0 + 0.5 * std::cos(1.0), 0.5 * std::sin(1.0), 1.0}), 1e-12);
+    EXPECT_TRUE(corner.rest(3.0).pieces.empty());
 }
 
 TEST(Path, CutsWhereAPieceEndsLeaveNoSlivers)
@@ -294,24 +219,21 @@ TEST(Path, CutsWhereAPieceEndsLeaveNoSlivers)
     {
         const Path path = anyPath(random);
         double driven = 0.0;
-        for (std::size_t k = 0; k < path.pieces.size(); ++k)
+        for (const PathPiece &whole : path.pieces)
         {
-            driven += path.pieces[k].driven();
+            driven += whole.driven();
             for (const double off : {-5e-10, -1e-14, 0.0, 1e-14, 5e-10})
             {
-                const Path first = path.first(driven + off), rest = path.rest(driven + off);
-                const Pose at = path.at(driven + off);
-                EXPECT_LT(gap(at, rest.start), 1e-12);
-                EXPECT_LT(gap(path.at(driven), at), 1e-12);
-                EXPECT_NEAR(first.length(), driven, 1e-12);
-                for (const Path *part : {&first, &rest})
-                    for (const PathPiece &piece : part->pieces)
-                        EXPECT_TRUE(piece.turn != 0.0 || piece.driven() > 1e-6) << piece.driven();
+                const Path rest = path.rest(driven + off);
+                EXPECT_LT(gap(path.at(driven), rest.start), 1e-12);
+                EXPECT_NEAR(rest.length(), path.length() - driven, 1e-12);
+                for (const PathPiece &piece : rest.pieces)
+                    EXPECT_TRUE(piece.turn != 0.0 || piece.driven() > 1e-6) << piece.driven();
             }
             // What is longer than a hair is cut.
             if (driven > 0.0)
             {
-                EXPECT_NEAR(path.first(driven - 1e-8).length(), driven - 1e-8, 1e-12);
+                EXPECT_NEAR(path.rest(driven - 1e-8).length(), path.length() - driven + 1e-8, 1e-12);
             }
         }
     }
@@ -351,14 +273,4 @@ TEST(Path, AppendingMergesArcsAndDropsWhatDoesNothing)
             EXPECT_LE(each.pieces.size(), whole.pieces.size());
         }
     }
-}
-
-TEST(Path, WithoutPiecesIsItsStart)
-{
-    const Path path{{1.0, 2.0, 0.5}, {}};
-    EXPECT_EQ(path.length(), 0.0);
-    EXPECT_EQ(path.cusps(), 0u);
-    EXPECT_TRUE(path.stretches().empty());
-    EXPECT_EQ(gap(path.end(), path.start), 0.0);
-    ASSERT_EQ(path.sample(0.1).size(), 1u);
 }

@@ -139,13 +139,6 @@ TEST(ReedsShepp, NoWordIsLostToALimit)
         }
 }
 
-TEST(ReedsShepp, NoMotionBetweenEqualPoses)
-{
-    const ReedsShepp solver(3.0);
-    const Pose pose{1.0, 2.0, 3.0};
-    EXPECT_NEAR(solver.distance(pose, pose), 0.0, 1e-9);
-}
-
 TEST(ReedsShepp, RejectsBadRadius)
 {
     EXPECT_THROW(ReedsShepp(0.0), Error);

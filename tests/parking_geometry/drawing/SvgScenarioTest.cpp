@@ -103,27 +103,6 @@ TEST(SvgScenario, LegendsNameWhatIsSeenOfAMap)
     EXPECT_EQ(legendOf(scenario), with(CARS, "outside of the map"));
 }
 
-TEST(SvgScenario, UnknownIsNotTheOutsideOfTheMap)
-{
-    Scenario scenario = openGround();
-    scenario.grid = OccupancyGrid(20, 200, 0.5, {-5.0, -50.0, 0.0}, Cell::Unknown);
-    scenario.slot = ParkingSlot{};
-    SvgMap map(viewAround(scenario));
-    drawScenario(map, scenario);
-    std::map<std::string, std::string> colours;
-    for (const SvgLegendEntry &entry : map.legend())
-        colours[entry.label] = entry.style.fill;
-    EXPECT_EQ(colours["unknown (not to be entered)"], svg_colour::UNKNOWN);
-    EXPECT_EQ(colours["outside of the map"], svg_colour::OUTSIDE);
-    const std::string svg = map.toSvg(0, 0);
-    for (const char *colour : {svg_colour::UNKNOWN, svg_colour::OUTSIDE})
-        EXPECT_NE(svg.find("fill=\"" + std::string(colour) + '"'), std::string::npos) << colour;
-    // A slot on unknown cells is seen.
-    const std::size_t slot = svg.find("stroke-dasharray=\"6 4\"");
-    ASSERT_NE(slot, std::string::npos);
-    EXPECT_LT(svg.find(svg_colour::UNKNOWN), slot);
-}
-
 TEST(SvgScenario, GroundsDifferInLightnessAlone)
 {
     // CIE L*: white is 100, and what differs by 7 is told apart side by side, whatever colours the eye sees.
@@ -151,27 +130,4 @@ TEST(SvgScenario, LegendsNameWhatIsSeenOfAPath)
     EXPECT_EQ(legendAlong(forward), (Labels{"way, forward", "car along the way"}));
     EXPECT_EQ(legendAlong(reverse), (Labels{"way, reverse", "car along the way"}));
     EXPECT_EQ(legendAlong(both), (Labels{"way, forward", "way, reverse", "change of direction", "car along the way"}));
-}
-
-TEST(SvgScenario, LegendsLeaveOutWhatIsOutsideOfTheView)
-{
-    SvgMap map({{100, 100}, {110, 110}});
-    drawScenario(map, openGround());
-    drawPath(map, Path{{}, {{0.0, 5.0}, {0.1, -5.0}}}.sample(0.1), Vehicle());
-    drawTrack(map, {{0, 0, 0}, {5, 0, 0}}, svg_colour::PLANNED, "track");
-    EXPECT_FALSE(drawCar(map, {}, Vehicle(), svg_colour::START, "car"));
-    EXPECT_EQ(labelsOf(map), (Labels{"outside of the map"}));
-}
-
-TEST(SvgScenario, TicksAreThoseOfTheScenariosWorld)
-{
-    Scenario scenario = openGround();
-    scenario.worldOffset = {4508927500.0, -5511483900.0};
-    SvgMap map(viewAround(scenario));
-    drawScenario(map, scenario);
-    const std::string svg = map.toSvg(0, 0);
-    EXPECT_NE(svg.find(">x - 4508927000 (m)<"), std::string::npos);
-    EXPECT_NE(svg.find(">y + 5511484000 (m)<"), std::string::npos);
-    EXPECT_NE(svg.find(">500<"), std::string::npos);
-    EXPECT_NE(svg.find(">100<"), std::string::npos);
 }

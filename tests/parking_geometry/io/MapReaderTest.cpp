@@ -61,14 +61,24 @@ namespace
         return text;
     }
 
-    TestPng grey(std::size_t width, std::size_t height, const std::vector<std::uint16_t> &samples)
+    std::string greyPng(png_uint_32 width, png_uint_32 height, const std::vector<std::uint8_t> &samples)
     {
-        TestPng image;
-        image.width = width;
-        image.height = height;
-        image.samples = samples;
-        return image;
+        return encodePng(width, height, PNG_FORMAT_GRAY, samples);
     }
+
+    std::string fromHex(const std::string &text)
+    {
+        std::string bytes;
+        for (std::size_t i = 0; i < text.size(); i += 2)
+            bytes += static_cast<char>(std::stoi(text.substr(i, 2), nullptr, 16));
+        return bytes;
+    }
+
+    /** 5 x 2 pixels of 2 bits, interlaced, of a palette of black, white that is transparent, 205 and 254. */
+    const std::string PALETTE_PNG = fromHex(
+        "89504e470d0a1a0a0000000d49484452000000050000000202030000019a03ce580000000c504c5445000000ffffffcdcdcdfefefe"
+        "9f6f2d220000000274524e53ff00e5b7304a000000114944415478da6360008206860286270c00069301d5302d0f960000000049"
+        "454e44ae426082");
 }  // namespace
 
 TEST_F(MapReader, ReadsPlainAndRawPgmWithTheLowerRowFirst)
@@ -140,74 +150,25 @@ TEST_F(MapReader, OriginKeepsItsYaw)
     EXPECT_NEAR(grid.origin().yaw, 7.0 - 2 * PI, 1e-12);
 }
 
-TEST_F(MapReader, ReadsGreyPngOfEveryDepth)
+TEST_F(MapReader, ReadsPngByTheMeanOfTheColoursOfOpaquePixels)
 {
-    EXPECT_EQ(cells(encodePng(grey(3, 2, {254, 205, 0, 0, 254, 254}))), ".?#/#..");
-    TestPng image = grey(3, 1, {65535, 52685, 100});
-    image.bitDepth = 16;
-    EXPECT_EQ(cells(encodePng(image)), ".?#");
-    image = grey(9, 2, {1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1});
-    image.bitDepth = 1;
-    EXPECT_EQ(cells(encodePng(image)), ".#.#.#.#./########.");
-    image = grey(4, 1, {0, 1, 2, 3});
-    image.bitDepth = 2;
-    EXPECT_EQ(cells(encodePng(image)), "##?.");
-    image = grey(4, 1, {15, 12, 11, 3});
-    image.bitDepth = 4;
-    EXPECT_EQ(cells(encodePng(image)), ".??#");
-}
-
-TEST_F(MapReader, ReadsColourPngByTheMeanOfItsChannels)
-{
-    TestPng image;
-    image.width = 4;
-    image.height = 1;
-    image.colourType = PNG_COLOR_TYPE_RGB;
-    image.samples = {255, 255, 255, 255, 0, 0, 205, 205, 205, 0, 255, 255};
-    EXPECT_EQ(cells(encodePng(image)), ".#??");
-    image.bitDepth = 16;
-    image.samples = {65535, 65535, 65535, 65535, 0, 0, 52685, 52685, 52685, 0, 65535, 65535};
-    EXPECT_EQ(cells(encodePng(image)), ".#??");
-}
-
-TEST_F(MapReader, WhatIsNotOpaqueIsUnknown)
-{
-    TestPng image;
-    image.width = 5;
-    image.height = 1;
-    image.colourType = PNG_COLOR_TYPE_GRAY_ALPHA;
-    image.samples = {255, 255, 0, 255, 205, 255, 255, 0, 0, 254};
-    EXPECT_EQ(cells(encodePng(image)), ".#???");
-    image.colourType = PNG_COLOR_TYPE_RGB_ALPHA;
-    image.samples = {255, 255, 255, 255, 0, 0, 0, 255, 205, 205, 205, 255, 255, 255, 255, 0, 0, 0, 0, 254};
+    EXPECT_EQ(cells(greyPng(3, 2, {254, 205, 0, 0, 254, 254})), ".?#/#..");
+    EXPECT_EQ(cells(encodePng(4, 1, PNG_FORMAT_RGB, {255, 255, 255, 255, 0, 0, 205, 205, 205, 0, 255, 255})), ".#??");
     for (const std::string mode : {"trinary", "scale"})
-        EXPECT_EQ(cells(encodePng(image), "mode: " + mode + "\n"), ".#???");
-}
-
-TEST_F(MapReader, ReadsPalettePng)
-{
-    TestPng image;
-    image.width = 5;
-    image.height = 2;
-    image.colourType = PNG_COLOR_TYPE_PALETTE;
-    image.palette = {0, 0, 0, 255, 255, 255, 205, 205, 205, 254, 254, 254};
-    image.samples = {0, 1, 2, 3, 0, 3, 2, 1, 0, 0};
-    EXPECT_EQ(cells(encodePng(image)), "#.?.#/.?.##");
-    image.bitDepth = 2;
-    EXPECT_EQ(cells(encodePng(image)), "#.?.#/.?.##");
-    image.paletteAlpha = {255, 0};
-    EXPECT_EQ(cells(encodePng(image)), "#??.#/.??##");
-}
-
-TEST_F(MapReader, ReadsInterlacedPng)
-{
-    TestPng image = grey(17, 13, {});
-    parking_test::Random random(4);
-    for (int i = 0; i < 17 * 13; ++i)
-        image.samples.push_back(random.index(3) == 0 ? 0 : random.chance(0.5) ? 205 : 254);
-    const std::string plain = cells(encodePng(image));
-    image.interlaced = true;
-    EXPECT_EQ(cells(encodePng(image)), plain);
+    {
+        EXPECT_EQ(
+            cells(encodePng(5, 1, PNG_FORMAT_GA, {255, 255, 0, 255, 205, 255, 255, 0, 0, 254}), "mode: " + mode + "\n"),
+            ".#???");
+        EXPECT_EQ(cells(encodePng(3, 1, PNG_FORMAT_RGBA, {255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 0}),
+                        "mode: " + mode + "\n"),
+                  ".#?");
+    }
+    EXPECT_EQ(cells(PALETTE_PNG), "#??.#/.??##");
+    // 16 bits: 65535, 52685 (205 of 255), 100.
+    EXPECT_EQ(
+        cells(fromHex("89504e470d0a1a0a0000000d49484452000000030000000110000000006e1b972b0000000f4944415478da63f8fff"
+                      "fec5986140010fb03fd6ff3a4380000000049454e44ae426082")),
+        ".?#");
 }
 
 TEST_F(MapReader, AnImageOfAnotherSizeThanAnnouncedIsAnError)
@@ -218,9 +179,9 @@ TEST_F(MapReader, AnImageOfAnotherSizeThanAnnouncedIsAnError)
     expectImageError(raw("P5 2 2 255\n", {1, 2, 3, 4, 5}), {"too long", "2 x 2"});
     EXPECT_NO_THROW(read(raw("P5 2 2 255\n", {1, 2, 3, 4, '\n'})));
     expectImageError(raw("P5 2 2 65535\n", {1, 2, 3, 4, 5, 6, 7}), {"truncated"});
-    const std::string png = encodePng(grey(40, 40, std::vector<std::uint16_t>(1600, 77)));
+    const std::string png = greyPng(40, 40, std::vector<std::uint8_t>(1600, 77));
     expectImageError(png.substr(0, png.size() / 2), {"not a valid PNG"});
-    expectImageError(png.substr(0, 20), {"not a valid PNG", "truncated"});
+    expectImageError(png.substr(0, 20), {"not a valid PNG"});
 }
 
 TEST_F(MapReader, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken)
@@ -233,7 +194,7 @@ TEST_F(MapReader, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken)
     // A PNG whose header was changed to a huge size, with its checksum put right (as an attacker would).
     const auto announcing = [](const std::string &header)
     {
-        std::string png = encodePng(grey(1, 1, {1}));
+        std::string png = greyPng(1, 1, {1});
         png.replace(16, 13, header);
         const std::string chunk = png.substr(12, 17);
         std::uint32_t crc = 0xFFFFFFFF;
@@ -319,19 +280,12 @@ TEST_F(MapReader, ReadsTheRealMaps)
 
 TEST_F(MapReader, DamagedImagesGiveErrorsAndNothingWorse)
 {
-    TestPng colours;
-    colours.width = 5;
-    colours.height = 4;
-    colours.colourType = PNG_COLOR_TYPE_RGB_ALPHA;
-    for (std::uint16_t i = 0; i < 80; ++i)
-        colours.samples.push_back(static_cast<std::uint16_t>(i * 3));
-    TestPng palette = grey(6, 3, {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2});
-    palette.colourType = PNG_COLOR_TYPE_PALETTE;
-    palette.palette = {0, 0, 0, 255, 255, 255, 200, 200, 200};
-    palette.interlaced = true;
+    std::vector<std::uint8_t> colours;
+    for (std::uint8_t i = 0; i < 80; ++i)
+        colours.push_back(static_cast<std::uint8_t>(i * 3));
     const std::vector<std::string> images = {"P2 # c\n4 3 255\n1 2 3 4 250 6 7 8 9 200 11 12\n",
                                              raw("P5\n# c\n3 2 300\n", {1, 2, 0, 4, 0, 6, 1, 8, 0, 7, 0, 3}),
-                                             encodePng(colours), encodePng(palette)};
+                                             encodePng(5, 4, PNG_FORMAT_RGBA, colours), PALETTE_PNG};
     parking_test::Random random(5);
     const auto expectSound = [this](const std::string &image)
     {

@@ -52,7 +52,7 @@ namespace
         }
         Scenario readCase(const std::string &text)
         {
-            return readTpcapCase(folder_.write("case.csv", text));
+            return readScenario(folder_.write("case.csv", text));
         }
         void expectYamlError(const std::string &text, const std::vector<std::string> &parts)
         {
@@ -113,14 +113,6 @@ TEST_F(TpcapReader, TakesBothLineEndsBlanksAndALastComma)
     }
 }
 
-TEST_F(TpcapReader, WrapsYaw)
-{
-    const Scenario scenario = readCase("0,0,6.5,1,0,-9.0,0");
-    EXPECT_NEAR(scenario.start.yaw, 6.5 - 2 * PI, 1e-12);
-    EXPECT_NEAR(scenario.goals[0].yaw, -9.0 + 2 * PI, 1e-12);
-    EXPECT_TRUE(scenario.polygons.empty());
-}
-
 TEST_F(TpcapReader, KeepsItsPrecisionFarFromTheOrigin)
 {
     // 4e9 m and a binary fraction: exact in a double, so nothing may be lost.
@@ -174,13 +166,6 @@ TEST_F(TpcapReader, FileErrorsAreNamed)
     expectError([&] { read("0,0,0", "folder.csv/case.csv"); }, {"case.csv", "too few"});
     expectError([&] { readScenario("/dev/zero"); }, {"/dev/zero", "device"});
     expectError([&] { read(std::string(17 << 20, ' '), "long.csv"); }, {"long.csv", "16 MiB"});
-}
-
-TEST_F(TpcapReader, TheCarMayBeChosen)
-{
-    const std::string file = folder_.write("case.csv", CASE);
-    EXPECT_EQ(readScenario(file, {"toyota_yaris"}).vehicle.name, "toyota_yaris");
-    expectError([&] { readScenario(file, {"trabant"}); }, {"'trabant'", "vw_golf8"});
 }
 
 TEST_F(TpcapReader, ReadsTheRealCases)
@@ -389,13 +374,6 @@ TEST_F(YamlReader, AliasesDoNotMultiplyCornersWithoutBound)
     for (int i = 0; i < 100000; ++i)
         text += "- *a\n";
     expectYamlError(text, {"example.yaml:4", "1000000 corners"});
-}
-
-TEST_F(YamlReader, NamesTheMapThatIsMissing)
-{
-    const std::string text = "start: [1, 1, 0]\ngoal: [2, 1, 0]\nmap: maps/lot.yaml\n";
-    expectYamlError(text, {"maps/lot.yaml", "No such file"});
-    expectYamlError(with(text, "lot.yaml", "lot.pgm"), {"example.yaml:3", "'maps/lot.pgm'", "YAML file"});
 }
 
 TEST_F(YamlReader, PutsAMapIntoTheFrameOfTheStart)

@@ -75,22 +75,6 @@ TEST_F(SurroundOcc, ClosesGapsOfTheLidarRings)
     EXPECT_EQ(grid.at(20, 15), Cell::Unknown);
 }
 
-TEST_F(SurroundOcc, ClosesGapsFromTheirCornersThreeTimes)
-{
-    // A notch of two columns, open at the top: its lowest cells have five free neighbours, so it fills row by row.
-    std::vector<std::int64_t> voxels;
-    for (std::int64_t x = 10; x < 20; ++x)
-        for (std::int64_t y = 10; y < 20; ++y)
-            if (y < 12 || (x != 14 && x != 15))
-                voxels.insert(voxels.end(), {x, y, 2, 12});
-    const OccupancyGrid grid = readSurroundOcc(folder_.write("frame.npy", encodeNpy(voxels)));
-    for (const std::size_t x : {14u, 15u})
-    {
-        EXPECT_EQ(grid.at(x, 14), Cell::Free);
-        EXPECT_EQ(grid.at(x, 15), Cell::Unknown);
-    }
-}
-
 TEST_F(SurroundOcc, MeasuresHeightsFromTheLowestAndNearestGround)
 {
     const std::vector<std::int64_t> voxels = {
@@ -109,17 +93,6 @@ TEST_F(SurroundOcc, MeasuresHeightsFromTheLowestAndNearestGround)
         encodeNpy({60, 50, 5, 11, 64, 50, 9, 11, 62, 50, 8, 15, 20, 84, 5, 11, 25, 80, 9, 11, 20, 80, 8, 15})));
     EXPECT_EQ(low.at(62, 50), Cell::Occupied);
     EXPECT_EQ(low.at(20, 80), Cell::Occupied);
-}
-
-TEST_F(SurroundOcc, TakesTheFirstOfEquallyNearGround)
-{
-    // Both 5 cells away, at (0, -5) and (-3, -4): the lower row comes first.
-    const OccupancyGrid grid =
-        readSurroundOcc(folder_.write("frame.npy", encodeNpy({60, 45, 9, 11, 57, 46, 2, 11, 60, 50, 5, 15})));
-    EXPECT_EQ(grid.at(60, 50), Cell::Unknown);
-    const OccupancyGrid other =
-        readSurroundOcc(folder_.write("frame.npy", encodeNpy({60, 45, 2, 11, 57, 46, 9, 11, 60, 50, 5, 15})));
-    EXPECT_EQ(other.at(60, 50), Cell::Occupied);
 }
 
 TEST_F(SurroundOcc, GivesTheMapsThatWereMadeFromTheRealFrames)

@@ -7,6 +7,7 @@
 #include "tests/support/PoseGap.h"
 
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -59,29 +60,35 @@ TEST(MultiStretchParking, OneSweepNeedsNoPlanner)
     EXPECT_EQ(result.path.stretches().size(), 1u);
 }
 
+namespace
+{
+    /** \e begun, which ends in the slot headed out of it, and on to the first exit: ahead, a quarter turn into the
+        aisle, and straight on. */
+    Path toExit(Path begun, const SlotExitTask &task)
+    {
+        const double mirror = task.side == SlotSide::Left ? -1.0 : 1.0, radius = 3.1;
+        const Pose exit = relativeTo(begun.end(), task.exits.front());
+        begun.append({0.0, exit.x - radius});
+        begun.append({-mirror / radius, radius * 0.5 * PI});
+        begun.append({0.0, -mirror * exit.y - radius});
+        return begun;
+    }
+}  // namespace
+
 TEST(MultiStretchParking, ThePlannersPathIsReversedAndCounted)
 {
     // An aisle that is too narrow for one sweep, and a planner that need not care: there are no callables.
     ReverseParkingOptions options;
     options.aisleWidth = 3.0;
     const ReverseParking parking(Vehicle(), options);
-    ParkingSlot slot;
+    const ParkingSlot slot;
     ASSERT_EQ(parking.plan(slot).status, ReverseParkingStatus::AisleTooNarrow);
     int asked = 0;
     const SlotExitPlanner shunts = [&](const SlotExitTask &task)
     {
-        // Straight to and fro, then to the exit by way of its pose: the exit is made to fit the path.
         ++asked;
-        Path path{task.parked, {{0.0, 1.0}, {0.0, -0.5}}};
-        if (task.side == SlotSide::Left)
-            return Path{task.parked, {}};
-        const Pose exit = relativeTo(path.end(), task.exits.front());
-        // Turn by pi/2 to the right and straight lines: ahead - r, then the arc, then right - r.
-        const double radius = 3.1;
-        path.append({0.0, exit.x - radius});
-        path.append({-1.0 / radius, radius * 0.5 * PI});
-        path.append({0.0, -exit.y - radius});
-        return path;
+        return task.side == SlotSide::Left ? Path{task.parked, {}}
+                                           : toExit({task.parked, {{0.0, 1.0}, {0.0, -0.5}}}, task);
     };
     const ReverseParkingResult result = planInStretches(parking, slot, {}, shunts);
     ASSERT_TRUE(result.fits()) << result.message;
@@ -96,66 +103,30 @@ TEST(MultiStretchParking, ThePlannersPathIsReversedAndCounted)
     {
         const SlotExitPlanner both = [&](const SlotExitTask &task)
         {
-            const double mirror = task.side == SlotSide::Left ? -1.0 : 1.0, radius = 3.1;
-            Path path{task.parked, {}};
-            if (task.side != better)
-                path.pieces = {{0.0, 1.0}, {0.0, -0.5}, {0.0, 0.5}, {0.0, -0.5}};
-            const Pose exit = relativeTo(path.end(), task.exits.front());
-            path.append({0.0, exit.x - radius});
-            path.append({-mirror / radius, radius * 0.5 * PI});
-            path.append({0.0, -mirror * exit.y - radius});
-            return path;
+            return toExit(task.side == better ? Path{task.parked, {}}
+                                              : Path{task.parked, {{0.0, 1.0}, {0.0, -0.5}, {0.0, 0.5}, {0.0, -0.5}}},
+                          task);
         };
         EXPECT_EQ(planInStretches(parking, slot, {}, both).side, better);
     }
 
-    const ReverseParkingResult none = planInStretches(parking, slot, {},
-                                                      [](const SlotExitTask &task) {
-                                                          return Path{task.parked, {}};
-                                                      });
-    EXPECT_EQ(none.status, ReverseParkingStatus::AisleTooNarrow);
-
-    const auto shifted = [&](const SlotExitTask &task)
+    const auto planned = [&](const FootprintQueries &world, const std::function<void(Path &)> &change)
     {
-        Path path = shunts(task);
-        path.start.x += 0.01;
-        return path;
+        return planInStretches(parking, slot, world,
+                               [&](const SlotExitTask &task)
+                               {
+                                   Path path = shunts(task);
+                                   change(path);
+                                   return path;
+                               });
     };
-    expectError([&] { planInStretches(parking, slot, {}, shifted); }, {"multi-stretch", "begin"});
-    const auto elsewhere = [&](const SlotExitTask &task)
-    {
-        return Path{task.parked, {{0.0, 1.0}}};
-    };
-    expectError([&] { planInStretches(parking, slot, {}, elsewhere); }, {"multi-stretch", "exits"});
+    EXPECT_EQ(planned({}, [](Path &path) { path.pieces.clear(); }).status, ReverseParkingStatus::AisleTooNarrow);
+    expectError([&] { planned({}, [](Path &path) { path.start.x += 0.01; }); }, {"multi-stretch", "begin"});
+    expectError([&] { planned({}, [](Path &path) { path.pieces = {{0.0, 1.0}}; }); }, {"multi-stretch", "exits"});
     FootprintQueries closed;
     closed.isPathFree = [](const Path &)
     {
         return false;
     };
-    expectError([&] { planInStretches(parking, slot, closed, shunts); }, {"multi-stretch", "free"});
-}
-
-TEST(MultiStretchParking, SmallestSlotBisects)
-{
-    const ReverseParking parking{Vehicle()};
-    ParkingSlot slot;
-    slot.kind = SlotKind::Parallel;
-    slot.length = 12.0;
-    const auto fits = [&](const ParkingSlot &tried)
-    {
-        return parking.plan(tried).fits();
-    };
-    const double least = smallestSlot(slot, &ParkingSlot::length, parking.vehicle().length(), fits, 1e-4);
-    EXPECT_NEAR(least, parking.plan(slot).neededSlotLength, 1e-4);
-    // No finer than numbers are, but it ends.
-    int asked = 0;
-    const auto counted = [&asked](const ParkingSlot &tried)
-    {
-        return ++asked < 1000 && tried.length > 5.1;
-    };
-    EXPECT_EQ(smallestSlot(slot, &ParkingSlot::length, 4.5, counted, 1e-300), std::nextafter(5.1, 6.0));
-    EXPECT_LT(asked, 100);
-    slot.length = 6.0;
-    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits); }, {"smallest slot", "larger"});
-    expectError([&] { smallestSlot(slot, &ParkingSlot::length, 5.0, fits, 0.0); }, {"precision"});
+    expectError([&] { planned(closed, [](Path &) {}); }, {"multi-stretch", "free"});
 }

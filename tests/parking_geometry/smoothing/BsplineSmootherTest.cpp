@@ -108,24 +108,6 @@ TEST(BsplineSmoother, TheCurvatureIsThatOfTheCurveAndHardlyJumps)
             }
 }
 
-TEST(BsplineSmoother, SmoothsCornersAndStaysNearThePolyline)
-{
-    RandomParking random(52);
-    for (int i = 0; i < 200; ++i)
-    {
-        const Points points = gridWalk(random, 60);
-        const Path path = bsplineSmooth(points).path;
-        // The curve lies in the hulls of four control points, which are at most 9 steps apart.
-        for (const PathState &state : path.sample(0.1))
-            ASSERT_LT(distanceToPolyline(points, state.pose), 1.6);
-        double length = 0.0;
-        for (std::size_t k = 1; k < points.size(); ++k)
-            length += (points[k] - points[k - 1]).norm();
-        EXPECT_LE(path.length(), length + 1e-6);
-        EXPECT_GT(path.length(), 0.7 * length);
-    }
-}
-
 TEST(BsplineSmoother, CollidingSpansComeCloserAndOthersStay)
 {
     RandomParking random(53);

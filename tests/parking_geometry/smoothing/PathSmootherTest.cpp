@@ -69,57 +69,29 @@ namespace
     };
 }  // namespace
 
-TEST(PathSmoother, PlannerPathsBecomeDrivable)
+TEST(PathSmoother, PlannerPathsBecomeDrivableAndMostlyContinuous)
 {
     RandomParking random(41);
-    Share share;
-    for (int i = 0; i < 3000; ++i)
+    Share roomy, full;
+    std::size_t stops = 0;
+    for (int i = 0; i < 4000; ++i)
     {
         const Vehicle car = random.vehicle();
+        const bool isFull = i % 4 == 0;  // planned at full lock, which leaves little room
         SmoothingOptions options;
-        options.speed = random.between(0.3, 2.0);
-        const Path path = i % 2 == 0 ? random.plannerPath(car, 1.03) : reedsShepp(random, car, 1.03);
+        if (!isFull)
+            options.speed = random.between(0.3, 2.0);
+        const Path path = isFull       ? random.plannerPath(car, 1.0)
+                          : i % 2 == 0 ? random.plannerPath(car, 1.03)
+                                       : reedsShepp(random, car, 1.03);
         const SmoothPath result = PathSmoother(car, options).smooth(path);
         ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
         EXPECT_TRUE(result.free);
-        share.add(result);
-    }
-    EXPECT_GE(share.percent(), 99.0);
-}
-
-TEST(PathSmoother, ShortPiecesAtHighSpeedStayAsLong)
-{
-    RandomParking random(49);
-    for (int i = 0; i < 2000; ++i)
-    {
-        const Vehicle car = random.vehicle();
-        Path path = random.plannerPath(car, 1.15);
-        for (PathPiece &piece : path.pieces)
-            piece.length *= 0.3;
-        SmoothingOptions options;
-        options.speed = 2.5;
-        options.tolerance = 0.5;
-        const SmoothPath result = PathSmoother(car, options).smooth(path);
-        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
-    }
-}
-
-TEST(PathSmoother, FullLockLeavesLittleRoomAndStopsAreCounted)
-{
-    RandomParking random(42);
-    Share share;
-    std::size_t stops = 0;
-    for (int i = 0; i < 1000; ++i)
-    {
-        const Vehicle car = random.vehicle();
-        const SmoothingOptions options;
-        const Path path = random.plannerPath(car, 1.0);
-        const SmoothPath result = PathSmoother(car, options).smooth(path);
-        ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, options)) << i;
-        share.add(result);
+        (isFull ? full : roomy).add(result);
         stops += result.stops.size();
     }
-    EXPECT_GE(share.percent(), 95.0);
+    EXPECT_GE(roomy.percent(), 99.0);
+    EXPECT_GE(full.percent(), 95.0);
     EXPECT_GT(stops, 0u);
 }
 
@@ -174,86 +146,6 @@ TEST(PathSmoother, ManoeuvresIntoSlotsBecomeContinuous)
         share.add(result);
     }
     EXPECT_GE(share.percent(), 99.0) << "the tightest slots and aisles with 5 cm of clearance";
-}
-
-TEST(PathSmoother, AWallOnOneSideLeavesTheOther)
-{
-    // A wall 2 mm beside the body, up to where its tail is when the turn away from the wall begins. A smooth curve
-    // turns earlier, which would swing the tail into the wall: it must move away first.
-    const Vehicle car;
-    const Path path{{}, {{0.0, 5.0}, {0.9 / car.minTurningRadius(), 4.0}, {0.0, 5.0}}};
-    const double end = 4.95 - car.rearOverhang, y = -0.5 * car.width - 0.002;
-    const PolygonWorld world(car, {{{end - 1.0, y - 0.5}, {end, y - 0.5}, {end, y}, {end - 1.0, y}}});
-    ASSERT_TRUE(world.isPathFree(path));
-    ASSERT_FALSE(isPathFree(world.queries(), car, PathSmoother(car).smooth(path).path));
-    const SmoothPath result = PathSmoother(car).smooth(path, world.queries());
-    ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, {}));
-    EXPECT_TRUE(result.free);
-    EXPECT_EQ(result.stops.size(), 0u);
-    EXPECT_GE(result.stretches[0].speed, 0.4) << "with room on one side there is no need to creep";
-}
-
-TEST(PathSmoother, LongPathsAreSmoothedPieceByPiece)
-{
-    // Many turns with long lines between them, and no room about one joint: it keeps its arcs, and nothing else
-    // changes.
-    const Vehicle car;
-    const double curvature = 0.9 / car.minTurningRadius();
-    Path path{{}, {}};
-    for (int i = 0; i < 8; ++i)
-    {
-        path.append({0.0, 12.0});
-        path.append({i % 2 == 0 ? curvature : -curvature, 3.0});
-    }
-    path.append({0.0, 12.0});
-    const SmoothPath open = PathSmoother(car).smooth(path);
-    ASSERT_NO_FATAL_FAILURE(expectDrivable(open, path, car, {}));
-    EXPECT_EQ(open.stops.size(), 0u);
-    // Only poses of the arcs are free round the end of the fourth turn.
-    Pose joint = path.start;
-    for (int i = 0; i < 8; ++i)
-        joint = advance(joint, path.pieces[static_cast<std::size_t>(i)].curvature,
-                        path.pieces[static_cast<std::size_t>(i)].length);
-    const SampledPath states = path.sample(0.01);
-    FootprintQueries queries;
-    queries.isFree = [&](const Pose &pose)
-    {
-        return positionDistance(pose, joint) > 2.0 ||
-               std::any_of(states.begin(), states.end(),
-                           [&](const PathState &state)
-                           {
-                               const Pose local = relativeTo(state.pose, pose);
-                               return std::abs(local.x) < 0.01 && std::abs(local.y) < 1e-5;
-                           });
-    };
-    const SmoothPath result = PathSmoother(car).smooth(path, queries);
-    ASSERT_NO_FATAL_FAILURE(expectDrivable(result, path, car, {}));
-    EXPECT_TRUE(result.free);
-    ASSERT_GE(result.stops.size(), 1u);
-    EXPECT_LE(result.stops.size(), 2u) << "the other end of that turn may have to keep its arcs as well";
-    EXPECT_LT(positionDistance(result.path.part(result.stops.back(), result.path.pieces.size()).start, joint), 1e-9);
-    // Far from it nothing has changed.
-    const std::size_t openPieces = open.path.pieces.size(), pieces = result.path.pieces.size();
-    for (const std::size_t i : {std::size_t{20}, std::size_t{80}})
-    {
-        EXPECT_LT(gap(open.path.part(i, openPieces).start, result.path.part(i, pieces).start), 1e-9);
-        EXPECT_LT(gap(open.path.part(openPieces - i, openPieces).start, result.path.part(pieces - i, pieces).start),
-                  1e-9);
-    }
-}
-
-TEST(PathSmoother, OneArcStaysAsItIs)
-{
-    const Vehicle car;
-    const Path path{{1.0, 2.0, 0.3}, {{1.0 / car.minTurningRadius(), 2.0}, {-0.2, -1.5}}};
-    const SmoothPath result = PathSmoother(car).smooth(path);
-    ASSERT_EQ(result.stretches.size(), 2u);
-    EXPECT_FALSE(result.stretches[0].changed || result.stretches[1].changed);
-    EXPECT_EQ(result.continuousStretches(), 2u);
-    ASSERT_EQ(result.path.pieces.size(), 2u);
-    EXPECT_EQ(result.path.pieces[1].length, -1.5);
-    EXPECT_NEAR(result.path.length(), 3.5, 1e-12);
-    EXPECT_EQ(result.path.pieces[0].curvature, 1.0 / car.minTurningRadius());
 }
 
 TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
@@ -314,20 +206,6 @@ TEST(PathSmoother, WithoutRoomTheArcsStay)
     }
 }
 
-TEST(PathSmoother, ReportsThatTheGivenPathIsNotFree)
-{
-    FootprintQueries closed;
-    closed.isFree = [](const Pose &pose)
-    {
-        return pose.x < 3.0;
-    };
-    const Path path{{}, {{0.0, 2.0}, {0.2, 3.0}}};
-    const SmoothPath result = PathSmoother(Vehicle()).smooth(path, closed);
-    EXPECT_FALSE(result.free);
-    EXPECT_EQ(result.stops.size(), 1u);
-    EXPECT_LT(gap(result.path.end(), path.end()), 1e-9);
-}
-
 TEST(PathSmoother, SlowerTransitionsDeviateLess)
 {
     const Vehicle car;
@@ -384,24 +262,6 @@ TEST(PathSmoother, MirroredAndMovedPathsGiveMirroredAndMovedResults)
     }
 }
 
-TEST(PathSmoother, IsDeterministic)
-{
-    RandomParking random(48);
-    const Vehicle car;
-    const PathSmoother smoother(car);
-    for (int i = 0; i < 50; ++i)
-    {
-        const Path path = random.plannerPath(car, 1.0);
-        const SmoothPath a = smoother.smooth(path), b = smoother.smooth(path);
-        ASSERT_EQ(a.path.pieces.size(), b.path.pieces.size());
-        for (std::size_t k = 0; k < a.path.pieces.size(); ++k)
-        {
-            ASSERT_EQ(a.path.pieces[k].length, b.path.pieces[k].length);
-            ASSERT_EQ(a.path.pieces[k].curvature, b.path.pieces[k].curvature);
-        }
-    }
-}
-
 TEST(PathSmoother, PathsWithoutMotionStayEmpty)
 {
     const SmoothPath none = PathSmoother(Vehicle()).smooth(Path{{1.0, 2.0, 0.5}, {}});
@@ -409,14 +269,6 @@ TEST(PathSmoother, PathsWithoutMotionStayEmpty)
     EXPECT_TRUE(none.path.pieces.empty());
     EXPECT_TRUE(none.stretches.empty());
     EXPECT_TRUE(none.free);
-}
-
-TEST(PathSmoother, EqualNeighboursAreOneArc)
-{
-    const Path parts{{}, {{0.1, 1.0}, {0.1, 0.0}, {0.1, 2.0}, {0.0, 3.0}}}, whole{{}, {{0.1, 3.0}, {0.0, 3.0}}};
-    const SmoothPath a = PathSmoother(Vehicle()).smooth(parts), b = PathSmoother(Vehicle()).smooth(whole);
-    EXPECT_EQ(a.path.pieces.size(), b.path.pieces.size());
-    EXPECT_LT(gap(a.path.end(), b.path.end()), 1e-9);
 }
 
 TEST(PathSmoother, OnlyArcsAndLinesCanBeSmoothed)

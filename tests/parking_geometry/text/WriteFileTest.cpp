@@ -59,16 +59,6 @@ TEST(WriteFile, WritesAndReplaces)
     }
 }
 
-TEST(WriteFile, TakesANameWithoutAFolder)
-{
-    const TemporaryFolder folder;
-    const fs::path before = fs::current_path();
-    fs::current_path(folder.path(""));
-    EXPECT_NO_THROW(writeFileAtomically("here.txt", "here"));
-    fs::current_path(before);
-    EXPECT_EQ(contentOf(folder.path("here.txt")), "here");
-}
-
 TEST(WriteFile, GivesTheUsualPermissionsAndKeepsThoseOfTheOldFile)
 {
     const TemporaryFolder folder;

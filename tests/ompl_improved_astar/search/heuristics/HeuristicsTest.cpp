@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,8 +19,6 @@ using namespace parking_test;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
     /** A heuristic of a car in a query. */
     class Query
     {
@@ -129,7 +126,7 @@ TEST(Heuristics, severalTargetsAreAsNearAsTheNearestAndForgottenAtBegin)
                 for (int i = 0; i < 20; ++i)
                 {
                     const Pose pose = random.poseIn(-15.0, 15.0);
-                    double estimate = INFINITE, bound = INFINITE;
+                    double estimate = HUGE_VAL, bound = HUGE_VAL;
                     for (const Pose &target : targets)
                     {
                         each.begin(side, {target});
@@ -193,7 +190,7 @@ TEST(HeuristicWeights, aLoweredWeightIsNeitherRaisedNorBelowOneUnlessItWas)
                                        0.1};
         const double factor = random.between(0.1, 0.99);
         ASSERT_EQ(weights.at(weights.nearDistance), weights.near + 0.1);
-        ASSERT_EQ(weights.at(std::nextafter(weights.nearDistance, INFINITE)), weights.far + 0.1);
+        ASSERT_EQ(weights.at(std::nextafter(weights.nearDistance, HUGE_VAL)), weights.far + 0.1);
         ASSERT_EQ(weights.canBeLowered(), std::max(weights.far, weights.near) > 1.0);
         const HeuristicWeights lower = weights.lowered(factor);
         for (const double HeuristicWeights::*each : {&HeuristicWeights::far, &HeuristicWeights::near})

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
@@ -23,7 +22,6 @@ using parking::Pose;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     constexpr std::uint64_t MAX_CELLS = 1000000;
     const StopFunction never;
 
@@ -135,19 +133,19 @@ TEST(RouteHeuristic, isDijkstrasDistanceInAnyOrderOfQuestions)
         {
             const Cell cell = world.anyCell();
             const auto found = baseline.find(cell);
-            const double expected = found == baseline.end() ? INFINITE : found->second;
+            const double expected = found == baseline.end() ? HUGE_VAL : found->second;
             const double x = cell.first + world.random.between(0.0, 1.0), y = cell.second + 0.5;
             const std::uint64_t cells = world.routes.cells(), queries = world.roomsAsked;
             const std::optional<double> told = world.routes.knownDistance(x, y);
             ASSERT_EQ(world.roomsAsked, queries);
             const double distance = world.routes.distance(x, y);
             ASSERT_NEAR(std::min(distance, 1e6), std::min(expected, 1e6), 1e-6);
-            ASSERT_EQ(world.routes.provesUnreachable({x, y, 0.0}), expected == INFINITE);
+            ASSERT_EQ(world.routes.provesUnreachable({x, y, 0.0}), expected == HUGE_VAL);
             ASSERT_TRUE(world.routes.knownDistance(x, y) || world.roomAt(x, y) == 0.0);
             ASSERT_TRUE(!told || (*told == distance && world.routes.cells() == cells));
             known += told ? 1 : 0;
-            aimed += distance < INFINITE && world.routes.cells() > cells + 200 ? 1 : 0;
-            closed += expected == INFINITE && world.roomAt(x, y) > 0.0 ? 1 : 0;
+            aimed += distance < HUGE_VAL && world.routes.cells() > cells + 200 ? 1 : 0;
+            closed += expected == HUGE_VAL && world.roomAt(x, y) > 0.0 ? 1 : 0;
         }
     }
     EXPECT_GT(known, 1000);
@@ -167,7 +165,7 @@ TEST(RouteHeuristic, placesLieOnAShortestRoute)
         const double x = cell.first + 0.5, y = cell.second + 0.5, length = world.routes.distance(x, y);
         const double ahead = world.random.between(0.0, 30.0), around = world.random.between(0.0, ahead);
         const std::optional<Pose> place = world.routes.placeOnRoute(x, y, ahead, around);
-        const bool isFarEnough = length < INFINITE && length > ahead + around;
+        const bool isFarEnough = length < HUGE_VAL && length > ahead + around;
         EXPECT_TRUE(isFarEnough ? place || around < 2.0 : !place);
         if (!place)
             continue;
@@ -203,12 +201,12 @@ TEST(RouteHeuristic, nearestReachableIsTheNearestCellWithARoute)
         if (seed % 2 == 1)
             world.routes.distance(30.5, 30.5);
         const Vector2d goal(world.random.between(-20.0, 80.0), world.random.between(-20.0, 80.0));
-        double nearest = INFINITE;
+        double nearest = HUGE_VAL;
         for (const auto &[cell, length] : world.baseline())
             nearest = std::min(nearest, (Vector2d(cell.first + 0.5, cell.second + 0.5) - goal).norm());
         const Vector2d place = world.routes.nearestReachable(goal);
         EXPECT_NEAR((place - goal).norm(), nearest, 1e-9);
-        EXPECT_LT(world.routes.distance(place.x(), place.y()), INFINITE);
+        EXPECT_LT(world.routes.distance(place.x(), place.y()), HUGE_VAL);
     }
 }
 
@@ -276,7 +274,7 @@ TEST(RouteHeuristic, claimsNothingWhenStoppedAndResumes)
     RouteHeuristic routes = routesTo({50.0, -10.0}, world, 0.3, 0.5, {50.0, 10.0}, stop);
     routes.load(world.inside);
     EXPECT_EQ(world.roomsAsked, 0u);
-    EXPECT_EQ(routes.distance(pose.x, pose.y), INFINITE);
+    EXPECT_EQ(routes.distance(pose.x, pose.y), HUGE_VAL);
     EXPECT_FALSE(routes.provesUnreachable(pose));
     EXPECT_EQ(routes.lowerBound(pose), 0.0);
     EXPECT_EQ(routes.estimate(pose), 0.0);
@@ -292,7 +290,7 @@ TEST(RouteHeuristic, claimsNothingBeyondItsLimits)
     DiscCarWorld corridor({{-1e6, -2.0}, {1e6, 2.0}}, {{{-1.0, -2.0}, {0.0, 2.0}}});
     const Pose behind{-9.5, 0.5, 0.0};
     RouteHeuristic routes = routesTo({9.5, 0.5}, corridor, 1.0, 0.9, {0.0, 0.0});
-    routes.load({{-INFINITE, 0.0}, {INFINITE, 0.5}});
+    routes.load({{-HUGE_VAL, 0.0}, {HUGE_VAL, 0.5}});
     EXPECT_GE(corridor.roomsAsked, 4096u);
     EXPECT_NEAR(routes.distance(5.5, 0.5), 4.0, 1e-9);
     EXPECT_EQ(routes.distance(1e5, 0.5), 0.0) << "beyond the grid";

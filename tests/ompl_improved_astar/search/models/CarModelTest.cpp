@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,8 +17,6 @@ using namespace parking_test;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
     /** The car model in a world. */
     struct CarIn
     {
@@ -149,7 +146,7 @@ TEST(CarModel, cellsHoldPosesThatAreNearEachOtherAndNearerOnFinerLevels)
     DiscCarWorld world({{-12.0, -12.0}, {12.0, 12.0}});
     CarIn car(world);
     Random random(1);
-    double coarser = INFINITE, coarsest = 0.0;
+    double coarser = HUGE_VAL, coarsest = 0.0;
     for (std::size_t level = 0; level < car.model->traits().levels; ++level)
     {
         double widest = 0.0, turned = 0.0;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 using namespace parking;
@@ -16,7 +15,6 @@ using namespace parking_test;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     constexpr double SURELY = 2e-3;  // metres: what is nearer to obstacles may count either way
     constexpr double RADIUS = 3.0;
 
@@ -74,7 +72,7 @@ TEST(FreeCurves, offersTheFreeWordsThatCostLessThanTheBoundCheapestFirst)
                 continue;
             const PathPiece before{random.between(-0.3, 0.3), random.magnitude(0.5, 2.0)},
                 after{random.between(-0.3, 0.3), random.magnitude(0.5, 2.0)};
-            FreeCurves::Gap gap{from, to, i % 2 ? &before : nullptr, i % 5 ? &after : nullptr, INFINITE};
+            FreeCurves::Gap gap{from, to, i % 2 ? &before : nullptr, i % 5 ? &after : nullptr, HUGE_VAL};
             std::vector<ReedsSheppCurve> candidates;
             curves.candidates(from, to, candidates);
             std::vector<Word> words;
@@ -85,11 +83,11 @@ TEST(FreeCurves, offersTheFreeWordsThatCostLessThanTheBoundCheapestFirst)
                 words.push_back({curve, own, own + priced.totalProximity(), leastGap(world, priced.path)});
             }
             std::sort(words.begin(), words.end(), [](const Word &a, const Word &b) { return a.cost < b.cost; });
-            gap.maxCost = i % 3 == 1 ? INFINITE : words.front().cost * random.between(1.0, 3.0);
+            gap.maxCost = i % 3 == 1 ? HUGE_VAL : words.front().cost * random.between(1.0, 3.0);
             gap.end = random.chance(0.5) ? FreeCurves::SweepEnd::Start : FreeCurves::SweepEnd::Goal;
             gap.maxCurves = i % 6 == 5 ? 1 + random.index(6) : FreeCurves::MAX_CURVES;
             std::vector<bool> isOffered(words.size(), false);
-            double dearest = 0.0, cheapest = INFINITE;
+            double dearest = 0.0, cheapest = HUGE_VAL;
             FreeCurves freeCurves(world, curves, cost);
             EXPECT_FALSE(freeCurves.connect(gap,
                                             [&](const ReedsSheppCurve &curve, double whole)
@@ -125,7 +123,7 @@ TEST(FreeCurves, offersTheFreeWordsThatCostLessThanTheBoundCheapestFirst)
                                              EXPECT_EQ(whole, cheapest);
                                              return true;
                                          }),
-                      cheapest < INFINITE);
+                      cheapest < HUGE_VAL);
             EXPECT_LE(asked, 1);
         }
     }

@@ -21,7 +21,6 @@ using Outcome = SearchOutcome;
 
 namespace
 {
-    constexpr double INFINITE = std::numeric_limits<double>::infinity();
     const std::string BOTH[]{"grid8", "grid16"};
 
     struct Result
@@ -105,7 +104,7 @@ TEST(GridModel, findsAPathWhereAFloodDoesAndTheShortestAtWeightOne)
             Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
             const double best = shortestByDijkstra(world, start, goal, model == "grid16");
-            ++(best < INFINITE ? reachable : unreachable);
+            ++(best < HUGE_VAL ? reachable : unreachable);
             for (const double weight : {1.0, 1.7, 2.5})
                 for (const bool both : {false, true})
                     for (const char *from : {"start", "goal"})
@@ -115,8 +114,8 @@ TEST(GridModel, findsAPathWhereAFloodDoesAndTheShortestAtWeightOne)
                         parameters.bidirectional = both;
                         parameters.searchFrom = from;
                         const Result result = solve(world, parameters, start, goal);
-                        ASSERT_EQ(result.outcome, best == INFINITE ? Outcome::Exhausted : Outcome::Improved);
-                        if (best == INFINITE)
+                        ASSERT_EQ(result.outcome, best == HUGE_VAL ? Outcome::Exhausted : Outcome::Improved);
+                        if (best == HUGE_VAL)
                             continue;
                         ASSERT_EQ(faultOf(result.path, world, start, goal), "");
                         ASSERT_GE(lengthOf(result.path), best - 1e-9);
@@ -226,10 +225,10 @@ TEST(GridModel, aStopIsHeededWithinAFewQuestionsAndTheSearchGoesOnToAPathAsGood)
             ASSERT_LE(world.states + world.motions - last, 64u);
             ASSERT_LT(stops, 1000000);
         }
-        ASSERT_EQ(outcome == Outcome::Improved, best < INFINITE);
+        ASSERT_EQ(outcome == Outcome::Improved, best < HUGE_VAL);
         const std::vector<Pose> path = posesOf(search.bestPath());
-        ASSERT_EQ(best < INFINITE ? faultOf(path, world, start, goal) : "", "");
-        ASSERT_TRUE(parameters.bidirectional || best == INFINITE || lengthOf(path) <= 1.5 * best + 1e-9);
+        ASSERT_EQ(best < HUGE_VAL ? faultOf(path, world, start, goal) : "", "");
+        ASSERT_TRUE(parameters.bidirectional || best == HUGE_VAL || lengthOf(path) <= 1.5 * best + 1e-9);
     }
     EXPECT_GT(stops, 300);
 }
@@ -246,7 +245,7 @@ TEST(GridModel, longStepsDoNotJumpOverAWallOfOneCellAndShortenPathsInTheOpen)
     for (const auto &picture : walls)
     {
         GridWorld world(picture), open(world.columns, world.rows);
-        double shorter = INFINITE;
+        double shorter = HUGE_VAL;
         for (const char *model : {"grid8", "grid16", "grid32"})
         {
             PlannerParameters parameters = weighted(world, 1.0);
@@ -273,7 +272,7 @@ TEST(GridModel, endsAsNearToAnUnreachableTargetAsAFloodGets)
             GridWorld world = randomGrid(seed, 0.45, 12);
             Random random(seed);
             const Pose start = world.freePose(random), goal = world.freePose(random);
-            if (shortestByDijkstra(world, start, goal, false) < INFINITE)
+            if (shortestByDijkstra(world, start, goal, false) < HUGE_VAL)
                 continue;
             ++unreachable;
             PlannerParameters parameters = world.parameters();
@@ -297,7 +296,7 @@ TEST(GridModel, endsAsNearToAnUnreachableTargetAsAFloodGets)
                 const Pose centre{column + 0.5, row + 0.5, 0.0};
                 const bool isStart = std::floor(start.x) == column && std::floor(start.y) == row;
                 if (others.isPoseFree(centre) && positionDistance(centre, goal) < nearest && !isStart &&
-                    shortestByDijkstra(others, start, centre, false) < INFINITE)
+                    shortestByDijkstra(others, start, centre, false) < HUGE_VAL)
                     nearest = positionDistance(centre, goal);
             }
             ASSERT_NEAR(positionDistance(poses.back(), goal), nearest, 1e-9);
@@ -323,12 +322,12 @@ TEST(GridModel, severalStartsAndGoalsAreJoinedAsCheaplyAsAnyPair)
                 roots->push_back({std::floor(pose.x) + 0.5, std::floor(pose.y) + 0.5, pose.yaw});
                 roots == &starts ? search.addStart(roots->back()) : search.addGoal(roots->back());
             }
-        double best = INFINITE;
+        double best = HUGE_VAL;
         for (const Pose &start : starts)
             for (const Pose &goal : goals)
                 best = std::min(best, shortestByDijkstra(world, start, goal, false));
-        ASSERT_EQ(search.run(afterAsking()) == Outcome::Improved, best < INFINITE);
-        if (best < INFINITE)
+        ASSERT_EQ(search.run(afterAsking()) == Outcome::Improved, best < HUGE_VAL);
+        if (best < HUGE_VAL)
         {
             ASSERT_NEAR(lengthOf(posesOf(search.bestPath())), best, 1e-9);
         }
@@ -343,7 +342,7 @@ TEST(GridModel, refusesStepsWithoutAnOppositeAndGridsBeyondItsReach)
     GridWorld world(3, 3);
     CarInSpace car = world.car();
     EXPECT_NO_THROW(Search().begin(world, world.parameters(), car));
-    for (const double side : {1e12, INFINITE, std::numeric_limits<double>::quiet_NaN()})
+    for (const double side : {1e12, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
     {
         car.bounds.max.x() = side;
         EXPECT_THROW(Search().begin(world, world.parameters(), car), Error) << side;

@@ -1,4 +1,4 @@
-#include "benchmarks/programs/PlanResult.h"
+#include "benchmarks/programs/PlanReport.h"
 
 #include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
@@ -63,7 +63,7 @@ namespace parking
             return count ? json(*count) : json(nullptr);
         }
 
-        json trackingJson(const PlanResult &result)
+        json trackingJson(const PlanReport &result)
         {
             if (!result.drive)
                 return {{"arrived", false}, {"message", result.driveError}};
@@ -103,7 +103,7 @@ namespace parking
             return samples;
         }
 
-        void addTrajectoryTo(json &text, const Scenario &scenario, const PlanResult &result)
+        void addTrajectoryTo(json &text, const Scenario &scenario, const PlanReport &result)
         {
             text["planned_trajectory"] = json::array();
             if (!result.trajectory)
@@ -168,7 +168,7 @@ namespace parking
         }
 
         /** The planned trajectory in the scenario's coordinates; empty without one. */
-        Trajectory plannedSamples(const Scenario &scenario, const PlanResult &result)
+        Trajectory plannedSamples(const Scenario &scenario, const PlanReport &result)
         {
             return result.trajectory ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
                                      : Trajectory();
@@ -219,7 +219,7 @@ namespace parking
         return run.status == PlanStatus::Approximate && run.hasValidPath() ? APPROXIMATE : NOTHING;
     }
 
-    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanResult &result)
+    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanReport &result)
     {
         std::vector<std::string> missing;
         if (!result.first().path)
@@ -231,7 +231,7 @@ namespace parking
         return missing;
     }
 
-    json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result)
+    json resultJson(const Problem &problem, const PlanOptions &options, const PlanReport &result)
     {
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
@@ -290,7 +290,7 @@ namespace parking
         return text;
     }
 
-    std::string resultSummary(const Problem &problem, const PlanResult &result)
+    std::string resultSummary(const Problem &problem, const PlanReport &result)
     {
         const PlanRun &run = result.first();
         std::string text = problem.scenario().name + ": " + statusOf(run) + " (" + result.planner + ", " +
@@ -331,7 +331,7 @@ namespace parking
         return text;
     }
 
-    std::string resultSvg(const Problem &problem, const PlanResult &result)
+    std::string resultSvg(const Problem &problem, const PlanReport &result)
     {
         const Scenario &scenario = problem.scenario();
         const PlanRun &run = result.first();
@@ -357,7 +357,7 @@ namespace parking
         return figure.toString();
     }
 
-    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven)
+    void addTrajectory(const Problem &problem, PlanReport &result, bool isDriven)
     {
         constexpr double ERROR_OF_TRACKING = 0.02;  // metres, without disturbances
         const PlanRun &run = result.first();
@@ -386,7 +386,7 @@ namespace parking
         result.trajectoryTime = processorTime() - begin;
     }
 
-    Trajectory resultTrajectory(const Problem &problem, const PlanResult &result)
+    Trajectory resultTrajectory(const Problem &problem, const PlanReport &result)
     {
         if (!result.trajectory)
             return {};
@@ -401,7 +401,7 @@ namespace parking
         return trajectory;
     }
 
-    void addDrive(const Problem &problem, PlanResult &result)
+    void addDrive(const Problem &problem, PlanReport &result)
     {
         const PlanRun &run = result.first();
         if (!run.path)
@@ -423,7 +423,7 @@ namespace parking
         }
     }
 
-    std::string resultHtml(const Problem &problem, const PlanResult &result)
+    std::string resultHtml(const Problem &problem, const PlanReport &result)
     {
         const Scenario &scenario = problem.scenario();
         if (!result.drive)

@@ -14,7 +14,7 @@
 namespace parking
 {
     /** \brief All that parking_plan has found out. */
-    struct PlanResult
+    struct PlanReport
     {
         std::string planner;               ///< name in the registry
         nlohmann::json parameters;         ///< all of the planner's, see parametersJson()
@@ -46,32 +46,32 @@ namespace parking
 
     /** \brief For each file that was asked for and that there is nothing to write into, although a path was found: its
         name, and why. */
-    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanResult &result);
+    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanReport &result);
 
     /** \brief The result in the format that docs/comparison.md describes. */
-    nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanResult &result);
+    nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanReport &result);
 
     /** \brief The result for a reader in a hurry: a few lines. */
-    std::string resultSummary(const Problem &problem, const PlanResult &result);
+    std::string resultSummary(const Problem &problem, const PlanReport &result);
 
     /** \brief Map, curvature of the path, and with a trajectory or a drive speed, acceleration and steering angle. The
         car is drawn along its drive, without one along the trajectory, without that along the path. */
-    std::string resultSvg(const Problem &problem, const PlanResult &result);
+    std::string resultSvg(const Problem &problem, const PlanReport &result);
 
     /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result.
 
         \param isDriven a controller will drive it: then it keeps what nominal errors of tracking come to (2 cm), where
         the path keeps twice that, and else half of what the path keeps */
-    void addTrajectory(const Problem &problem, PlanResult &result, bool isDriven);
+    void addTrajectory(const Problem &problem, PlanReport &result, bool isDriven);
 
     /** \brief The optimised trajectory in samples, in the coordinates of the scenario's file; empty if there is none.
      */
-    Trajectory resultTrajectory(const Problem &problem, const PlanResult &result);
+    Trajectory resultTrajectory(const Problem &problem, const PlanReport &result);
 
     /** \brief Drives the trajectory of the first run in closed loop, or its path when none was asked for. What cannot
         be driven is told in the result; so is a trajectory that there should be and is not. */
-    void addDrive(const Problem &problem, PlanResult &result);
+    void addDrive(const Problem &problem, PlanReport &result);
 
     /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */
-    std::string resultHtml(const Problem &problem, const PlanResult &result);
+    std::string resultHtml(const Problem &problem, const PlanReport &result);
 }  // namespace parking
