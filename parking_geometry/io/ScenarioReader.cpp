@@ -44,7 +44,7 @@ namespace parking
             const bool isMatlab = text.compare(0, 7, "MATLAB ") == 0;
             if (!isMatlab && trimmed(text).front() != '<')
                 return;
-            throw Error(file + ": is a " + (isMatlab ? "MATLAB" : "SVG") +
+            throw Error(file + ": is " + (isMatlab ? "a MATLAB" : "an SVG") +
                         " file; make a scenario of it first: parking_convert " + file + " " +
                         std::filesystem::path(file).replace_extension(".yaml").string() +
                         (isMatlab ? "" : " --start X,Y,YAW --goal X,Y,YAW"));

@@ -168,7 +168,7 @@ class ProblemsTest(ConvertTest):
         self.write('scene.svg', SCENE)
         for name, command in (('Case07.mat', 'parking_convert Case07.mat Case07.yaml'),
                               ('scene.svg', 'parking_convert scene.svg scene.yaml --start X,Y,YAW --goal X,Y,YAW')):
-            self.refused_plan(name, parts=[f'{name}: is a ', command])
+            self.refused_plan(name, parts=[f'{name}: is a', command])
             self.write('a.cfg', f'[problem]\nscenario = {name}\n[benchmark]\nrun_count = 1\n[planner]\nimproved_astar=\n')
             self.refused_benchmark('a.cfg', '--output', 'out', parts=[command])
             self.convert(*command.replace('X,Y,YAW', '1,-9,0').split()[1:])
