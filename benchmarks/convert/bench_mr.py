@@ -14,11 +14,10 @@ from scipy.spatial import ConvexHull, QhullError
 from improved_astar import Error, Vehicle
 
 from .scenarios import obstacle_polygons, scenario_of_polygons
-from .text import numbers, quoted
+from .text import NUMBER, numbers, pose_of, quoted
 
 BODY_LENGTH, BODY_WIDTH = 4.253328, 2.433862  # metres, of bin/polygon_mazes/car.svg
 WHEELBASE, TURNING_RADIUS = 2.0, 4.0          # metres; the radius is that of experiments/parking.cpp
-NUMBER = re.compile(r'[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?')
 TOKEN = re.compile(rf'[\s,]*({NUMBER.pattern}|[A-Za-z]|\S.*)', re.DOTALL)
 
 
@@ -41,8 +40,8 @@ def read(file, content, vehicle, start, goal):
             if 'd' in element.attrib:
                 corners = (corners_of(element.get('d')) + shift) * [1.0, -1.0]
                 polygons.append(convex_hull(corners, f'obstacle {len(polygons) + 1}'))
-        start = start or pose_of(root, 'data-start')
-        goal = goal or pose_of(root, 'data-goal')
+        start = start or attribute_pose(root, 'data-start')
+        goal = goal or attribute_pose(root, 'data-goal')
     except Error as error:
         raise Error(f'{file}: {error}') from None
     if not polygons:
@@ -62,15 +61,13 @@ def translation(text):
     return np.array([float(each) for each in found.groups()])
 
 
-def pose_of(element, attribute):
-    """Three numbers, or None without the attribute."""
-    if attribute not in element.attrib:
-        return None
+def attribute_pose(element, attribute):
+    """The pose that an attribute holds; None without the attribute."""
     text = element.get(attribute)
-    words = text.replace(',', ' ').split()
-    if len(words) != 3 or not all(map(NUMBER.fullmatch, words)):
+    pose = None if text is None else pose_of(text)
+    if text is not None and pose is None:
         raise Error(f'{attribute} must be x, y and yaw, not {quoted(text)}')
-    return tuple(map(float, words))
+    return pose
 
 
 def corners_of(text):

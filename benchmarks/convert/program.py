@@ -2,6 +2,7 @@
 import argparse
 import math
 import os
+import re
 import signal
 import sys
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from improved_astar._core import _read_file as read_file, _unknown_name as unkno
 
 from . import bench_mr, commonparking, hope, matlab, own, results
 from .scenarios import obstacle_polygons
-from .text import counted, number, numbers, one_line, quoted
+from .text import counted, number, numbers, one_line, pose_of, quoted
 
 DONE, FAULTY, BAD_INPUT = 0, 1, 2
 LARGEST = 256 << 20  # bytes of a file
@@ -174,20 +175,17 @@ def refuse_input(output, inputs):
 
 def pose_option(options, name):
     text = getattr(options, name)
-    if text is None:
-        return None
-    try:
-        x, y, yaw = map(float, text.split(','))
-    except ValueError:
-        raise Error(f'--{name} must be X,Y,YAW in metres and radians, not {quoted(text)}') from None
-    return x, y, yaw
+    pose = None if text is None else pose_of(text)
+    if text is not None and pose is None:
+        raise Error(f'--{name} must be X,Y,YAW in metres and radians, not {quoted(text)}')
+    return pose
 
 
 def whole_option(options, name, default, least, most):
     text = getattr(options, name)
     if text is None:
         return default
-    if not text.isdecimal() or not least <= int(text) <= most:
+    if not re.fullmatch('[0-9]{1,12}', text) or not least <= int(text) <= most:
         raise Error(f'--{name} must be a whole number from {least} to {most}, not {quoted(text)}')
     return int(text)
 

@@ -1,4 +1,15 @@
-"""Numbers and names as the project's other programs write them."""
+"""Numbers and names as the project's other programs read and write them."""
+import re
+
+NUMBER = re.compile(r'[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?', re.ASCII)
+
+
+def pose_of(text):
+    """x, y and yaw, with commas or blanks between them; None for anything else."""
+    words = text.replace(',', ' ').split()
+    if len(words) != 3 or not all(map(NUMBER.fullmatch, words)):
+        return None
+    return tuple(map(float, words))
 
 
 def number(value):
