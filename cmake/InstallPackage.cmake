@@ -67,7 +67,7 @@ parking_install_pkg_config()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 # The programs, where they are built, with the problems that they bring.
-foreach(program IN ITEMS parking_plan parking_benchmark parking_queries parking_convert)
+foreach(program IN ITEMS parking_plan parking_benchmark parking_queries)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
     file(RELATIVE_PATH parking_bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

@@ -195,7 +195,7 @@ namespace parking
         /** Maps and vehicles are YAML files too: a scenario is one that has a start. */
         bool isScenario(const fs::path &file)
         {
-            if (file.extension() == ".csv" || file.extension() == ".mat")
+            if (file.extension() == ".csv")
                 return true;
             if (file.extension() != ".yaml" && file.extension() != ".yml")
                 return false;
@@ -348,7 +348,7 @@ namespace parking
             return {path.string()};
         }
         if (files.empty())
-            throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, .csv or .mat files)");
+            throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, or .csv files)");
         std::sort(files.begin(), files.end(), naturallyBefore);
         return files;
     }

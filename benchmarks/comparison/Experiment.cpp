@@ -1,8 +1,8 @@
 #include "benchmarks/comparison/Experiment.h"
 
-#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/planners/SettingError.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
@@ -105,7 +105,7 @@ namespace parking
 
         Scenario readWithOptions(const std::string &file, const ProblemOptions &options)
         {
-            return readAnyScenario(file, {options.vehicle, options.start, options.goal});
+            return readScenario(file, {options.vehicle, options.start, options.goal});
         }
 
         Scenario readFor(const BenchmarkConfig &config, const std::string &file, const ProblemOptions &options)

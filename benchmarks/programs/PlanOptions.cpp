@@ -1,6 +1,5 @@
 #include "benchmarks/programs/PlanOptions.h"
 
-#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/Vehicle.h"
@@ -107,10 +106,9 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_plan SCENARIO [options]\n\n"
-                "Plans one parking problem. What SCENARIO is its content tells; docs/scenario-format.md and\n"
-                "docs/formats.md describe the formats.\n\n"
-             << describe() << "\nFormats:\n"
-             << scenarioFormatLines() << "\nPlanners:\n";
+                "Plans one parking problem. SCENARIO is a YAML scenario or a TPCAP case (docs/scenario-format.md);\n"
+                "parking_convert makes scenarios of other formats (docs/formats.md).\n\n"
+             << describe() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 18 ? 18 - each.name.size() : 1, ' ')
                  << each.summary << "\n";

@@ -1,8 +1,6 @@
 #include "benchmarks/programs/Queries.h"
 
 #include "benchmarks/comparison/BenchmarkConfig.h"
-#include "benchmarks/formats/ScenarioFormat.h"
-#include "benchmarks/formats/YamlFormat.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/referee/FreeSpace.h"
@@ -12,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -107,7 +106,7 @@ namespace parking
             {
                 if (maps.empty())
                     throw Error(inQuotes(folderOrFile) +
-                                ": no world there (maps and scenarios as .yaml files, cases as .csv or .mat files)");
+                                ": no world there (maps and scenarios as .yaml files, cases as .csv files)");
             }
         }
         else
@@ -120,7 +119,7 @@ namespace parking
         for (const std::string &file : scenarios)
         {
             QueryWorld world;
-            world.scenario = readAnyScenario(file, {vehicle, {}, {}});
+            world.scenario = readScenario(file, {vehicle});
             world.name = fs::path(file).stem().string();
             // A scenario on a map that is there as well would be the same world twice.
             const bool isKnown = std::any_of(worlds.begin(), worlds.end(),
@@ -182,8 +181,32 @@ namespace parking
     std::string queryText(const QueryWorld &world, const Query &query, const std::string &map)
     {
         const Scenario &scenario = world.scenario;
-        return yamlText(scenario.vehicle, query.start, query.goal, scenario.polygons, scenario.grid ? map : "",
-                        scenario.unknownIsOccupied);
+        const Vehicle &car = scenario.vehicle;
+        std::string text = "vehicle: {name: '" + oneLine(car.name) + "'";
+        const std::pair<const char *, double> fields[]{{"wheelbase", car.wheelbase},
+                                                       {"front_overhang", car.frontOverhang},
+                                                       {"rear_overhang", car.rearOverhang},
+                                                       {"width", car.width},
+                                                       {"max_steering_angle", car.maxSteeringAngle},
+                                                       {"max_speed", car.maxSpeed},
+                                                       {"max_acceleration", car.maxAcceleration},
+                                                       {"max_steering_rate", car.maxSteeringRate}};
+        for (const auto &[key, value] : fields)
+            text += std::string(", ") + key + ": " + formatNumber(value);
+        text += "}\nstart: " + numbers(query.start) + "\ngoal: " + numbers(query.goal) + "\n";
+        if (scenario.grid)
+            return text + "map: " + map + "\nunknown_is_occupied: " + (scenario.unknownIsOccupied ? "true" : "false") +
+                   "\n";
+        text += "polygons:";
+        for (const Polygon &polygon : scenario.polygons)
+        {
+            std::string corners;
+            for (const Eigen::Vector2d &corner : polygon)
+                corners +=
+                    (corners.empty() ? "[" : ", [") + formatNumber(corner.x()) + ", " + formatNumber(corner.y()) + "]";
+            text += "\n  - [" + corners + "]";
+        }
+        return text + (scenario.polygons.empty() ? " []\n" : "\n");
     }
 
     std::string mapYaml(const OccupancyGrid &grid, const std::string &image)

@@ -22,8 +22,8 @@ namespace parking
     /** \brief A world of polygons with a car. */
     QueryWorld queryWorld(const std::string &name, const std::vector<Polygon> &polygons, const Vehicle &vehicle);
 
-    /** \brief The worlds of a folder, or of one file: scenarios of any format that readAnyScenario() understands,
-        without their own queries, and ROS maps that no scenario of the folder is needed for.
+    /** \brief The worlds of a folder, or of one file: scenarios that readScenario() understands, without their own
+        queries, and ROS maps that no scenario of the folder is needed for.
 
         \param vehicle name or file; empty: that of a scenario, for a map TPCAP's
         Throws parking::Error for what cannot be read, and when there is none. */

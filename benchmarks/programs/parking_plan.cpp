@@ -1,6 +1,5 @@
 // parking_plan: plans one scenario. docs/comparison.md says how.
 
-#include "benchmarks/formats/ScenarioFormat.h"
 #include "benchmarks/planners/PluginLoader.h"
 #include "benchmarks/programs/PlanOptions.h"
 #include "benchmarks/programs/PlanReport.h"
@@ -46,7 +45,7 @@ namespace
         const Problem problem = [&]
         {
             const LongStep step("reading " + options.scenario);
-            Scenario scenario = readAnyScenario(options.scenario, {options.vehicle, {}, {}});
+            Scenario scenario = readScenario(options.scenario, {options.vehicle});
             requireNoInput(options.outputFiles(), scenario.files);
             return Problem(std::move(scenario), settings);
         }();

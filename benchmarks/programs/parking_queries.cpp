@@ -47,7 +47,7 @@ namespace
         add("seed", oneValue("TEXT"), "any word or number (default 1)");
         add("kind", manyValues("NAME"), "only worlds of this kind; may be given several times (default: every kind)");
         add("from", manyValues("DIR|FILE"),
-            "instead: worlds of a folder or file, maps or scenarios of any format that parking_plan reads; may be "
+            "instead: worlds of a folder or file, maps or scenarios that parking_plan reads; may be "
             "given several times");
         add("worlds", oneValue("N"), "of each kind (default 2)");
         add("queries", oneValue("N"), "in each world (default 8); every other goal is pushed to an obstacle");

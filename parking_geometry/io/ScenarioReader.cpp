@@ -32,6 +32,37 @@ namespace parking
                 return true;
             return text.find(':') == std::string::npos && std::filesystem::path(file).extension() == ".csv";
         }
+
+        /** Throws for what is a scenario to other programs; no YAML begins like these. */
+        void refuseFormatsOfOthers(const std::string &file, const std::string &text)
+        {
+            const bool isMatlab = text.compare(0, 7, "MATLAB ") == 0;
+            if (!isMatlab && trimmed(text).front() != '<')
+                return;
+            throw Error(file + ": is " + (isMatlab ? "a MATLAB" : "an SVG") +
+                        " file; make a scenario of it first: parking_convert " + file + " " +
+                        std::filesystem::path(file).replace_extension(".yaml").string() +
+                        (isMatlab ? "" : " --start X,Y,YAW --goal X,Y,YAW"));
+        }
+
+        /** The scenario with the start and the goal that the caller wants. */
+        Scenario withPoses(Scenario scenario, const std::string &file, const ReaderOptions &options)
+        {
+            const auto local = [&scenario](const Pose &pose) -> Pose
+            {
+                return {pose.x - scenario.worldOffset.x(), pose.y - scenario.worldOffset.y(), wrapAngle(pose.yaw)};
+            };
+            if (options.start)
+                scenario.start = local(*options.start);
+            if (options.goal)
+            {
+                scenario.goals = {local(*options.goal)};
+                scenario.slot.reset();
+            }
+            if (options.start || options.goal)
+                completeScenario(scenario, file);
+            return scenario;
+        }
     }  // namespace
 
     std::string scenarioName(const std::string &file)
@@ -47,7 +78,9 @@ namespace parking
     Scenario parseScenario(const std::string &file, std::string text, const ReaderOptions &options)
     {
         text = withoutMark(file, std::move(text));
-        return looksLikeTpcap(file, text) ? parseTpcapCase(file, text, options.vehicle)
-                                          : parseYamlScenario(file, text, options.vehicle);
+        refuseFormatsOfOthers(file, text);
+        return withPoses(looksLikeTpcap(file, text) ? parseTpcapCase(file, text, options.vehicle)
+                                                    : parseYamlScenario(file, text, options.vehicle),
+                         file, options);
     }
 }  // namespace parking

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "parking_geometry/OccupancyGrid.h"
+#include "parking_geometry/Pose.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/Vehicle.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@ namespace parking
         /** \brief Car to use instead of the one the file names: a known name or a YAML file; empty: the file's, and
             TPCAP's car for its cases. */
         std::string vehicle;
+        std::optional<Pose> start{};  ///< instead of the file's, in the coordinates of the file
+        std::optional<Pose> goal{};   ///< likewise; it takes the place of a slot, too
     };
 
     /** \brief Reads a scenario file, recognised by content: YAML (see docs/scenario-format.md) or a TPCAP case.
@@ -23,7 +27,8 @@ namespace parking
         vertex count of each, then all vertices. The local frame of either has its origin at the start.
 
         Throws parking::Error with one line naming the file and the line or field that is wrong. So do all readers here,
-        also for missing, empty, truncated and absurdly large files. */
+        also for missing, empty, truncated and absurdly large files. Files of CommonParking and Bench-MR are refused
+        with the command that makes a scenario of them. */
     Scenario readScenario(const std::string &file, const ReaderOptions &options = {});
 
     /** \brief readScenario() of what \e file holds, which is then not read: for a pipe, which can be read once only.

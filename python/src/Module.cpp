@@ -1,12 +1,18 @@
 // The extension module improved_astar._core.
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
+#include "parking_geometry/text/ReadFile.h"
+#include "parking_geometry/text/WriteFile.h"
 #include "python/src/Background.h"
 #include "python/src/Bindings.h"
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #ifndef PARKING_VERSION
@@ -44,6 +50,12 @@ PYBIND11_MODULE(_core, module)
     parking::python::addPlans(module);
     parking::python::addParking(module);
     parking::python::addReferee(module);
+    // For the project's programs in Python, which so read, write and complain as those in C++ do.
+    module.def("_read_file", [](const std::filesystem::path &file, std::size_t limit)
+               { return py::bytes(parking::readFile(file.string(), limit)); });
+    module.def("_write_file", [](const std::filesystem::path &file, const std::string &content)
+               { parking::writeFileAtomically(file.string(), content); });
+    module.def("_unknown_name", &parking::unknownName);
     // At once: within the first plan it would take its time, and be left half read by Ctrl-C.
     py::module_::import("numpy");
     py::module_::import("atexit").attr("register")(

@@ -239,24 +239,28 @@ axle. A scenario does not change; replace() makes another one.)";
         py::class_<ScenarioHandle, std::shared_ptr<ScenarioHandle>>(module, "Scenario", ABOUT)
             .def_static(
                 "read",
-                [](const py::object &path, const py::object &vehicle)
+                [](const py::object &path, const py::object &vehicle, const py::object &text)
                 {
                     const std::string file = fileFrom(path, "path");
+                    const auto read = [&](const ReaderOptions &options)
+                    {
+                        return text.is_none() ? readScenario(file, options)
+                                              : parseScenario(file, py::cast<std::string>(py::bytes(text)), options);
+                    };
                     if (!vehicle.is_none() && py::isinstance<Vehicle>(vehicle))
                     {
-                        Scenario scenario = inWorld(readScenario(file));
+                        Scenario scenario = inWorld(read({}));
                         scenario.vehicle = py::cast<Vehicle>(vehicle);
                         if (scenario.slot)
                             scenario.goals.clear();
                         return made(std::move(scenario));
                     }
                     const std::string car = vehicle.is_none() ? "" : fileFrom(vehicle, "vehicle");
-                    return std::make_shared<const ScenarioHandle>(readScenario(file, {car}));
+                    return std::make_shared<const ScenarioHandle>(read({car}));
                 },
-                py::arg("path"), py::arg("vehicle") = none,
+                py::arg("path"), py::arg("vehicle") = none, py::kw_only(), py::arg("text") = none,
                 "Reads a scenario file, recognised by its content. vehicle: a name, a file or a Vehicle to use instead "
-                "of "
-                "the file's.")
+                "of the file's. text: bytes that were read from path, which may be a pipe.")
             .def_static(
                 "from_polygons", &fromPolygons, py::arg("polygons"), py::arg("start"), py::arg("goal") = none,
                 py::kw_only(), py::arg("slot") = none, py::arg("vehicle") = "tpcap", py::arg("name") = "polygons",
@@ -308,6 +312,12 @@ axle. A scenario does not change; replace() makes another one.)";
             .def_property_readonly(
                 "slot", [](const ScenarioHandle &self) { return inWorld(self.scenario()).slot; }, "The Slot, or None.")
             .def_property_readonly("polygons", &polygonsOf, "A list of n x 2 arrays; empty for a map.")
+            .def_property_readonly(
+                "files", [](const ScenarioHandle &self) { return self.scenario().files; },
+                "The files that it was read from: itself, its map and image, its car.")
+            .def_property_readonly(
+                "unknown_is_occupied", [](const ScenarioHandle &self) { return self.scenario().unknownIsOccupied; },
+                "Are cells of a map obstacles of which nothing is known?")
             .def_property_readonly("grid", &cellsOf,
                                    "The cells of a map, 0 free, 1 occupied, 2 unknown: an array that shows the "
                                    "scenario's own memory; None for polygons.")

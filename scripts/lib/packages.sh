@@ -25,9 +25,11 @@ nlohmann-json3-dev           | build | writes results as JSON
 libpng-dev                   | build | reads maps in PNG
 libbenchmark-dev             | build | Google Benchmark, for the micro-benchmarks
 libsqlite3-dev               | build | SQLite: the database of a comparison
-libmatio-dev                 | build | MATLAB files: CommonParking's cases and results; without it the rest builds
-zlib1g-dev                   | build | MATLAB files are compressed; comes with libmatio-dev
 python3                      | build page | reports from the database; checks of the tests
+python3-dev                  | build | the Python module, on which parking_convert is built
+pybind11-dev                 | build | pybind11: the Python module
+python3-numpy                | build | arrays of the Python module
+python3-scipy                | build | parking_convert: writes MATLAB files, hulls of points
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
 pkg-config                   | test  | the consumer that finds the installed package by pkg-config
@@ -37,9 +39,6 @@ shellcheck                   | test  | checks the shell scripts
 doxygen                      | test docs | builds the reference, which must not make it warn
 dpkg-dev                     | test package | finds out what packages a library needs
 file                         | test package | tells programs from other files
-python3-dev                  | test package | the Python module
-pybind11-dev                 | test package | pybind11: the Python module
-python3-numpy                | test package | arrays of the Python module
 python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module

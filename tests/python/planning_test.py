@@ -151,6 +151,21 @@ def test_unknown_cells_are_as_asked():
         assert problem.is_free(poses)[0] != occupied
 
 
+def test_scenarios_are_read_from_files_and_pipes():
+    file = os.path.join(SCENARIOS, 'underground_garage.yaml')
+    with open(file, 'rb') as stream:
+        text = stream.read()
+    read, piped = ia.Scenario.read(file), ia.Scenario.read(os.path.join(SCENARIOS, 'pipe'), 'tpcap', text=text)
+    assert (piped.start, piped.vehicle.name) == (read.start, 'tpcap')
+    assert numpy.array_equal(piped.grid, read.grid) and read.unknown_is_occupied
+    assert read.files[0] == file and [os.path.basename(each) for each in read.files[1:]] == [
+        'underground_garage_map.yaml', 'underground_garage.pgm']
+    with pytest.raises(ia.Error, match='^pipe: holds nothing but blanks'):
+        ia.Scenario.read('pipe', text=b' ')
+    with pytest.raises(ia.Error, match='^Case07.mat: .*parking_convert Case07.mat Case07.yaml$'):
+        ia.Scenario.read('Case07.mat', text=b'MATLAB 5.0 MAT-file')
+
+
 def test_coordinates_may_be_large():
     far = numpy.array([4e9, -4e9])
     problem = ia.Scenario.from_polygons([numpy.array(wall) + far for wall in WALL], (*(far + (-10, -5)), 0),

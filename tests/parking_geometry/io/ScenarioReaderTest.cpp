@@ -3,6 +3,7 @@
 
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
+#include "tests/support/PoseGap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@
 using namespace parking;
 using parking_test::errorOf;
 using parking_test::expectError;
+using parking_test::gap;
 using parking_test::TemporaryFolder;
 
 namespace
@@ -185,6 +187,29 @@ TEST_F(TpcapReader, ReadsTheRealCases)
         ++count;
     }
     EXPECT_GT(count, 0);
+}
+
+TEST_F(ReaderTest, TakesOtherPosesThanTheFiles)
+{
+    const Pose start{11.0, 20.0, 7.0}, goal{12.0, 20.5, -0.5};
+    for (const std::string &text : {CASE, SCENARIO})
+    {
+        const std::string file = folder_.write("example.yaml", text);
+        const Scenario given = readScenario(file, {"", start, goal});
+        EXPECT_LT(gap(given.toWorld(given.start), {11.0, 20.0, 7.0 - 2.0 * PI}), 1e-12);
+        EXPECT_LT(gap(given.toWorld(given.goals.front()), goal), 1e-12);
+        EXPECT_EQ(given.polygons.size(), readScenario(file).polygons.size());
+        expectError([&] { readScenario(file, {"", std::nullopt, Pose{1e6, 0.0, 0.0}}); }, {file, "the goal lies"});
+    }
+}
+
+TEST_F(ReaderTest, NamesTheCommandForFormatsOfOthers)
+{
+    expectError([&] { read("MATLAB 5.0 MAT-file, Platform: GLNXA64", "Case07.mat"); },
+                {"Case07.mat: is a MATLAB file", "parking_convert " + folder_.path("Case07.mat"), "Case07.yaml"});
+    for (const std::string begin : {"<svg>", "\n <?xml version=\"1.0\"?><svg>", "\xEF\xBB\xBF<svg>"})
+        expectError([&] { read(begin, "scene.svg"); },
+                    {"scene.svg: is an SVG file", "scene.yaml --start X,Y,YAW --goal X,Y,YAW"});
 }
 
 TEST_F(YamlReader, ReadsPolygonsVehicleStartAndGoal)

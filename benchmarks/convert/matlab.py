@@ -1,0 +1,133 @@
+"""Variables of MATLAB files: structs are dictionaries, cells are lists, texts str, numbers arrays of two axes.
+
+SciPy writes them. It is not asked to read them: damaged files crash its reader.
+"""
+import io
+import struct
+import zlib
+
+import numpy as np
+import scipy.io
+
+from improved_astar import Error
+
+LARGEST = 64 << 20     # bytes of a file, and of what is compressed in it: a world of a million corners takes less
+MOST_VALUES = 1000000  # of an array: each takes more memory than it need take in a file
+DEEPEST = 32           # values within values
+HEADER = 128           # bytes
+# Types of elements, by MATLAB's "MAT-File Format", level 5.
+MATRIX, COMPRESSED, UTF8 = 14, 15, 16
+NUMBERS = {1: 'i1', 2: 'u1', 3: 'i2', 4: 'u2', 5: 'i4', 6: 'u4', 7: 'f4', 9: 'f8', 12: 'i8', 13: 'u8', UTF8: 'u1',
+           17: 'u2', 18: 'u4'}
+# Classes of arrays; those between the last two are numbers.
+CELL, STRUCT, CHARACTERS, DOUBLE, UINT64 = 1, 2, 4, 6, 15
+COMPLEX = 0x800  # a bit beside the class
+
+
+def is_matlab(content):
+    return content.startswith(b'MATLAB ')
+
+
+def read(file, content, name):
+    """The variable of this name. Raises Error for what is damaged and what a case cannot hold."""
+    version = content[124:HEADER]
+    if version in (b'\0\2IM', b'\2\0MI'):
+        raise Error(f"{file}: a file of MATLAB 7.3 (HDF5); save it with save(..., '-v7')")
+    if version not in (b'\0\1IM', b'\1\0MI'):
+        raise Error(f"{file}: no MATLAB 5 file (what save(..., '-v7') or '-v6' writes)")
+    try:
+        found, left, order = None, LARGEST, '<' if version.endswith(b'IM') else '>'
+        for kind, data in elements(content[HEADER:], order):  # to the end: the file must be whole
+            if kind == COMPRESSED:
+                data = inflated(data, left)
+                left -= len(data)
+                (kind, data), = elements(data, order)
+            if kind != MATRIX:
+                raise Error(f'data of type {kind} where a variable is expected')
+            if found is None and name.encode() in [each for _, each in elements(data, order)][2:3]:
+                found = value_of(data, order)
+        if found is None:
+            raise Error('there is no such variable')
+        return found
+    except Error as error:
+        raise Error(f'{file}: {name} cannot be read: {error}') from None
+    except Exception as error:  # parts that are missing, or do not fit each other
+        raise Error(f'{file}: {name} cannot be read: the file is damaged: {error}') from None
+
+
+def elements(data, order):
+    """The elements one after another: type and bytes of each."""
+    found, place = [], 0
+    while place < len(data):
+        if len(data) - place < 8:
+            raise Error(f'the file is damaged: {len(data) - place} bytes are left over')
+        kind, size = struct.unpack_from(f'{order}II', data, place)
+        place += 8
+        if kind > 0xffff:  # up to four bytes within the tag
+            kind, size, place = kind & 0xffff, kind >> 16, place - 4
+        if size > len(data) - place:
+            raise Error(f'the file is damaged: {size} bytes should follow, but {len(data) - place} do')
+        found.append((kind, data[place:place + size]))
+        place += size
+        if kind != COMPRESSED:
+            place += -place % 8
+    return found
+
+
+def inflated(data, most):
+    stream = zlib.decompressobj()
+    content = stream.decompress(data, most)
+    if len(content) == most:
+        raise Error(f'more than {LARGEST} bytes are compressed in the file')
+    # The end is reached only when zlib's own sum over all that was compressed is right.
+    if not stream.eof or stream.unused_data:
+        raise Error('what is compressed is damaged')
+    return content
+
+
+def value_of(data, order, depth=0):
+    if not data:  # nothing, as in the fields of a struct
+        return np.empty((0, 0))
+    parts = elements(data, order)
+    if depth > DEEPEST or len(parts) > MOST_VALUES:
+        raise Error('it nests values deeper than any case does, or holds more than a million')
+    flags = int(np.frombuffer(parts[0][1], f'{order}u4')[0])
+    rows, columns = map(int, np.frombuffer(parts[1][1], f'{order}i4'))
+    kind = flags & 0xff
+    if kind in (STRUCT, CELL):
+        begin = 5 if kind == STRUCT else 3
+        values = [value_of(each, order, depth + 1) for _, each in parts[begin:]]
+        if kind == CELL:
+            return require_count(values, rows * columns)
+        width, = np.frombuffer(parts[3][1], f'{order}i4')
+        names = [name.tobytes().rstrip(b'\0').decode('ascii', 'replace')
+                 for name in np.frombuffer(parts[4][1], 'u1').reshape(-1, width)]
+        return dict(zip(names, require_count(values, rows * columns * len(names))))  # of an array of them the first
+    if flags & COMPLEX:
+        raise Error('it holds complex numbers')
+    numbers = np.frombuffer(parts[3][1], order + NUMBERS[parts[3][0]])
+    if kind == CHARACTERS:
+        return parts[3][1].decode('utf-8') if parts[3][0] == UTF8 else ''.join(map(chr, numbers))
+    if not DOUBLE <= kind <= UINT64:
+        raise Error(f'it holds a value of class {kind}, which no case has')
+    return require_count(numbers, rows * columns).astype(float).reshape(rows, columns, order='F')
+
+
+def require_count(values, count):
+    if len(values) != count:
+        raise Error(f'the file is damaged: {len(values)} values where {count} are expected')
+    return values
+
+
+def content_of(name, value):
+    """The bytes of a MATLAB 5 file with one variable."""
+    stream = io.BytesIO()
+    scipy.io.savemat(stream, {name: value}, do_compression=True)
+    return stream.getvalue()
+
+
+def cells(values):
+    """A cell array in a row, for content_of()."""
+    array = np.empty((1, len(values)), dtype=object)
+    array[0, :] = values
+    return array
