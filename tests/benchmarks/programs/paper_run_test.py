@@ -1,4 +1,5 @@
 """paper_run as a whole: what it writes, that it repeats itself, and bad input."""
+import filecmp
 import json
 import os
 import subprocess
@@ -50,17 +51,12 @@ class PaperRunTest(ProgramTest):
             self.assert_refused(self.run_program(PAPER_RUN, 'task.yaml', '--json', name), name, 'is the input')
 
     def test_voxels_become_a_map(self):
-        for folder, seed in (('maps', '1'), ('again', '1'), ('others', '2')):
-            done = subprocess.run([sys.executable, '-B', os.path.join(PAPER, 'make_maps'), '--count', '1', '--seed', seed,
-                                   '--output', self.path(folder)], capture_output=True, text=True, check=False)
+        for folder in ('maps', 'again'):
+            done = subprocess.run([sys.executable, '-B', os.path.join(PAPER, 'make_maps'), '--count', '1', '--output',
+                                   self.path(folder)], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
         for name, status in (('perpendicular', 'exact'), ('parallel', 'exact'), ('unreachable', 'approximate')):
-            voxels = []
-            for folder in ('maps', 'again', 'others'):
-                with open(self.path(f'{folder}/{name}_00.npy'), 'rb') as stream:
-                    voxels.append(stream.read())
-            self.assertEqual(voxels[0], voxels[1])
-            self.assertNotEqual(voxels[0], voxels[2])
+            self.assertTrue(filecmp.cmp(self.path(f'maps/{name}_00.npy'), self.path(f'again/{name}_00.npy'), shallow=False))
             run, = self.runs(self.path(f'maps/{name}_00.yaml'), '--algorithm', 'improved_astar', '--no-drive')
             self.assertEqual(run['status'], status, name)
 
