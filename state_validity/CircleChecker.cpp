@@ -58,12 +58,6 @@ namespace parking
         return std::max(0.0, distance(x, y) - radius_);
     }
 
-    double CircleChecker::roomAt(double x, double y) const
-    {
-        const Pose local = obstacles_.toLocal({x, y, 0.0});
-        return field_.upperBound(local.x, local.y);
-    }
-
     double CircleChecker::freeShare(const Pose &from, const Pose &to) const
     {
         const double length = positionDistance(to, from);

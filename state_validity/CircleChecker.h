@@ -37,9 +37,6 @@ namespace parking
             lower bound beyond. */
         double clearance(double x, double y) const;
 
-        /** \brief An upper bound of the distance between the point and the nearest obstacle. */
-        double roomAt(double x, double y) const;
-
         /** \brief How much of the straight line between two points the circle can go along: 1 when all of it, otherwise
             the share up to where it comes nearer than a millimetre, or than it is at the start if that is less. The
             first point is taken to be free. */

@@ -1,7 +1,6 @@
 #include "automatic_parking/scenario/ScenarioPlanner.h"
 
 #include "automatic_parking/ParkingWorld.h"
-#include "automatic_parking/scenario/CircleEnvironment.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
@@ -27,6 +26,55 @@ namespace parking
         {
             return std::chrono::duration<double>(Clock::now() - begin).count();
         }
+
+        /** The world of the grid models: the paper's circle, which has no heading. */
+        class CircleEnvironment final : public search::MotionEnvironment
+        {
+        public:
+            CircleEnvironment(const CircleChecker &checker, const Box &bounds) : checker_(checker), bounds_(bounds)
+            {
+            }
+
+            bool isFree(const Pose &pose) override
+            {
+                return bounds_.contains(pose.x, pose.y) && checker_.isFree(pose.x, pose.y);
+            }
+
+            bool isMotionFree(const Pose &from, const Pose &to) override
+            {
+                return isFree(to) && checker_.freeShare(from, to) >= 1.0;
+            }
+
+            void freeLengths(const Pose & /*from*/, const Arc * /*arcs*/, std::size_t count, double /*clearance*/,
+                             double *lengths) override
+            {
+                std::fill_n(lengths, count, 0.0);  // the grid models drive no arcs
+            }
+
+            double roomAt(double /*x*/, double /*y*/) override
+            {
+                return INFINITE;
+            }
+
+            bool knowsClearance() const override
+            {
+                return false;
+            }
+
+            bool headingMatters() const override
+            {
+                return false;
+            }
+
+            Box bounds() const override
+            {
+                return bounds_;
+            }
+
+        private:
+            const CircleChecker &checker_;
+            Box bounds_;
+        };
     }  // namespace
 
     std::string statusName(search::PlanOutcome outcome)

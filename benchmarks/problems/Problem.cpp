@@ -1,7 +1,6 @@
 #include "benchmarks/problems/Problem.h"
 
 #include "benchmarks/planners/SettingError.h"
-#include "benchmarks/problems/CircleMotionValidator.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"

@@ -4,6 +4,10 @@
 #include "state_validity/CircleChecker.h"
 #include "state_validity/ObstacleSet.h"
 
+#include <memory>
+#include <utility>
+
+#include <ompl/base/MotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 
@@ -62,7 +66,34 @@ namespace parking
             return circle_.isFree(x, y);
         }
 
+        /** \brief The checker behind this one. */
+        const CircleChecker &circle() const
+        {
+            return circle_;
+        }
+
     private:
         CircleChecker circle_;
+    };
+
+    /** \brief Proves straight motions of a circle free along their whole length (CircleChecker::freeShare()), in a
+        plain SE2 space. A motion that touches an obstacle is never accepted. */
+    class CircleMotionValidator : public ompl::base::MotionValidator
+    {
+    public:
+        /** \brief \param checker of the circle, for the same space */
+        CircleMotionValidator(const ompl::base::SpaceInformationPtr &si,
+                              std::shared_ptr<const CircleValidityChecker> checker);
+
+        /** \brief Is \e s2 valid, and the circle free all along the line from \e s1, which is taken to be valid? */
+        bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
+
+        /** \brief The same; otherwise \e lastValid becomes the fraction of the motion that is proven free and, unless
+            null, the state there. */
+        bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
+                         std::pair<ompl::base::State *, double> &lastValid) const override;
+
+    private:
+        std::shared_ptr<const CircleValidityChecker> checker_;
     };
 }  // namespace parking

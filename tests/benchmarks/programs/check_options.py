@@ -17,8 +17,7 @@ PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_que
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/make_scenarios', 'scripts/package',
            'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test', 'scripts/try-in-bare-root',
            'benchmarks/report/make_report', 'benchmarks/report/general_page',
-           'benchmarks/report/results_page', 'benchmarks/paper/page/paper_page', 'benchmarks/paper/page/word_page',
-           'benchmarks/paper/make_maps', 'benchmarks/paper/make_growth_maps', 'benchmarks/paper/make_random_maps']
+           'benchmarks/report/results_page', 'benchmarks/paper/make_maps']
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
 PAGE = re.compile(r'(<!-- options:begin -->\n)(.*)(<!-- options:end -->)', re.DOTALL)
 

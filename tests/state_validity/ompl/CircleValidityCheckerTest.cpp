@@ -139,6 +139,44 @@ TEST(CircleValidityChecker, TheCircleRoundTheCarHoldsTheCarAndItsDoors)
     EXPECT_GT(free, 100);
 }
 
+TEST(CircleMotionValidator, ProvesMotionsFreeAndNamesTheLastValidState)
+{
+    const World world = randomPolygonWorld(6);
+    const ob::SpaceInformationPtr si = spaceOf(world.bounds);
+    const auto checker = std::make_shared<CircleValidityChecker>(si, world.obstacles, 0.8);
+    si->setStateValidityChecker(checker);
+    const CircleMotionValidator validator(si, checker);
+    ob::ScopedState<> from(si), to(si), last(si), between(si);
+    Random random(6);
+    int accepted = 0, rejected = 0;
+    for (int i = 0; i < 3000; ++i)
+    {
+        setPose(from.get(), world.anywhere(random));
+        setPose(to.get(), world.anywhere(random));
+        if (!checker->isValid(from.get()))
+            continue;
+        std::pair<ob::State *, double> lastValid(last.get(), 1.0);
+        const bool free = validator.checkMotion(from.get(), to.get(), lastValid);
+        ASSERT_EQ(free, validator.checkMotion(from.get(), to.get()));
+        ASSERT_TRUE(free || checker->isValid(last.get()));
+        (free ? accepted : rejected) += 1;
+        const double share = free ? 1.0 : lastValid.second;
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k <= 200; ++k)
+        {
+            si->getStateSpace()->interpolate(from.get(), to.get(), k / 200.0, between.get());
+            const bool valid = checker->isValid(between.get());
+            ASSERT_TRUE(valid || k / 200.0 > share);
+            least = std::min(least, checker->clearance(between.get()));
+        }
+        // Between two samples the clearance falls by no more than half of the way between them.
+        const double step = positionDistance(poseOf(from.get()), poseOf(to.get())) / 200.0;
+        ASSERT_TRUE(free || least < 0.5 * step + 2e-3);
+    }
+    EXPECT_GT(accepted, 100);
+    EXPECT_GT(rejected, 100);
+}
+
 TEST(CircleValidityChecker, RefusesBadInput)
 {
     const ObstacleSet empty = ObstacleSet::fromPolygons({}, BOX);

@@ -3,7 +3,6 @@ add_library(parking_paper STATIC
   ${CMAKE_CURRENT_LIST_DIR}/DiscWorld.cpp
   ${CMAKE_CURRENT_LIST_DIR}/JointSpline.cpp
   ${CMAKE_CURRENT_LIST_DIR}/PaperDrive.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/PaperRunJson.cpp
   ${CMAKE_CURRENT_LIST_DIR}/PaperTask.cpp)
 target_link_libraries(parking_paper PUBLIC parking_comparison PRIVATE parking_build_flags)
 add_executable(paper_run ${CMAKE_CURRENT_LIST_DIR}/paper_run.cpp)

@@ -1,8 +1,7 @@
 // paper_run: the paper's run from the start to standstill in the slot, with every choice that the paper leaves open.
-// docs/paper-experiments.md says how.
+// docs/paper.md explains it.
 
-#include "benchmarks/paper/run/PaperRunJson.h"
-#include "benchmarks/paper/run/PaperTask.h"
+#include "benchmarks/paper/PaperTask.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -23,9 +23,13 @@ namespace po = boost::program_options;
 namespace
 {
     using namespace parking;
+    using nlohmann::json;
 
-    constexpr int DONE = 0;
+    constexpr int FORMAT = 1;  // of the JSON
     constexpr std::size_t MOST_REPEATS = 1000;
+    constexpr double DEGREES = 180.0 / PI;
+    constexpr double MS = 1e3;
+    constexpr double CUSP = 0.75 * PI;  // radians; sharper turns of a curve are changes of direction
 
     const std::vector<std::string> ALGORITHMS{"basic_astar",  "experiment_1", "experiment_2", "experiment_3",
                                               "experiment_4", "experiment_5", "experiment_6", "improved_astar"};
@@ -40,6 +44,21 @@ namespace
         double timeLimit{5.0};
         std::string json{"-"};
     };
+
+    /** The choice of this name. Throws parking::Error listing the names for another one. */
+    template <class Choice>
+    Choice chosen(const std::string &what, const std::string &name,
+                  const std::vector<std::pair<std::string, Choice>> &choices)
+    {
+        std::vector<std::string> names;
+        for (const auto &[known, choice] : choices)
+        {
+            if (known == name)
+                return choice;
+            names.push_back(known);
+        }
+        throw Error(unknownName(what, name, names));
+    }
 
     po::options_description describe()
     {
@@ -87,10 +106,13 @@ namespace
         for (const std::string &each : line.texts("set"))
             result.settings.push_back(keyAndValue("--set", each));
         PaperVariant &variant = result.variant;
-        variant.place = discPlaceByName(line.text("disc").value_or("middle"));
+        variant.place = chosen<DiscPlace>(
+            "place of the disc", line.text("disc").value_or("middle"),
+            {{"middle", DiscPlace::Middle}, {"ahead", DiscPlace::Ahead}, {"rear_axle", DiscPlace::RearAxle}});
         variant.radius = line.positive("radius").value_or(variant.radius);
-        variant.lookup = discLookupByName(line.text("lookup").value_or("scan"));
-        variant.spline = splineByName(line.text("spline").value_or("bspline"));
+        variant.scan = chosen<bool>("lookup", line.text("lookup").value_or("scan"), {{"scan", true}, {"field", false}});
+        variant.degree = chosen<std::size_t>("spline", line.text("spline").value_or("bspline"),
+                                             {{"none", POLYLINE}, {"bspline", BSPLINE}, {"bezier", BEZIER}});
         variant.acrossCusps = !line.given("per-stretch");
         variant.sampling = line.whole("sampling", 1, 100).value_or(variant.sampling);
         variant.drive.speed = line.positive("speed").value_or(variant.drive.speed);
@@ -125,38 +147,114 @@ namespace
         return run;
     }
 
+    /** To a tenth of a millimetre and the like: figures for people and plots. */
+    double rounded(double value)
+    {
+        return std::round(value * 1e4) / 1e4;
+    }
+
+    json poseJson(const Pose &pose)
+    {
+        return {rounded(pose.x), rounded(pose.y), rounded(pose.yaw)};
+    }
+
+    json pointsJson(const std::vector<Eigen::Vector2d> &points)
+    {
+        json list = json::array();
+        for (const Eigen::Vector2d &point : points)
+            list.push_back({rounded(point.x()), rounded(point.y())});
+        return list;
+    }
+
+    json driveJson(const PaperDriveResult &drive, bool lines)
+    {
+        json text{{"stands", drive.stands},
+                  {"travel_time_s", rounded(drive.travelTime)},
+                  {"mean_abs_acceleration", drive.meanAcceleration},
+                  {"mean_abs_steering_deg", drive.meanSteering * DEGREES},
+                  {"final_position_error_m", rounded(drive.positionError)},
+                  {"final_yaw_error_deg", rounded(drive.headingError * DEGREES)},
+                  {"max_deviation_m", rounded(drive.greatestDeviation)},
+                  {"colliding_share", drive.collidingShare},
+                  {"solver_failures", drive.failures}};
+        for (std::size_t i = 0; lines && i < drive.states.size(); ++i)
+        {
+            const PaperDriveState &state = drive.states[i];
+            text["states"].push_back({rounded(state.time), rounded(state.pose.x), rounded(state.pose.y),
+                                      rounded(state.pose.yaw), rounded(state.speed), rounded(state.acceleration),
+                                      rounded(state.steering)});
+        }
+        return text;
+    }
+
+    json runJson(const std::string &scenario, const std::string &algorithm, const PaperTask &task, const PaperRun &run,
+                 bool lines)
+    {
+        json text{{"scenario", scenario},
+                  {"algorithm", algorithm},
+                  {"status", run.status},
+                  {"reason", run.reason},
+                  {"manoeuvres", task.manoeuvres().size()},
+                  {"map_loading_time_ms", MS * run.loadingTime},
+                  {"planning_time_ms", MS * run.planningTime},
+                  {"expanded", run.statistics.expanded},
+                  {"open_list_operations", run.statistics.openListOperations},
+                  {"open_list_comparisons", run.statistics.openListComparisons},
+                  {"positions_checked", run.counts.positions},
+                  {"cells_looked_at", run.counts.cells}};
+        if (run.curve.empty())
+            return text;
+        text["approach_m"] = rounded(run.approachLength);
+        text["approach_error_m"] = rounded(run.approachError);
+        text["arrival_turn_deg"] = rounded(run.arrivalTurn * DEGREES);
+        text["length_m"] = rounded(lengthOf(run.curve));
+        text["turning_deg"] = rounded(turningOf(run.curve, CUSP) * DEGREES);
+        text["approach_colliding_share"] = run.approachCollidingShare;
+        text["goal"] = poseJson(run.goal);
+        text["parking_start"] = poseJson(run.parkingStart);
+        if (lines)
+        {
+            text["corners"] = pointsJson(run.corners);
+            text["curve"] = pointsJson(run.curve);
+        }
+        if (!run.drive.states.empty())
+            text["drive"] = driveJson(run.drive, lines);
+        return text;
+    }
+
     int run(const std::vector<std::string> &arguments)
     {
         const Options options = readOptions(arguments);
         if (options.help)
         {
             std::cout << "usage: paper_run SCENARIO... [options]\n\n"
-                         "The paper's run: manoeuvre, A*, one spline through both, and the drive to standstill in the\n"
-                         "slot. Each SCENARIO is a YAML file with a slot; its map may be a frame of SurroundOcc.\n\n"
+                         "The paper's run: manoeuvre, A*, one spline through both, and the drive to standstill. Each\n"
+                         "SCENARIO is a YAML file, whose map may be a frame of SurroundOcc. A scenario without a slot\n"
+                         "has no manoeuvre: A* plans to its goal.\n\n"
                       << describe() << "\nStatus: 0 done, whatever the runs came to; 2 bad input or usage\n";
-            return DONE;
+            return 0;
         }
         if (options.json != "-")
             requireOutputs({options.json}, options.scenarios);
         for (const std::string &algorithm : options.algorithms)
             parametersOf(algorithm, options);
-        nlohmann::json runs = nlohmann::json::array();
+        json runs = json::array();
         for (const std::string &file : options.scenarios)
         {
-            Scenario scenario = readScenario(file);
+            const Scenario scenario = readScenario(file);
             if (options.json != "-")
                 requireNoInput({options.json}, scenario.files);
-            const PaperTask task(std::move(scenario), options.variant);
+            const PaperTask task(scenario, options.variant);
             for (const std::string &algorithm : options.algorithms)
-                runs.push_back(paperRunJson(file.substr(file.find_last_of('/') + 1), algorithm, task,
-                                            runOf(task, parametersOf(algorithm, options), options), options.lines));
+                runs.push_back(runJson(file.substr(file.find_last_of('/') + 1), algorithm, task,
+                                       runOf(task, parametersOf(algorithm, options), options), options.lines));
         }
-        const std::string text = nlohmann::json{{"format", PAPER_RUN_FORMAT}, {"runs", runs}}.dump() + "\n";
+        const std::string text = json{{"format", FORMAT}, {"runs", runs}}.dump() + "\n";
         if (options.json == "-")
             std::cout << text << std::flush;
         else
             writeFileAtomically(options.json, text);
-        return DONE;
+        return 0;
     }
 }  // namespace
 

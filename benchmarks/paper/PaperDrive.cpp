@@ -1,4 +1,4 @@
-#include "benchmarks/paper/run/PaperDrive.h"
+#include "benchmarks/paper/PaperDrive.h"
 
 #include "parking_geometry/Error.h"
 #include "path_tracking/control/Mpc.h"
@@ -16,8 +16,9 @@ namespace parking
 
         constexpr double AT_REST = 0.02;      // m/s
         constexpr double RESTING_TIME = 1.0;  // seconds below that speed, which end the drive
+        constexpr double WAITING = 20.0;      // seconds for the car to come to rest after the wanted position has
 
-        /** Where the car is wanted after so many metres. */
+        /** The position on the path after a number of metres. */
         class WantedPosition
         {
         public:
@@ -71,14 +72,14 @@ namespace parking
     PaperDriveResult drivePaper(const Vehicle &vehicle, const Points &path, const Pose &start, const Pose &goal,
                                 const PaperDriveOptions &options, const std::function<bool(const Pose &)> &isFree)
     {
-        if (path.empty() || !(options.speed > 0.0) || !(options.patience > 0.0))
-            throw Error("a drive takes a path, a positive speed and positive patience");
+        if (path.empty() || !(options.speed > 0.0))
+            throw Error("a drive requires a path and a positive speed");
         const MpcParameters parameters = papersParameters(options);
         Vehicle car = vehicle;
         car.maxSteeringRate = 2.0 * vehicle.maxSteeringAngle / parameters.step;
         Mpc mpc(car, parameters);
         const WantedPosition wanted(path);
-        const double last = wanted.length() / options.speed + options.patience;
+        const double last = wanted.length() / options.speed + WAITING;
         PaperDriveResult result;
         PaperDriveState now;
         now.pose = start;

@@ -11,13 +11,12 @@
 
 namespace parking
 {
-    /** \brief What the paper leaves open of its controller. */
+    /** \brief Settings of the controller that the paper leaves open. */
     struct PaperDriveOptions
     {
-        double speed{1.0};            ///< m/s, at which the wanted position goes along the path
+        double speed{1.0};            ///< m/s, of the wanted position along the path
         double headingWeight{300.0};  ///< W4, per rad^2
         double alignDistance{2.0};    ///< metres, d: nearer to the goal than this W4 holds
-        double patience{20.0};        ///< seconds that the car gets to come to rest after the wanted position has
     };
 
     /** \brief A moment of a drive. */
@@ -30,11 +29,11 @@ namespace parking
         double steering{0.0};      ///< radians
     };
 
-    /** \brief What a drive came to. */
+    /** \brief The result of a drive. */
     struct PaperDriveResult
     {
         std::vector<PaperDriveState> states;  ///< one per step of the controller, from the start on
-        bool stands{false};                   ///< is the car at rest in the end?
+        bool stands{false};                   ///< whether the car is at rest in the end
         double travelTime{0.0};               ///< seconds until it moved last
         double meanAcceleration{0.0};         ///< m/s^2, of absolute values over that time
         double meanSteering{0.0};             ///< radians, likewise
@@ -48,15 +47,13 @@ namespace parking
     /** \brief Drives the paper's controller (section "Cost Function Design") along a path that is not reworked.
 
         The cost is the paper's: W1 u^2, W2 of the changes of u, W3 of the distance to the wanted position D(t), and
-        nearer than d to the goal W4 of the difference to the heading in the slot. D(t) goes along \e path at constant
-        speed and then waits at its end. Bounds are those of acceleration and steering angle, and of the speed; how fast
-        the wheels turn the paper does not limit. The car may move either way whenever it likes: the paper's cost does
-        not say in which direction the path is driven.
-
-        The other weights are those of MpcParameters, the paper gives none.
+        nearer than d to the goal W4 of the difference to the heading in the slot. D(t) moves along \e path at constant
+        speed and then waits at its end. Bounds are those of acceleration, steering angle and speed; the paper does not
+        limit the steering rate. The car may change its direction at any time: the paper's cost does not say in which
+        direction the path is driven. The paper gives no weights; the others are those of MpcParameters.
 
         \param path points, at least one; the car begins at \e start, at rest
-        \param goal where the heading in the slot comes from
+        \param goal gives the heading in the slot
         \param isFree of the body at a pose, for collidingShare; may be empty */
     PaperDriveResult drivePaper(const Vehicle &vehicle, const std::vector<Eigen::Vector2d> &path, const Pose &start,
                                 const Pose &goal, const PaperDriveOptions &options,
