@@ -1,8 +1,7 @@
 #include "benchmarks/programs/Comparison.h"
 
-#include "benchmarks/comparison/ExperimentLog.h"
+#include "benchmarks/comparison/OmplLog.h"
 #include "benchmarks/comparison/UnitRunner.h"
-#include "benchmarks/database/DatabaseWriter.h"
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
 #include "benchmarks/summary/Summary.h"
@@ -58,8 +57,7 @@ namespace parking
                 for (const auto &entry : fs::directory_iterator(each, ignored))
                 {
                     const std::string name = entry.path().filename().string();
-                    if (fnmatch("*.new.??????", name.c_str(), 0) == 0 || fnmatch(".report-*", name.c_str(), 0) == 0 ||
-                        fnmatch("benchmark.db.new[.-]*", name.c_str(), 0) == 0)
+                    if (fnmatch("*.new.??????", name.c_str(), 0) == 0 || fnmatch(".report-*", name.c_str(), 0) == 0)
                         remains.push_back(entry.path());
                 }
             for (const fs::path &each : remains)
@@ -74,7 +72,7 @@ namespace parking
         std::string pathCsv(const Scenario &scenario, const RunRecord &record)
         {
             std::string text = "x,y,yaw,direction,curvature\n";
-            const double sampling = samplingOf(record.path.length(), record.denselyValid.value_or(false));
+            const double sampling = samplingOf(record.path.length(), record.is("densely valid"));
             for (const PathState &state : record.path.sample(sampling))
             {
                 const Pose pose = scenario.toWorld(state.pose);
@@ -127,9 +125,9 @@ namespace parking
     void Comparison::protectInputs() const
     {
         const fs::path folder(folder_);
-        std::vector<std::string> outputs{runsFile()}, inputs{config_.file};
-        for (const char *name : {"benchmark.db", "summary.md", "summary.csv", "report.html", "statistics.json",
-                                 "standings.csv", "pairs.csv"})
+        std::vector<std::string> outputs{database()}, inputs{config_.file};
+        for (const char *name :
+             {"summary.md", "summary.csv", "report.html", "statistics.json", "standings.csv", "pairs.csv"})
             outputs.push_back((folder / name).string());
         for (const Experiment &experiment : experiments_)
         {
@@ -167,44 +165,31 @@ namespace parking
         }
     }
 
-    std::string Comparison::runsFile() const
+    std::string Comparison::database() const
     {
         const std::string part =
             options_.shards == 1 ? ""
                                  : "-" + std::to_string(options_.shard + 1) + "-of-" + std::to_string(options_.shards);
-        return (fs::path(folder_) / ("runs" + part + ".jsonl")).string();
+        return (fs::path(folder_) / ("benchmark" + part + ".db")).string();
     }
 
-    json Comparison::header(const std::vector<std::string> &setups) const
+    std::vector<Row> Comparison::experimentRows() const
     {
-        const std::string cpu = []
-        {
-            const QuietChildren quiet;
-            return ompl::machine::getCPUInfo();
-        }();
-        json result{
-            {"fingerprint", fingerprint(config_)},
-            {"fingerprints", fingerprints()},
-            {"config", config_.file},
-            {"host", ompl::machine::getHostname()},
-            {"cpu", cpu},
-            {"machine", machineText()},
-            {"parameters", machineParameters()},
-            {"seed", config_.seed},
-            {"time_limit", config_.timeLimit},
-            {"started", std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()}};
-        json texts = json::object();
-        for (std::size_t i = 0; i < experiments_.size(); ++i)
-            texts[experiments_[i].name] = setups[i] + machineText() + "\n";
-        result["setups"] = std::move(texts);
-        return result;
+        std::vector<Row> rows;
+        for (const Experiment &experiment : experiments_)
+            rows.push_back({{"name", experiment.name},
+                            {"timelimit", config_.timeLimit},
+                            {"memorylimit", config_.memoryLimit},
+                            {"runcount", static_cast<std::int64_t>(config_.runCount)},
+                            {"seed", std::to_string(config_.seed)}});
+        return rows;
     }
 
-    json Comparison::fingerprints() const
+    std::map<std::pair<std::string, std::string>, std::string> Comparison::fingerprints() const
     {
         const std::string program = fileDigest("/proc/self/exe");
         std::map<std::string, std::string> libraries;
-        json result = json::object();
+        std::map<std::pair<std::string, std::string>, std::string> result;
         for (const Experiment &experiment : experiments_)
             for (const std::size_t index : experiment.planners)
             {
@@ -212,19 +197,49 @@ namespace parking
                 const std::string &library = registry_.find(planner.planner).library;
                 if (!library.empty() && libraries.count(library) == 0)
                     libraries[library] = "+" + fileDigest(library);
-                result[experiment.name][planner.name] =
+                result[{experiment.name, planner.name}] =
                     fingerprint(config_, experiment, planner) + "+" + program + libraries[library];
             }
         return result;
     }
 
-    void Comparison::openStore(const std::vector<std::string> &setups)
+    void Comparison::openStore(const RunStore::IsOfUse &isOfUse)
     {
-        store_ = std::make_unique<ResultStore>(runsFile(), header(setups), options_.fresh);
+        store_ = std::make_unique<RunStore>(database(), isOfUse, options_.fresh);
         if (!store_->setAside().empty() && !options_.quiet)
             std::cerr << "Runs of an earlier comparison were moved to " << store_->setAside() << std::endl;
-        if (!store_->damage().empty())
-            std::cerr << "parking_benchmark: " << store_->damage() << std::endl;
+    }
+
+    std::vector<Row> Comparison::experimentsOf(UnitRunner &runner) const
+    {
+        const std::string cpu = []
+        {
+            const QuietChildren quiet;
+            return ompl::machine::getCPUInfo();
+        }();
+        std::vector<Row> rows = experimentRows();
+        for (std::size_t i = 0; i < rows.size(); ++i)
+        {
+            Row row{{"version", omplVersion()},
+                    {"hostname", ompl::machine::getHostname()},
+                    {"cpuinfo", cpu},
+                    {"date", ompl::time::as_string(ompl::time::now())},
+                    {"setup", runner.setupText(i) + "Configuration " + config_.file + "\n" + machineText() + "\n"}};
+            for (const auto &[name, version] : machineVersions())
+                row[name] = version;
+            rows[i].merge(row);
+        }
+        return rows;
+    }
+
+    void Comparison::requireNoEarlierFormat() const
+    {
+        std::error_code ignored;
+        if (const std::string runs = (fs::path(folder_) / "runs.jsonl").string();
+            !options_.fresh && fs::exists(runs, ignored) && !fs::exists(database(), ignored))
+            throw Error(runs +
+                        ": results of an earlier version of parking_benchmark, which this one cannot read; name "
+                        "another --output, or start over with --fresh");
     }
 
     bool Comparison::run(const std::atomic<bool> &stop)
@@ -233,10 +248,15 @@ namespace parking
         runner.checkSettings();
         tellUnsolvable(runner);
         makeFolder(folder_);
-        std::vector<std::string> setups;
-        for (std::size_t i = 0; i < experiments_.size(); ++i)
-            setups.push_back(runner.setupText(i));
-        openStore(setups);
+        requireNoEarlierFormat();
+        const auto prints = fingerprints();
+        openStore(
+            [&](const RunRecord &record)
+            {
+                const auto print = prints.find({record.experiment, record.planner});
+                return record.run() < config_.runCount && print != prints.end() && print->second == record.fingerprint;
+            });
+        store_->setExperiments(experimentsOf(runner));
         const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
         std::vector<Unit> left;
         std::vector<std::string> names;
@@ -262,52 +282,39 @@ namespace parking
             RunRecord record = runner.run(unit);
             if (stop)
                 return false;
-            if (!options_.quiet && isFailure(record.outcome.value_or(PlanStatus::Timeout)))
+            if (!options_.quiet && isFailure(record.outcome().value_or(PlanStatus::Timeout)))
                 progress.note(failureText(record));
-            store_->add(std::move(record));
+            record.fingerprint = prints.at({record.experiment, record.planner});
+            store_->add(record);
             progress.end(planner, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
         return true;
     }
 
-    std::vector<std::string> Comparison::inputs() const
+    std::vector<std::string> Comparison::parts() const
     {
         std::vector<std::string> files;
-        const auto addFolder = [&files](const std::string &folder)
-        {
-            for (const auto &entry : fs::directory_iterator(folder))
-            {
-                const std::string name = entry.path().filename().string();
-                if (name.compare(0, 4, "runs") == 0 && entry.path().extension() == ".jsonl" && entry.is_regular_file())
-                    files.push_back(entry.path().string());
-            }
-        };
-        if (!options_.merge)
-            return {runsFile()};
         std::error_code ignored;
-        if (options_.inputs.empty() && fs::is_directory(folder_, ignored))
-            addFolder(folder_);
+        const auto addFolder = [&](const std::string &folder, const char *pattern)
+        {
+            for (const auto &entry : fs::directory_iterator(folder, ignored))
+                if (fnmatch(pattern, entry.path().filename().c_str(), 0) == 0 && entry.is_regular_file(ignored))
+                    files.push_back(entry.path().string());
+        };
+        if (options_.inputs.empty())
+            addFolder(folder_, "benchmark-*.db");
         for (const std::string &input : options_.inputs)
-        {
-            if (fs::is_directory(input, ignored))
-                addFolder(input);
-            else
+            if (!fs::is_directory(input, ignored))
                 files.push_back(input);
-        }
+            else if (addFolder(input, "benchmark*.db"); files.empty())
+                throw Error(input + ": holds no runs to merge (benchmark*.db)");
         std::sort(files.begin(), files.end());
-        if (files.empty())
-        {
-            std::string folders;
-            for (const std::string &input : options_.inputs)
-                folders += (folders.empty() ? "" : ", ") + input;
-            throw Error((folders.empty() ? folder_ : folders) + ": holds no runs to merge (runs*.jsonl)");
-        }
         return files;
     }
 
     bool Comparison::isWanted(const RunRecord &record) const
     {
-        if (record.run >= config_.runCount)
+        if (record.run() >= config_.runCount)
             return false;
         for (const Experiment &experiment : experiments_)
             if (experiment.name == record.experiment)
@@ -321,54 +328,45 @@ namespace parking
         return false;
     }
 
-    void Comparison::gather()
+    void Comparison::mergeParts()
     {
-        std::map<std::tuple<std::string, std::string, std::size_t>, RunRecord> known;
-        std::set<std::string> hosts;
-        header_ = nullptr;
-        const auto take = [&](const json &header, const std::vector<RunRecord> &records)
+        requireNoEarlierFormat();
+        std::vector<std::string> files = parts();
+        if (files.empty() && fs::exists(database()))
+            files.push_back(database());
+        if (files.empty())
+            throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
+        const auto wanted = [this](const RunRecord &record)
         {
-            hosts.insert(header.value("host", "unknown"));
-            if (header_.is_null() || header.value("started", 0.0) < header_.value("started", 0.0))
-                header_ = header;
-            for (const RunRecord &record : records)
-                if (isWanted(record))
-                    known.emplace(std::make_tuple(record.experiment, record.planner, record.run), record);
+            return isWanted(record);
         };
-        if (store_)
-            take(store_->header(), store_->records());
-        else
-            for (const std::string &file : inputs())
-            {
-                StoredResults stored = ResultStore::read(file);
-                if (!stored.damage.empty())
-                    std::cerr << "parking_benchmark: " << stored.damage << std::endl;
-                if (!stored.records.empty() && std::none_of(stored.records.begin(), stored.records.end(),
-                                                            [this](const RunRecord &each) { return isWanted(each); }))
-                    throw Error(file + ": holds the runs of another comparison than " + config_.file +
-                                " with these options (configuration, scenarios, limits or seed differ)");
-                take(stored.header, stored.records);
-            }
-        std::string names;
-        for (const std::string &host : hosts)
-            names += (names.empty() ? "" : "+") + host;
-        header_["host"] = names;
-        records_.clear();
-        for (auto &[key, record] : known)
-            records_.push_back(std::move(record));
+        std::vector<StoredRuns> all;
+        for (const std::string &file : files)
+        {
+            const StoredRuns &part = all.emplace_back(RunStore::read(file));
+            if (!part.records.empty() && std::none_of(part.records.begin(), part.records.end(), wanted))
+                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                            " with these options (configuration, scenarios, limits or seed differ)");
+        }
+        makeFolder(folder_);  // now that there is something to put into it
+        openStore(wanted);
+        for (const StoredRuns &part : all)
+            store_->merge(part, wanted);
+        store_->setExperiments(experimentRows());
     }
 
-    void Comparison::writeExperiment(const Experiment &experiment, ComparisonFiles &files) const
+    void Comparison::writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
+                                     ComparisonFiles &files) const
     {
         const fs::path folder(folder_);
-        std::vector<const RunRecord *> own;
-        for (const RunRecord &record : records_)
+        std::map<std::string, std::vector<const RunRecord *>> runs;  // by planner
+        for (const RunRecord &record : records)
             if (record.experiment == experiment.name)
-                own.push_back(&record);
-        if (own.empty())
+                runs[record.planner].push_back(&record);
+        if (runs.empty())
             return;
         const std::string log = (folder / (experiment.name + ".log")).string();
-        writeFileAtomically(log, experimentLog(config_, experiment, header_, own));
+        writeFileAtomically(log, omplLog(store_->database(), experiment.name));
         files.logs.push_back(log);
 
         const Scenario scenario = experiment.scenario();
@@ -376,18 +374,15 @@ namespace parking
         for (const std::size_t index : experiment.planners)
         {
             const std::string &planner = config_.planners[index].name;
-            std::vector<const RunRecord *> runs;
-            for (const RunRecord *record : own)
-                if (record->planner == planner)
-                    runs.push_back(record);
-            best.emplace_back(planner, bestRun(runs));
-            for (const RunRecord *record : runs)
+            best.emplace_back(planner, bestRun(runs[planner]));
+            for (const RunRecord *record : runs[planner])
                 if (record->hasPath && (config_.savePaths == SavePaths::All ||
                                         (config_.savePaths == SavePaths::Shortest && record == best.back().second)))
-                    writeFileAtomically((folder / "paths" /
-                                         (experiment.name + "-" + planner + "-" + std::to_string(record->run) + ".csv"))
-                                            .string(),
-                                        pathCsv(scenario, *record));
+                    writeFileAtomically(
+                        (folder / "paths" /
+                         (experiment.name + "-" + planner + "-" + std::to_string(record->run()) + ".csv"))
+                            .string(),
+                        pathCsv(scenario, *record));
         }
         const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
         writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
@@ -396,21 +391,19 @@ namespace parking
 
     ComparisonFiles Comparison::write()
     {
-        gather();
-        if (!options_.inputs.empty())
-            makeFolder(folder_);  // now that there is something to put into it
+        if (options_.merge)
+            mergeParts();
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");
+        const std::vector<RunRecord> records = store_->records();
         ComparisonFiles files;
-        files.folder = folder_;
+        files.database = database();
         const fs::path folder(folder_);
-        const auto summaryRows = summarize(config_, experiments_, records_);
-        const std::string failures = failuresText(records_);
+        const auto summaryRows = summarize(config_, experiments_, records);
+        const std::string failures = failuresText(records);
         summary_ = summaryText(summaryRows) + failures;
         std::size_t expected = 0;
-        files.database = (folder / "benchmark.db").string();
-        DatabaseWriter database(files.database);  // first, as it keeps others from writing here
         removeRemains(folder);
         makeFolder((folder / "pictures").string());
         if (config_.savePaths != SavePaths::None)
@@ -418,10 +411,9 @@ namespace parking
         for (const Experiment &experiment : experiments_)
         {
             expected += experiment.planners.size() * config_.runCount;
-            writeExperiment(experiment, files);
+            writeExperiment(experiment, records, files);
         }
-        files.missing = expected - std::min(expected, records_.size());
-        database.write(files.logs);
+        files.missing = expected - std::min(expected, records.size());
         files.table = (folder / "summary.md").string();
         writeFileAtomically(files.table, summaryMarkdown(summaryRows) + failures);
         files.csv = (folder / "summary.csv").string();
@@ -430,7 +422,7 @@ namespace parking
         try
         {
             if (options_.report)
-                files.report = makeReport(folder_, inputs());
+                files.report = makeReport(folder_, {files.database});
         }
         catch (const Error &error)
         {

@@ -32,7 +32,7 @@ def main(program, script):
                 if part not in page:
                     print(f'{attempt} run: paper-run.md lacks "{part}"')
                     return 1
-            files = [os.path.join(folder, name, 'runs.jsonl') for name in ('factorial_parallel', 'growth')]
+            files = [os.path.join(folder, name, 'benchmark.db') for name in ('factorial_parallel', 'growth')]
             size = [os.path.getsize(file) for file in files]
             size.append(os.path.getmtime(os.path.join(folder, 'word_parallel_printed.json')))
             if attempt == 'first':

@@ -1,0 +1,240 @@
+// The database of a comparison: what is added stays, what is not of use is kept, what is something else is refused.
+
+#include "benchmarks/comparison/RunColumns.h"
+#include "benchmarks/comparison/RunStore.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+    using namespace parking;
+    using parking_test::contentOf;
+    using parking_test::expectError;
+
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+    /** A run that has a figure in each column, and a path. */
+    RunRecord recordOf(const std::string &planner, std::size_t run, const std::string &fingerprint = "1")
+    {
+        RunRecord record;
+        record.experiment = "garage";
+        record.planner = planner;
+        record.fingerprint = fingerprint;
+        record.reason = "none";
+        std::int64_t number = 0;
+        for (const RunColumn &column : runColumns())
+            record.setFigure(column.name, column.type == ColumnType::Boolean ? FigureValue(run % 2 == 0)
+                                          : column.type == ColumnType::Real  ? FigureValue(0.1 + number)
+                                          : column.type == ColumnType::Enum  ? FigureValue(std::int64_t(1))
+                                                                             : FigureValue(number++));
+        record.set("run", run);
+        record.set("seed", 4000000000U);
+        record.set("time", 0.25);
+        record.set("least clearance", INFINITE);
+        record.figures.insert({{"best cost", 12.5}, {"rewired", std::int64_t(-7)}, {"lazy", true}, {"Id", 3.0}});
+        record.parameters = {{"goal_bias", "0.05"}, {"range", "3"}};
+        record.progress = {{0.1, 20.0}, {0.2, 15.0}};
+        record.hasPath = record.exact = true;
+        record.path = Path{{1.0 / 3.0, 2.0, 0.5}, {{0.2, 3.0}, {0.0, -2.5}, {-0.25, 1.25, 0.1}}};
+        record.path.append(PathPiece::turnOnTheSpot(0.7));
+        return record;
+    }
+
+    RunStore::IsOfUse withFingerprints(const std::vector<std::string> &fingerprints)
+    {
+        return [fingerprints](const RunRecord &record)
+        {
+            return std::find(fingerprints.begin(), fingerprints.end(), record.fingerprint) != fingerprints.end();
+        };
+    }
+
+    const RunStore::IsOfUse ALL = [](const RunRecord & /*record*/)
+    {
+        return true;
+    };
+
+    Row experimentOf(const std::string &date = "2026-01-01", const std::string &host = "here")
+    {
+        return {{"name", "garage"}, {"hostname", host}, {"date", date}, {"cores", std::int64_t(2)}};
+    }
+
+    std::vector<std::string> texts(const std::vector<RunRecord> &records)
+    {
+        std::vector<std::string> result;
+        for (const RunRecord &record : records)
+            result.push_back(record.toJson().dump());
+        return result;
+    }
+
+    class RunStoreTest : public ::testing::Test
+    {
+    protected:
+        /** Those that are there for this comparison, which is closed again. */
+        std::vector<RunRecord> recordsFor(const RunStore::IsOfUse &isOfUse)
+        {
+            return RunStore(file_, isOfUse, false).records();
+        }
+
+        void add(const std::vector<RunRecord> &records)
+        {
+            RunStore store(file_, ALL, false);
+            store.setExperiments({experimentOf()});
+            for (const RunRecord &record : records)
+                store.add(record);
+        }
+
+        const parking_test::TemporaryFolder folder_;
+        const std::string file_ = folder_.path("benchmark.db");
+    };
+
+    TEST_F(RunStoreTest, WhatIsAddedIsReadBack)
+    {
+        RunRecord bare;
+        bare.experiment = "garage";
+        bare.planner = "b";
+        bare.set("run", 1);
+        bare.set("seed", 1);
+        const std::vector<RunRecord> records{recordOf("a", 0), recordOf("a", 1), bare};
+        add(records);
+        std::vector<RunRecord> expected = records;
+        for (RunRecord &each : expected)
+            if (each.figures.count("Id") > 0)
+                each.figures["Id "] = each.figures.extract("Id").mapped();  // no key of the table
+        EXPECT_EQ(texts(recordsFor(ALL)), texts(expected));
+        const StoredRuns stored = RunStore::read(file_);
+        EXPECT_EQ(texts(stored.records), texts(expected));
+        ASSERT_EQ(stored.experiments.size(), 1U);
+        EXPECT_EQ(std::get<std::string>(stored.experiments[0].at("hostname")), "here");
+        EXPECT_EQ(std::get<std::int64_t>(stored.experiments[0].at("cores")), 2);
+        const RunStore store(file_, ALL, false);
+        EXPECT_TRUE(store.has("garage", "b", 1));
+        EXPECT_FALSE(store.has("garage", "b", 0));
+        EXPECT_EQ(store.setAside(), "");
+        // Of a run that took 0.25 s: at regular times, and at each improvement.
+        EXPECT_EQ(std::get<std::int64_t>(store.database().ask("SELECT COUNT(*) FROM progress WHERE runid = 1")), 5);
+    }
+
+    TEST_F(RunStoreTest, NamesOfPlannersFiguresAreOnlyNames)
+    {
+        RunRecord odd = recordOf("a", 0);
+        odd.figures.clear();
+        odd.set("run", 0);
+        odd.set("seed", 1);
+        odd.figures.insert({{"a\"b select", 1.0},
+                            {"order", true},
+                            {"'; DROP TABLE runs; --", 2.0},
+                            {"Time", 4.0},
+                            {"RUN", 9.0},
+                            {"\xff", 5.0}});
+        add({odd});
+        const RunRecord back = recordsFor(ALL).at(0);
+        EXPECT_EQ(back.number("a\"b select"), 1.0);
+        EXPECT_TRUE(back.is("order"));
+        EXPECT_EQ(back.number("'; DROP TABLE runs; --"), 2.0);
+        EXPECT_EQ(back.number("?"), 5.0);
+    }
+
+    TEST_F(RunStoreTest, WhatIsNotOfUseComesBack)
+    {
+        add({recordOf("a", 0, "1"), recordOf("b", 0, "2")});
+        const std::vector<std::string> before = texts(recordsFor(ALL));
+        {
+            RunStore store(file_, withFingerprints({"1", "3"}), false);
+            EXPECT_TRUE(store.has("garage", "a", 0));
+            EXPECT_FALSE(store.has("garage", "b", 0));
+            store.add(recordOf("b", 0, "3"));
+        }
+        EXPECT_EQ(recordsFor(withFingerprints({"1", "3"})).size(), 2U);
+        EXPECT_EQ(texts(recordsFor(withFingerprints({"1", "2"}))), before);
+        EXPECT_EQ(recordsFor(withFingerprints({"3"})).size(), 1U);  // though only a superseded one is of use
+        EXPECT_EQ(texts(recordsFor(withFingerprints({"1", "2"}))), before);
+    }
+
+    TEST_F(RunStoreTest, WhatIsOfNoUseIsSetAside)
+    {
+        for (int number = 1; number < 4; ++number)
+        {
+            const std::string print = std::to_string(number);
+            RunStore store(file_, withFingerprints({print}), false);
+            EXPECT_TRUE(store.records().empty());
+            store.add(recordOf("a", 0, print));
+        }
+        EXPECT_EQ(RunStore(file_, ALL, true).setAside(), folder_.path("previous-benchmark-3.db"));
+        for (int number = 1; number < 4; ++number)
+        {
+            const std::string suffix = number > 1 ? "-" + std::to_string(number) : "";
+            const StoredRuns stored = RunStore::read(folder_.path("previous-benchmark" + suffix + ".db"));
+            EXPECT_EQ(stored.records.at(0).fingerprint, std::to_string(number));
+        }
+        EXPECT_EQ(RunStore(file_, ALL, true).setAside(), "");  // nothing is worth keeping
+    }
+
+    TEST_F(RunStoreTest, OneProcessWritesAndOthersRead)
+    {
+        add({recordOf("a", 0)});
+        RunStore first(file_, ALL, false);
+        for (const bool fresh : {false, true})
+            for (const char *print : {"1", "9"})
+                expectError([&] { RunStore(file_, withFingerprints({print}), fresh); },
+                            {"benchmark.db", "another parking_benchmark"});
+        first.add(recordOf("a", 1));
+        EXPECT_EQ(RunStore::read(file_).records.size(), 2U);
+    }
+
+    TEST_F(RunStoreTest, WhatIsSomethingElseIsRefused)
+    {
+        const auto refuse = [this](const std::string &content, const std::string &part)
+        {
+            folder_.write("benchmark.db", content);
+            expectError([this] { RunStore(file_, ALL, false); }, {"benchmark.db", part, "--fresh"});
+            expectError([this] { RunStore::read(file_); }, {"benchmark.db", part});
+            EXPECT_EQ(contentOf(file_), content);
+            EXPECT_EQ(contentOf(RunStore(file_, ALL, true).setAside()), content);
+        };
+        add({recordOf("a", 0)});
+        const std::string whole = contentOf(file_);
+        refuse(std::string(1000, 'x'), "not a database");
+        refuse(whole.substr(0, 3 * 4096), "malformed");
+        Database(folder_.path("other.db"), Database::Access::Write).runAll("CREATE TABLE runs (id INTEGER)");
+        refuse(contentOf(folder_.path("other.db")), "no database of runs");
+        for (const char *damage : {"UPDATE details SET path = '{\"start\": 3}'", "UPDATE runs SET cusps = 'many'",
+                                   "UPDATE runs SET outcome = 11", "UPDATE runs SET cusps = 1.5"})
+        {
+            folder_.write("benchmark.db", whole);
+            Database(file_, Database::Access::Write).runAll(damage);
+            refuse(contentOf(file_), "run 1 of the table runs");
+        }
+        expectError([this] { RunStore::read(folder_.path("missing")); }, {"missing"});
+        expectError([this] { RunStore(folder_.path("no/where"), ALL, false); }, {"cannot be written"});
+    }
+
+    TEST_F(RunStoreTest, PartsAreMerged)
+    {
+        RunStore store(file_, ALL, false);
+        const StoredRuns late{{experimentOf("2026-01-03", "there")}, {recordOf("a", 0), recordOf("b", 0, "2")}},
+            early{{experimentOf("2026-01-02", "here")}, {recordOf("a", 1)}};
+        for (int times = 0; times < 2; ++times)
+            for (const StoredRuns &part : {late, early})
+                store.merge(part, withFingerprints({"1"}));
+        store.setExperiments({{{"name", "garage"}, {"timelimit", 3.0}}});
+        ASSERT_EQ(store.records().size(), 2U);
+        EXPECT_EQ(store.records()[1].run(), 1U);
+        const auto &database = store.database();
+        EXPECT_EQ(std::get<std::string>(database.ask("SELECT hostname FROM experiments")), "here+there");
+        EXPECT_EQ(std::get<std::string>(database.ask("SELECT date FROM experiments")), "2026-01-02");
+        EXPECT_EQ(std::get<double>(database.ask("SELECT totaltime FROM experiments")), 0.5);
+        // The same run measured again takes the place of the first.
+        RunRecord again = recordOf("a", 0);
+        again.set("time", 0.5);
+        store.merge({{}, {again}}, ALL);
+        EXPECT_EQ(store.records()[0].number("time"), 0.5);
+        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM superseded")), 1);
+    }
+}  // namespace
