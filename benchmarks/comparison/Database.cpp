@@ -3,47 +3,82 @@
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
+#include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <limits>
-#include <utility>
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 namespace parking
 {
-    Database::Database(std::string file, Access access) : file_(std::move(file))
+    Database::Database(const std::string &file, Access access) : file_(oneLine(file))
     {
-        const int flags = SQLITE_OPEN_READWRITE | (access == Access::Read ? 0 : SQLITE_OPEN_CREATE);
-        const int result =
-            sqlite3_open_v2(file_.c_str(), &handle_, flags, access == Access::WriteUnlocked ? "unix-none" : nullptr);
+        if (access == Access::Write)
+            lock(file);
+        const int flags = SQLITE_OPEN_READWRITE | (access == Access::Write ? SQLITE_OPEN_CREATE : 0);
+        // Where a file system knows no locks, SQLite goes without, too.
+        const char *system = access == Access::Write && !locked_ ? "unix-none" : nullptr;
         try
         {
-            check(result);
+            check(sqlite3_open_v2(file.c_str(), &handle_, flags, system));
             // Readers hold up a commit for as long as they read.
             check(sqlite3_busy_timeout(handle_, std::numeric_limits<int>::max()));
-            runAll("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL");
+            // One file, at every moment, that anybody can read; other journals need shared memory, or two files.
+            run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
         }
         catch (const Error &)
         {
-            sqlite3_close(handle_);
+            close();
             throw;
         }
     }
 
     Database::~Database()
     {
+        close();
+    }
+
+    void Database::lock(const std::string &file)
+    {
+        namespace fs = std::filesystem;
+        // Opening a pipe waits until somebody reads it, and a device keeps nothing.
+        if (std::error_code ignored;
+            fs::exists(file, ignored) && !fs::is_regular_file(file, ignored) && !fs::is_directory(file, ignored))
+            throw Error(file_ + ": is a pipe or a device; it must be a file, which can be gone on with");
+        lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (lock_ < 0)
+            throw Error(file_ + ": cannot be written: " + std::strerror(errno));
+        // A byte behind all that SQLite locks. The system unlocks it, however the process ends.
+        struct flock place = {};
+        place.l_type = F_WRLCK;
+        place.l_whence = SEEK_SET;
+        place.l_start = off_t(1) << 62;
+        place.l_len = 1;
+        locked_ = fcntl(lock_, F_OFD_SETLK, &place) == 0;
+        if (!locked_ && (errno == EAGAIN || errno == EACCES))
+        {
+            close();
+            throw Error(file_ + ": another parking_benchmark is writing it at this moment");
+        }
+    }
+
+    void Database::close()
+    {
         sqlite3_close(handle_);
+        // Afterwards: closing it takes SQLite's locks of this process away.
+        if (lock_ >= 0)
+            ::close(lock_);
     }
 
     void Database::fail() const
     {
-        const int cause = sqlite3_system_errno(handle_);
-        const std::string text = oneLine(file_) + ": SQLite: " + oneLine(sqlite3_errmsg(handle_)) +
-                                 (cause != 0 ? std::string(" (") + std::strerror(cause) + ")" : "");
-        const int code = sqlite3_errcode(handle_);
-        if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-            throw DatabaseDamage(text);
-        throw Error(text);
+        const int cause = sqlite3_system_errno(handle_), code = sqlite3_errcode(handle_);
+        throw Error(file_ + ": SQLite: " + oneLine(sqlite3_errmsg(handle_)) +
+                    (cause != 0 ? std::string(" (") + std::strerror(cause) + ")" : "") +
+                    (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ? "; move it away, or name another file" : ""));
     }
 
     void Database::check(int result) const
@@ -52,21 +87,15 @@ namespace parking
             fail();
     }
 
-    void Database::run(const std::string &statement, const std::vector<SqlValue> &values)
-    {
-        ask(statement, values);
-    }
-
-    void Database::runAll(const std::string &statements)
+    void Database::run(const std::string &statements)
     {
         check(sqlite3_exec(handle_, statements.c_str(), nullptr, nullptr, nullptr));
     }
 
-    SqlValue Database::ask(const std::string &query, const std::vector<SqlValue> &values) const
+    SqlValue Database::ask(const std::string &statement, const std::vector<SqlValue> &values) const
     {
-        Statement statement(*this, query);
-        statement.bind(values);
-        return statement.step() ? statement.cell(0) : SqlValue(nullptr);
+        Statement answer(*this, statement, values);
+        return answer.step() ? answer.value(0) : SqlValue(nullptr);
     }
 
     std::int64_t Database::lastRow() const
@@ -74,9 +103,12 @@ namespace parking
         return sqlite3_last_insert_rowid(handle_);
     }
 
-    Database::Statement::Statement(const Database &database, const std::string &text) : database_(database)
+    Database::Statement::Statement(const Database &database, const std::string &text,
+                                   const std::vector<SqlValue> &values)
+      : database_(database)
     {
         database_.check(sqlite3_prepare_v2(database_.handle_, text.c_str(), -1, &statement_, nullptr));
+        bind(values);
     }
 
     Database::Statement::~Statement()
@@ -110,14 +142,12 @@ namespace parking
         return result == SQLITE_ROW;
     }
 
-    int Database::Statement::columns() const
+    std::vector<std::string> Database::Statement::names() const
     {
-        return sqlite3_column_count(statement_);
-    }
-
-    std::string Database::Statement::name(int column) const
-    {
-        return sqlite3_column_name(statement_, column);
+        std::vector<std::string> names;
+        for (int i = 0; i < sqlite3_column_count(statement_); ++i)
+            names.emplace_back(sqlite3_column_name(statement_, i));
+        return names;
     }
 
     std::string Database::Statement::type(int column) const
@@ -126,7 +156,7 @@ namespace parking
         return type == nullptr ? "" : type;
     }
 
-    SqlValue Database::Statement::cell(int column) const
+    SqlValue Database::Statement::value(int column) const
     {
         switch (sqlite3_column_type(statement_, column))
         {

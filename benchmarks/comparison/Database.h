@@ -1,7 +1,5 @@
 #pragma once
 
-#include "parking_geometry/Error.h"
-
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -15,28 +13,20 @@ namespace parking
     /** \brief A cell of a database. */
     using SqlValue = std::variant<std::nullptr_t, std::int64_t, double, std::string>;
 
-    /** \brief A file is no database, or a damaged one. */
-    class DatabaseDamage : public Error
-    {
-    public:
-        using Error::Error;
-    };
+    /** \brief An open file of SQLite, which one process at a time writes and others may read.
 
-    /** \brief An open file of SQLite. All errors are parking::Error with the file's name and SQLite's own words.
-
-        Other processes may read the file between two transactions. */
+        All errors are parking::Error with the file's name and SQLite's own words. */
     class Database
     {
     public:
         /** \brief How a file is opened. */
         enum class Access
         {
-            Read,          ///< nothing is changed but what a killed process left half done
-            Write,         ///< an empty file becomes a database
-            WriteUnlocked  ///< the same on a file system that has no locks
+            Read,  ///< nothing is changed but what a killed process left half done
+            Write  ///< a missing file becomes a database; refused while another process writes it
         };
 
-        Database(std::string file, Access access);
+        Database(const std::string &file, Access access);
         ~Database();
         Database(const Database &) = delete;
         Database &operator=(const Database &) = delete;
@@ -45,29 +35,26 @@ namespace parking
         class Statement
         {
         public:
-            /** \brief Prepares \e text. \e database must outlive the statement. */
-            Statement(const Database &database, const std::string &text);
+            /** \brief Prepares \e text, with values for its `?` from left to right. \e database must outlive it. */
+            Statement(const Database &database, const std::string &text, const std::vector<SqlValue> &values = {});
             ~Statement();
             Statement(const Statement &) = delete;
             Statement &operator=(const Statement &) = delete;
 
-            /** \brief Starts over with these values for the `?` of the text, from left to right. */
+            /** \brief Starts over with other values. */
             void bind(const std::vector<SqlValue> &values);
 
             /** \brief Goes on to the next row; false when there is none. */
             bool step();
 
-            /** \brief Number of columns of a row. */
-            int columns() const;
+            /** \brief Names of the columns. */
+            std::vector<std::string> names() const;
 
-            /** \brief Name of a column, counted from 0. */
-            std::string name(int column) const;
-
-            /** \brief Type with which the column was declared; empty for an expression. */
+            /** \brief Type with which a column was declared, counted from 0; empty for an expression. */
             std::string type(int column) const;
 
             /** \brief A cell of the current row. */
-            SqlValue cell(int column) const;
+            SqlValue value(int column) const;
 
             /** \brief The same as a text; empty for a cell without a value. */
             std::string text(int column) const;
@@ -100,29 +87,30 @@ namespace parking
             bool open_{true};
         };
 
-        /** \brief Runs one statement with these values. */
-        void run(const std::string &statement, const std::vector<SqlValue> &values = {});
+        /** \brief Runs statements without values. */
+        void run(const std::string &statements);
 
-        /** \brief Runs several statements without values. */
-        void runAll(const std::string &statements);
-
-        /** \brief The first cell of the first row that a query finds; no value when there is none. */
-        SqlValue ask(const std::string &query, const std::vector<SqlValue> &values = {}) const;
+        /** \brief The first cell of the first row that a statement finds; no value when there is none. */
+        SqlValue ask(const std::string &statement, const std::vector<SqlValue> &values = {}) const;
 
         /** \brief The number of the row that was inserted last. */
         std::int64_t lastRow() const;
 
-        /** \brief As it was opened. */
+        /** \brief As it was opened, fit for a message. */
         const std::string &file() const
         {
             return file_;
         }
 
     private:
+        void lock(const std::string &file);
         [[noreturn]] void fail() const;
         void check(int result) const;
+        void close();
 
         std::string file_;
+        int lock_{-1};
+        bool locked_{false};
         sqlite3 *handle_{nullptr};
     };
 

@@ -3,6 +3,7 @@
 #include "parking_geometry/text/Text.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -17,10 +18,9 @@ namespace parking
 
         std::string figure(const Statement &row, int column)
         {
-            const SqlValue cell = row.cell(column);
-            if (const auto *real = std::get_if<double>(&cell))
-                return formatNumber(*real);
-            return row.text(column);
+            const SqlValue value = row.value(column);
+            const auto *real = std::get_if<double>(&value);
+            return real != nullptr ? formatNumber(*real) : row.text(column);
         }
 
         std::string withBlanks(std::string name)
@@ -53,26 +53,24 @@ namespace parking
         /** All about the experiment but its planners. */
         std::string head(const Database &database, const std::string &experiment)
         {
-            Statement row(database, "SELECT * FROM experiments WHERE name = ?");
-            row.bind({experiment});
+            Statement row(database, "SELECT * FROM experiments WHERE name = ?", {experiment});
             row.step();
+            const std::vector<std::string> names = row.names();
+            std::map<std::string, std::string> values;
             std::vector<std::string> properties;
-            for (int i = EXPERIMENT_COLUMNS; i < row.columns(); ++i)
-                properties.push_back(row.name(i) + " " + row.type(i) + " = " + figure(row, i));
-            const auto named = [&row](const std::string &name)
+            for (std::size_t i = 0; i < names.size(); ++i)
             {
-                int column = 0;
-                while (row.name(column) != name)
-                    ++column;
-                return figure(row, column);
-            };
-            std::string library = named("version");
+                values[names[i]] = figure(row, static_cast<int>(i));
+                if (i >= EXPERIMENT_COLUMNS)
+                    properties.push_back(names[i] + " " + row.type(static_cast<int>(i)) + " = " + values[names[i]]);
+            }
+            std::string library = values["version"];
             library.insert(std::min(library.find(' '), library.size()), " version");
             return library + "\nExperiment " + experiment + "\n" + counted(properties, "experiment properties") +
-                   "Running on " + named("hostname") + "\nStarting at " + named("date") + "\n<<<|\n" + named("setup") +
-                   "|>>>\n<<<|\n" + named("cpuinfo") + "|>>>\n" + named("seed") + " is the random seed\n" +
-                   named("timelimit") + " seconds per run\n" + named("memorylimit") + " MB per run\n" +
-                   named("runcount") + " runs per planner\n" + named("totaltime") +
+                   "Running on " + values["hostname"] + "\nStarting at " + values["date"] + "\n<<<|\n" +
+                   values["setup"] + "|>>>\n<<<|\n" + values["cpuinfo"] + "|>>>\n" + values["seed"] +
+                   " is the random seed\n" + values["timelimit"] + " seconds per run\n" + values["memorylimit"] +
+                   " MB per run\n" + values["runcount"] + " runs per planner\n" + values["totaltime"] +
                    " seconds spent to collect the data\n" + counted(enumerations(database), "enum types");
         }
 
@@ -121,7 +119,7 @@ namespace parking
             while (rows.step())
             {
                 std::string &line = figures.emplace_back();
-                for (int i = 0; i < rows.columns(); ++i)
+                for (int i = 0; i < static_cast<int>(names.size()); ++i)
                     line += figure(rows, i) + "; ";
             }
             Statement progress(
@@ -149,8 +147,8 @@ namespace parking
         Statement planners(database,
                            "SELECT name, GROUP_CONCAT(id), experimentid FROM plannerConfigs JOIN (SELECT DISTINCT "
                            "experimentid, plannerid FROM runs WHERE experimentid = (SELECT id FROM experiments WHERE "
-                           "name = ?)) ON plannerid = id GROUP BY name ORDER BY MIN(id)");
-        planners.bind({experiment});
+                           "name = ?)) ON plannerid = id GROUP BY name ORDER BY MIN(id)",
+                           {experiment});
         for (; planners.step(); ++count)
             text += planner(database, planners.text(0), planners.text(1), planners.text(2));
         return head(database, experiment) + std::to_string(count) + " planners\n" + text;

@@ -10,41 +10,43 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <sstream>
 #include <utility>
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace parking
 {
     namespace
     {
-        constexpr std::int64_t FORMAT = 3;        // of the tables; earlier ones were files of lines
+        constexpr std::int64_t FORMAT = 3;        // of the tables
         constexpr double PROGRESS_STEP = 0.05;    // seconds between samples of the best cost
         const std::string PREFIX = "geometric_";  // of planners' names, as OMPL's benchmark puts it
 
-        /** OMPL's, as ompl_benchmark_statistics makes them, and the comparison's own two. */
+        /** The columns are OMPL's; where it has tables of experiments, planners and runs there are views. */
         const char *const TABLES = R"(
-            CREATE TABLE experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
+            CREATE TABLE all_experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
                 totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER,
                 version VARCHAR(128), hostname VARCHAR(1024), cpuinfo TEXT,
                 date DATETIME, seed VARCHAR(24), setup TEXT);
-            CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT,
+            CREATE TABLE all_plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT,
                 name VARCHAR(512) NOT NULL, settings TEXT);
             CREATE TABLE enums (name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
-            CREATE TABLE runs (id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER,
-                run INTEGER, seed INTEGER, time REAL,
-                FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE,
-                FOREIGN KEY (plannerid) REFERENCES plannerConfigs(id) ON DELETE CASCADE);
-            CREATE INDEX runsOfPlanners ON runs (experimentid, plannerid);
-            CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, PRIMARY KEY (runid, time),
-                FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
-            CREATE TABLE details (runid INTEGER PRIMARY KEY, fingerprint TEXT, reason TEXT, path TEXT,
-                FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
-            CREATE TABLE superseded (id INTEGER PRIMARY KEY, run TEXT);)";
+            CREATE TABLE all_runs (id INTEGER PRIMARY KEY AUTOINCREMENT,
+                experimentid INTEGER REFERENCES all_experiments(id) ON DELETE CASCADE,
+                plannerid INTEGER REFERENCES all_plannerConfigs(id) ON DELETE CASCADE,
+                run INTEGER, seed INTEGER, time REAL);
+            CREATE INDEX runs_of_planners ON all_runs (experimentid, plannerid);
+            CREATE TABLE progress (runid INTEGER REFERENCES all_runs(id) ON DELETE CASCADE, time REAL, best_cost REAL,
+                PRIMARY KEY (runid, time));
+            CREATE TABLE details (runid INTEGER PRIMARY KEY REFERENCES all_runs(id) ON DELETE CASCADE,
+                fingerprint TEXT, reason TEXT, path TEXT);
+            CREATE TABLE selection (fingerprint TEXT PRIMARY KEY, count INTEGER);
+            CREATE VIEW runs AS SELECT all_runs.* FROM all_runs JOIN details ON runid = all_runs.id
+                JOIN selection ON selection.fingerprint = details.fingerprint WHERE all_runs.run < count;
+            CREATE VIEW experiments AS SELECT * FROM all_experiments WHERE id IN (SELECT experimentid FROM runs);
+            CREATE VIEW plannerConfigs AS SELECT * FROM all_plannerConfigs WHERE id IN (SELECT plannerid FROM runs);)";
 
         std::int64_t numberOf(const SqlValue &cell)
         {
@@ -65,17 +67,24 @@ namespace parking
             return text;
         }
 
+        bool isKey(const std::string &column)
+        {
+            const std::string name = withSmallLetters(column);
+            return name == "id" || name == "experimentid" || name == "plannerid";
+        }
+
         /** What a figure is called in the database. Names that a planner has made up may be those of keys. */
         std::string columnOf(const std::string &figure)
         {
             std::string name = oneLine(figure);
             std::replace(name.begin(), name.end(), ' ', '_');
-            const std::string key = withSmallLetters(name);
-            return key == "id" || key == "experimentid" || key == "plannerid" ? name + "_" : name;
+            return isKey(name) ? name + "_" : name;
         }
 
         std::string figureOfColumn(std::string name)
         {
+            if (name.back() == '_' && isKey(name.substr(0, name.size() - 1)))
+                name.pop_back();
             std::replace(name.begin(), name.end(), '_', ' ');
             return name;
         }
@@ -87,7 +96,7 @@ namespace parking
             return toString(column != nullptr ? column->type : TYPES[value.index()]);
         }
 
-        SqlValue cellOf(const FigureValue &value)
+        SqlValue valueOf(const FigureValue &value)
         {
             if (const auto *real = std::get_if<double>(&value))
                 return std::isnan(*real) ? SqlValue(nullptr) : SqlValue(*real);
@@ -155,12 +164,12 @@ namespace parking
         void requireFormat(const Database &database)
         {
             if (numberOf(database.ask("PRAGMA user_version")) != FORMAT)
-                throw DatabaseDamage(oneLine(database.file()) +
-                                     ": is no database of runs that this version of parking_benchmark can read");
+                throw Error(database.file() +
+                            ": is no database of runs that this version of parking_benchmark can "
+                            "read; move it away, or name another --output");
         }
 
-        /** Runs with their ids, as they were finished. */
-        std::vector<std::pair<std::int64_t, RunRecord>> readRuns(const Database &database, const std::string &order)
+        std::map<std::int64_t, std::vector<Improvement>> readProgress(const Database &database)
         {
             std::map<std::int64_t, std::vector<Improvement>> progress;
             Database::Statement steps(
@@ -173,35 +182,33 @@ namespace parking
                 if (own.empty() || cost < own.back().cost)
                     own.push_back({steps.real(1), cost});
             }
-            std::vector<std::pair<std::int64_t, RunRecord>> runs;
+            return progress;
+        }
+
+        std::vector<RunRecord> readRuns(const Database &database)
+        {
+            std::map<std::int64_t, std::vector<Improvement>> progress = readProgress(database);
+            std::vector<RunRecord> runs;
             Database::Statement rows(
                 database,
-                "SELECT runs.id, experiments.name, plannerConfigs.name, plannerConfigs.settings, details.fingerprint, "
-                "details.reason, details.path, runs.* FROM runs JOIN experiments ON experimentid = experiments.id "
-                "JOIN plannerConfigs ON plannerid = plannerConfigs.id "
-                "JOIN details ON details.runid = runs.id ORDER BY " +
-                    order);
-            constexpr int FIRST = 10;  // behind those and the three ids
-            std::vector<std::string> names, types;
-            for (int i = 0; i < rows.columns(); ++i)
-            {
-                names.push_back(rows.name(i));
-                types.push_back(rows.type(i));
-            }
+                "SELECT runs.id, e.name, p.name, p.settings, details.fingerprint, details.reason, details.path, runs.* "
+                "FROM runs JOIN all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
+                "JOIN details ON details.runid = runs.id ORDER BY e.name, p.name, runs.run");
+            const std::vector<std::string> names = rows.names();
+            const int first = 10, end = static_cast<int>(names.size());  // behind those and the three ids
             while (rows.step())
             {
-                const std::int64_t id = rows.number(0);
-                RunRecord record;
+                RunRecord &record = runs.emplace_back();
                 record.experiment = rows.text(1);
                 record.planner = rows.text(2).substr(PREFIX.size());
                 record.parameters = parametersFrom(rows.text(3));
                 record.fingerprint = rows.text(4);
                 record.reason = rows.text(5);
-                record.progress = std::move(progress[id]);
+                record.progress = std::move(progress[rows.number(0)]);
                 try
                 {
-                    for (int i = FIRST; i < rows.columns(); ++i)
-                        setFigure(record, names[i], types[i], rows.cell(i));
+                    for (int i = first; i < end; ++i)
+                        setFigure(record, names[i], rows.type(i), rows.value(i));
                     if (const std::string path = rows.text(6); !path.empty())
                     {
                         const json text = json::parse(path);
@@ -212,149 +219,113 @@ namespace parking
                 }
                 catch (const std::exception &error)
                 {
-                    throw DatabaseDamage(oneLine(database.file()) + ": run " + std::to_string(id) +
-                                         " of the table runs: " + oneLine(error.what()));
+                    throw Error(database.file() + ": run " + rows.text(0) +
+                                " of the table all_runs: " + oneLine(error.what()));
                 }
-                runs.emplace_back(id, std::move(record));
             }
             return runs;
         }
 
-        /** A name that nothing has yet. */
-        std::string nameAside(const std::string &file)
+        StoredRuns readAll(const Database &database)
         {
-            const fs::path path(file);
-            const std::string base = (path.parent_path() / ("previous-" + path.stem().string())).string();
-            for (int number = 1;; ++number)
-            {
-                std::string name = base + (number > 1 ? "-" + std::to_string(number) : "") + path.extension().string();
-                if (!fs::exists(fs::symlink_status(name)))
-                    return name;
-            }
+            requireFormat(database);
+            StoredRuns stored{{}, readRuns(database)};
+            Database::Statement rows(database, "SELECT * FROM experiments");
+            const std::vector<std::string> names = rows.names();
+            while (rows.step())
+                for (Row &row = stored.experiments.emplace_back(); row.size() < names.size();)
+                    row.emplace(names[row.size()], rows.value(static_cast<int>(row.size())));
+            return stored;
+        }
+
+        std::string beginningOf(const std::string &fingerprint)
+        {
+            return fingerprint.substr(0, fingerprint.find('+'));
         }
     }  // namespace
 
-    RunStore::RunStore(const std::string &file, const IsOfUse &isOfUse, bool fresh) : file_(file)
+    RunStore::RunStore(const std::string &file) : database_(file, Database::Access::Write)
     {
-        lock_.emplace(file_);
-        try
+        if (numberOf(database_.ask("SELECT COUNT(*) FROM sqlite_master")) != 0)
         {
-            open();
-            const bool isEmpty = std::holds_alternative<std::nullptr_t>(
-                database_->ask("SELECT 1 FROM runs UNION SELECT 1 FROM superseded"));
-            if (isEmpty || (!fresh && sortOut(isOfUse)))
-                return;
+            requireFormat(database_);
+            return;
         }
-        catch (const DatabaseDamage &error)
-        {
-            if (!fresh)
-                throw Error(error.what() + std::string("; --fresh sets it aside, or name another --output"));
-        }
-        makeRoom();
-    }
-
-    void RunStore::open()
-    {
-        database_.emplace(file_, lock_->isLocked() ? Database::Access::Write : Database::Access::WriteUnlocked);
-        database_->runAll("PRAGMA foreign_keys = ON");
-        if (numberOf(database_->ask("SELECT COUNT(*) FROM sqlite_master")) != 0)
-            return requireFormat(*database_);
-        Database::Transaction transaction(*database_);
-        database_->runAll(TABLES);
+        Database::Transaction transaction(database_);
+        database_.run(TABLES);
         const auto addNames = [this](const char *type, std::size_t count, const auto &nameOf)
         {
             for (std::size_t i = 0; i < count; ++i)
-                database_->run("INSERT INTO enums VALUES (?, ?, ?)", {type, static_cast<std::int64_t>(i), nameOf(i)});
+                insert("enums", {{"name", type}, {"value", static_cast<std::int64_t>(i)}, {"description", nameOf(i)}});
         };
         using Status = ompl::base::PlannerStatus;
         addNames("status", Status::TYPE_COUNT,
                  [](std::size_t i) { return Status(static_cast<Status::StatusType>(i)).asString(); });
         addNames("outcome", PLAN_STATUSES, [](std::size_t i) { return toString(static_cast<PlanStatus>(i)); });
-        database_->runAll("PRAGMA user_version = " + std::to_string(FORMAT));
+        database_.run("PRAGMA user_version = " + std::to_string(FORMAT));
         transaction.commit();
     }
 
-    void RunStore::makeRoom()
+    void RunStore::forget()
     {
-        insertions_.clear();
-        columns_.clear();
+        database_.run("UPDATE details SET fingerprint = ''");
+    }
+
+    void RunStore::select(const std::vector<std::string> &fingerprints, std::size_t count)
+    {
+        selected_ = {fingerprints.begin(), fingerprints.end()};
+        count_ = static_cast<std::int64_t>(count);
+        Database::Transaction transaction(database_);
+        database_.run("DELETE FROM selection");
+        for (const std::string &fingerprint : fingerprints)
+            insert("selection", {{"fingerprint", fingerprint}, {"count", count_}});
+        Database::Statement others(database_, "SELECT DISTINCT fingerprint FROM details");
+        while (others.step())
+            selectIfBegun(others.text(0));
+        transaction.commit();
         known_.clear();
-        database_.reset();
-        setAside_ = nameAside(file_);
-        fs::rename(file_, setAside_);
-        lock_.reset();
-        lock_.emplace(file_);
-        open();
+        Database::Statement runs(database_,
+                                 "SELECT e.name, p.name, runs.run FROM runs JOIN all_experiments e ON "
+                                 "experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id");
+        while (runs.step())
+            known_.insert({runs.text(0), runs.text(1).substr(PREFIX.size()), runs.number(2)});
     }
 
-    bool RunStore::sortOut(const IsOfUse &isOfUse)
+    bool RunStore::selectIfBegun(const std::string &fingerprint)
     {
-        const auto runs = readRuns(*database_, "runs.id");
-        std::map<std::int64_t, RunRecord> earlier;
-        Database::Statement rows(*database_, "SELECT id, run FROM superseded");
-        while (rows.step())
-            earlier.emplace(rows.number(0), RunRecord::fromJson(json::parse(rows.text(1))));
-        const auto counts = [&isOfUse](const auto &each)
-        {
-            return isOfUse(each.second);
-        };
-        if (std::none_of(runs.begin(), runs.end(), counts) && std::none_of(earlier.begin(), earlier.end(), counts))
+        if (selected_.count(fingerprint) > 0)
+            return true;
+        if (selected_.count(beginningOf(fingerprint)) == 0)
             return false;
-        Database::Transaction transaction(*database_);
-        for (const auto &[id, record] : runs)
-        {
-            known_.emplace(keyOf(record), id);
-            if (!isOfUse(record))
-                supersede(record);
-        }
-        for (const auto &[id, record] : earlier)
-            if (isOfUse(record) && known_.count(keyOf(record)) == 0)
-            {
-                insert(record);
-                database_->run("DELETE FROM superseded WHERE id = ?", {id});
-            }
-        transaction.commit();
+        database_.ask("INSERT OR IGNORE INTO selection VALUES (?, ?)", {fingerprint, count_});
         return true;
     }
 
-    void RunStore::supersede(const RunRecord &record)
-    {
-        const auto run = known_.find(keyOf(record));
-        database_->run("INSERT INTO superseded (run) VALUES (?)",
-                       {record.toJson().dump(-1, ' ', false, json::error_handler_t::replace)});
-        database_->run("DELETE FROM runs WHERE id = ?", {run->second});
-        known_.erase(run);
-    }
-
-    void RunStore::setExperiments(const std::vector<Row> &experiments)
+    void RunStore::describe(const std::vector<Row> &experiments)
     {
         // What the configuration says; all else is of the beginning.
         const std::set<std::string> configured{"timelimit", "memorylimit", "runcount", "seed"};
-        Database::Transaction transaction(*database_);
-        std::set<std::string> names;
+        Database::Transaction transaction(database_);
         for (const Row &row : experiments)
         {
-            const SqlValue name = row.at("name");
-            names.insert(textOf(name));
-            if (numberOf(database_->ask("SELECT id FROM experiments WHERE name = ?", {name})) == 0)
-                insert("experiments", {{"name", name}});
+            const SqlValue &name = row.at("name");
+            const std::int64_t id = idOf("all_experiments", {{"name", name}});
+            const bool isShown = numberOf(database_.ask("SELECT id FROM experiments WHERE id = ?", {id})) != 0;
             for (const auto &[column, value] : row)
-            {
-                grow("experiments", column, "INTEGER");  // of versions; the others are there
-                database_->run("UPDATE experiments SET " + quotedName(column) + " = " +
-                                   (configured.count(column) > 0 ? "?" : "COALESCE(" + quotedName(column) + ", ?)") +
-                                   " WHERE name = ?",
-                               {value, name});
-            }
+                if (!isShown || configured.count(column) > 0)
+                    setColumn("all_experiments", id, column, value);
         }
-        Database::Statement all(*database_, "SELECT id, name FROM experiments");
-        while (all.step())
-            if (names.count(all.text(1)) == 0)
-                database_->run("DELETE FROM experiments WHERE id = ?", {all.number(0)});
-        database_->runAll(
-            "DELETE FROM plannerConfigs WHERE id NOT IN (SELECT plannerid FROM runs);"
-            "UPDATE experiments SET totaltime = (SELECT TOTAL(time) FROM runs WHERE experimentid = experiments.id)");
+        database_.run(
+            "UPDATE all_experiments SET totaltime = "
+            "(SELECT TOTAL(time) FROM runs WHERE experimentid = all_experiments.id)");
         transaction.commit();
+    }
+
+    void RunStore::setColumn(const std::string &table, std::int64_t id, const std::string &column,
+                             const SqlValue &value)
+    {
+        grow(table, column, "INTEGER");  // a version; the others are there
+        database_.ask("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
     }
 
     RunStore::Key RunStore::keyOf(const RunRecord &record)
@@ -369,7 +340,7 @@ namespace parking
 
     void RunStore::add(const RunRecord &record)
     {
-        Database::Transaction transaction(*database_);
+        Database::Transaction transaction(database_);
         insert(record);
         transaction.commit();
     }
@@ -379,13 +350,12 @@ namespace parking
         std::set<std::string> &known = columns_[table];
         if (known.empty())
         {
-            Database::Statement columns(*database_, "SELECT name FROM pragma_table_info(?)");
-            columns.bind({table});
+            Database::Statement columns(database_, "SELECT name FROM pragma_table_info(?)", {table});
             while (columns.step())
                 known.insert(withSmallLetters(columns.text(0)));
         }
         if (known.insert(withSmallLetters(column)).second)
-            database_->run("ALTER TABLE " + table + " ADD " + quotedName(column) + " " + type);
+            database_.run("ALTER TABLE " + table + " ADD " + quotedName(column) + " " + type);
     }
 
     std::int64_t RunStore::insert(const std::string &table, const Row &row)
@@ -401,67 +371,71 @@ namespace parking
         const std::string text = "INSERT INTO " + table + " (" + names + ") VALUES (" + marks + ")";
         std::unique_ptr<Database::Statement> &statement = insertions_[text];
         if (!statement)
-            statement = std::make_unique<Database::Statement>(*database_, text);
+            statement = std::make_unique<Database::Statement>(database_, text);
         statement->bind(values);
         statement->step();
-        return database_->lastRow();
+        return database_.lastRow();
+    }
+
+    std::int64_t RunStore::idOf(const std::string &table, const Row &row)
+    {
+        std::string query = "SELECT id FROM " + table + " WHERE 1";
+        std::vector<SqlValue> values;
+        for (const auto &[column, value] : row)
+        {
+            query += " AND " + column + " = ?";
+            values.push_back(value);
+        }
+        const std::int64_t id = numberOf(database_.ask(query, values));
+        return id != 0 ? id : insert(table, row);
     }
 
     void RunStore::insert(const RunRecord &record)
     {
-        const auto idOf = [this](const std::string &table, const Row &row)
-        {
-            std::string query = "SELECT id FROM " + table + " WHERE 1";
-            std::vector<SqlValue> values;
-            for (const auto &[column, value] : row)
-            {
-                query += " AND " + column + " = ?";
-                values.push_back(value);
-            }
-            const std::int64_t id = numberOf(database_->ask(query, values));
-            return id != 0 ? id : insert(table, row);
-        };
-        Row row{{"experimentid", idOf("experiments", {{"name", record.experiment}})},
+        Row row{{"experimentid", idOf("all_experiments", {{"name", record.experiment}})},
                 {"plannerid",
-                 idOf("plannerConfigs", {{"name", PREFIX + record.planner}, {"settings", settingsOf(record)}})}};
+                 idOf("all_plannerConfigs", {{"name", PREFIX + record.planner}, {"settings", settingsOf(record)}})}};
         std::set<std::string> taken;
         for (const auto &[figure, value] : record.figures)
         {
             const std::string column = columnOf(figure);
             if (!taken.insert(withSmallLetters(column)).second)
                 continue;  // names that differ in their capitals only
-            grow("runs", column, typeOf(figure, value));
-            row[column] = cellOf(value);
+            grow("all_runs", column, typeOf(figure, value));
+            row[column] = valueOf(value);
         }
-        const std::int64_t id = insert("runs", row);
+        const std::int64_t id = insert("all_runs", row);
         for (const auto &[time, cost] : progressOf(record))
             insert("progress", {{"runid", id}, {"time", time}, {"best_cost", cost}});
-        json path = record.hasPath ? toJson(record.path) : json();
-        if (record.hasPath)
-            path["exact"] = record.exact;
+        json path = toJson(record.path);
+        path["exact"] = record.exact;
         insert("details", {{"runid", id},
                            {"fingerprint", record.fingerprint},
                            {"reason", record.reason},
                            {"path", record.hasPath ? SqlValue(path.dump()) : SqlValue(nullptr)}});
         if (const double time = record.number("time"); time > 0.0)
-            database_->run("UPDATE experiments SET totaltime = totaltime + ? WHERE id = ?",
-                           {time, row.at("experimentid")});
-        known_[keyOf(record)] = id;
+            database_.ask("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
+                          {time, row.at("experimentid")});
+        known_.insert(keyOf(record));
     }
 
-    void RunStore::merge(const StoredRuns &part, const IsOfUse &wanted)
+    void RunStore::merge(const StoredRuns &part)
     {
         std::map<Key, RunRecord> there;
-        for (auto &[id, record] : readRuns(*database_, "runs.id"))
+        for (RunRecord &record : readRuns(database_))
             there.emplace(keyOf(record), std::move(record));
-        Database::Transaction transaction(*database_);
+        Database::Transaction transaction(database_);
         for (const RunRecord &record : part.records)
         {
             const auto same = there.find(keyOf(record));
-            if (!wanted(record) || (same != there.end() && same->second.toJson() == record.toJson()))
+            if (!selectIfBegun(record.fingerprint) || (same != there.end() && same->second.toJson() == record.toJson()))
                 continue;
             if (same != there.end())
-                supersede(same->second);
+                database_.ask(
+                    "UPDATE details SET fingerprint = '' WHERE runid IN (SELECT runs.id FROM runs JOIN "
+                    "all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
+                    "WHERE e.name = ? AND p.name = ? AND runs.run = ?)",
+                    {record.experiment, PREFIX + record.planner, static_cast<std::int64_t>(record.run())});
             insert(record);
         }
         for (const Row &row : part.experiments)
@@ -471,12 +445,11 @@ namespace parking
 
     void RunStore::mergeExperiment(Row row)
     {
-        const SqlValue name = row.at("name");
+        const std::int64_t id = idOf("all_experiments", {{"name", row.at("name")}});
         const auto own = [&](const std::string &column)
         {
-            return textOf(database_->ask("SELECT " + column + " FROM experiments WHERE name = ?", {name}));
+            return textOf(database_.ask("SELECT " + column + " FROM all_experiments WHERE id = ?", {id}));
         };
-        const std::string date = own("date");
         std::set<std::string> hosts;
         for (const std::string &names : {own("hostname"), textOf(row["hostname"])})
         {
@@ -487,39 +460,21 @@ namespace parking
         std::string together;
         for (const std::string &host : hosts)
             together += (together.empty() ? "" : "+") + host;
-        if (!date.empty() && date <= textOf(row["date"]))
-            row = {};
+        if (const std::string date = own("date"); !date.empty() && date <= textOf(row["date"]))
+            row.clear();
+        row.erase("id");
         row["hostname"] = together;
         for (const auto &[column, value] : row)
-            if (column != "id" && column != "name")
-            {
-                grow("experiments", column, "INTEGER");
-                database_->run("UPDATE experiments SET " + quotedName(column) + " = ? WHERE name = ?", {value, name});
-            }
+            setColumn("all_experiments", id, column, value);
     }
 
-    std::vector<RunRecord> RunStore::records() const
+    StoredRuns RunStore::read() const
     {
-        std::vector<RunRecord> records;
-        for (auto &[id, record] : readRuns(*database_, "experiments.name, plannerConfigs.name, runs.run"))
-            records.push_back(std::move(record));
-        return records;
+        return readAll(database_);
     }
 
     StoredRuns RunStore::read(const std::string &file)
     {
-        const Database database(file, Database::Access::Read);
-        requireFormat(database);
-        StoredRuns stored;
-        for (auto &[id, record] : readRuns(database, "runs.id"))
-            stored.records.push_back(std::move(record));
-        Database::Statement rows(database, "SELECT * FROM experiments");
-        while (rows.step())
-        {
-            Row &row = stored.experiments.emplace_back();
-            for (int i = 0; i < rows.columns(); ++i)
-                row[rows.name(i)] = rows.cell(i);
-        }
-        return stored;
+        return readAll(Database(file, Database::Access::Read));
     }
 }  // namespace parking

@@ -185,29 +185,33 @@ namespace parking
         return rows;
     }
 
-    std::map<std::pair<std::string, std::string>, std::string> Comparison::fingerprints() const
+    Comparison::Fingerprints Comparison::fingerprints() const
     {
         const std::string program = fileDigest("/proc/self/exe");
         std::map<std::string, std::string> libraries;
-        std::map<std::pair<std::string, std::string>, std::string> result;
+        Fingerprints result;
         for (const Experiment &experiment : experiments_)
             for (const std::size_t index : experiment.planners)
             {
                 const PlannerSpec &planner = config_.planners[index];
+                std::string &print = result[{experiment.name, planner.name}];
+                print = fingerprint(config_, experiment, planner);
+                if (options_.merge)
+                    continue;  // machines may have programs of their own
                 const std::string &library = registry_.find(planner.planner).library;
                 if (!library.empty() && libraries.count(library) == 0)
                     libraries[library] = "+" + fileDigest(library);
-                result[{experiment.name, planner.name}] =
-                    fingerprint(config_, experiment, planner) + "+" + program + libraries[library];
+                print += "+" + program + libraries[library];
             }
         return result;
     }
 
-    void Comparison::openStore(const RunStore::IsOfUse &isOfUse)
+    void Comparison::select(const Fingerprints &fingerprints)
     {
-        store_ = std::make_unique<RunStore>(database(), isOfUse, options_.fresh);
-        if (!store_->setAside().empty() && !options_.quiet)
-            std::cerr << "Runs of an earlier comparison were moved to " << store_->setAside() << std::endl;
+        std::vector<std::string> wanted;
+        for (const auto &[names, print] : fingerprints)
+            wanted.push_back(print);
+        store_->select(wanted, config_.runCount);
     }
 
     std::vector<Row> Comparison::experimentsOf(UnitRunner &runner) const
@@ -249,14 +253,12 @@ namespace parking
         tellUnsolvable(runner);
         makeFolder(folder_);
         requireNoEarlierFormat();
+        store_ = std::make_unique<RunStore>(database());
+        if (options_.fresh)
+            store_->forget();
         const auto prints = fingerprints();
-        openStore(
-            [&](const RunRecord &record)
-            {
-                const auto print = prints.find({record.experiment, record.planner});
-                return record.run() < config_.runCount && print != prints.end() && print->second == record.fingerprint;
-            });
-        store_->setExperiments(experimentsOf(runner));
+        select(prints);
+        store_->describe(experimentsOf(runner));
         const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
         std::vector<Unit> left;
         std::vector<std::string> names;
@@ -312,47 +314,35 @@ namespace parking
         return files;
     }
 
-    bool Comparison::isWanted(const RunRecord &record) const
-    {
-        if (record.run() >= config_.runCount)
-            return false;
-        for (const Experiment &experiment : experiments_)
-            if (experiment.name == record.experiment)
-                for (const std::size_t index : experiment.planners)
-                    if (config_.planners[index].name == record.planner)
-                    {
-                        // Machines may have programs of their own; the rest of a fingerprint tells those apart.
-                        const std::string wanted = fingerprint(config_, experiment, config_.planners[index]) + "+";
-                        return record.fingerprint.compare(0, wanted.size(), wanted) == 0;
-                    }
-        return false;
-    }
-
     void Comparison::mergeParts()
     {
         requireNoEarlierFormat();
-        std::vector<std::string> files = parts();
-        if (files.empty() && fs::exists(database()))
-            files.push_back(database());
-        if (files.empty())
+        const std::vector<std::string> files = parts();
+        if (files.empty() && !fs::exists(database()))
             throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
-        const auto wanted = [this](const RunRecord &record)
+        const Fingerprints prints = fingerprints();
+        const auto require = [&](const std::string &file, const std::vector<RunRecord> &records)
         {
-            return isWanted(record);
+            const auto isWanted = [&prints](const RunRecord &record)
+            {
+                const auto print = prints.find({record.experiment, record.planner});
+                return print != prints.end() && record.fingerprint.find(print->second + "+") == 0;
+            };
+            if (!records.empty() && std::none_of(records.begin(), records.end(), isWanted))
+                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                            " with these options (configuration, scenarios, limits or seed differ)");
         };
         std::vector<StoredRuns> all;
         for (const std::string &file : files)
-        {
-            const StoredRuns &part = all.emplace_back(RunStore::read(file));
-            if (!part.records.empty() && std::none_of(part.records.begin(), part.records.end(), wanted))
-                throw Error(file + ": holds the runs of another comparison than " + config_.file +
-                            " with these options (configuration, scenarios, limits or seed differ)");
-        }
+            require(file, all.emplace_back(RunStore::read(file)).records);
+        if (files.empty())
+            require(database(), RunStore::read(database()).records);
         makeFolder(folder_);  // now that there is something to put into it
-        openStore(wanted);
+        store_ = std::make_unique<RunStore>(database());
+        select(prints);
         for (const StoredRuns &part : all)
-            store_->merge(part, wanted);
-        store_->setExperiments(experimentRows());
+            store_->merge(part);
+        store_->describe(experimentRows());
     }
 
     void Comparison::writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
@@ -396,7 +386,7 @@ namespace parking
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");
-        const std::vector<RunRecord> records = store_->records();
+        const std::vector<RunRecord> records = store_->read().records;
         ComparisonFiles files;
         files.database = database();
         const fs::path folder(folder_);

@@ -68,15 +68,14 @@ namespace parking
         void protectInputs() const;
         /** Says which experiments nobody can solve, and why. */
         void tellUnsolvable(UnitRunner &runner) const;
-        void openStore(const RunStore::IsOfUse &isOfUse);
         /** Rows of the table `experiments`: what the configuration says of each. */
         std::vector<Row> experimentRows() const;
         /** The same with machine and date. */
         std::vector<Row> experimentsOf(UnitRunner &runner) const;
-        /** By experiment and planner: of everything that its runs depend on, the program included. */
-        std::map<std::pair<std::string, std::string>, std::string> fingerprints() const;
-        /** Is it one of this comparison's, whatever program did it? */
-        bool isWanted(const RunRecord &record) const;
+        using Fingerprints = std::map<std::pair<std::string, std::string>, std::string>;
+        /** By experiment and planner: of everything that its runs depend on; the program included, but for merging. */
+        Fingerprints fingerprints() const;
+        void select(const Fingerprints &fingerprints);
         /** Databases of other parts, to be merged. */
         std::vector<std::string> parts() const;
         void mergeParts();

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -47,19 +46,6 @@ namespace
         return record;
     }
 
-    RunStore::IsOfUse withFingerprints(const std::vector<std::string> &fingerprints)
-    {
-        return [fingerprints](const RunRecord &record)
-        {
-            return std::find(fingerprints.begin(), fingerprints.end(), record.fingerprint) != fingerprints.end();
-        };
-    }
-
-    const RunStore::IsOfUse ALL = [](const RunRecord & /*record*/)
-    {
-        return true;
-    };
-
     Row experimentOf(const std::string &date = "2026-01-01", const std::string &host = "here")
     {
         return {{"name", "garage"}, {"hostname", host}, {"date", date}, {"cores", std::int64_t(2)}};
@@ -76,16 +62,19 @@ namespace
     class RunStoreTest : public ::testing::Test
     {
     protected:
-        /** Those that are there for this comparison, which is closed again. */
-        std::vector<RunRecord> recordsFor(const RunStore::IsOfUse &isOfUse)
+        /** The runs that a comparison finds, which is closed again. */
+        std::vector<RunRecord> recordsFor(const std::vector<std::string> &fingerprints, std::size_t count = 10)
         {
-            return RunStore(file_, isOfUse, false).records();
+            RunStore store(file_);
+            store.select(fingerprints, count);
+            return store.read().records;
         }
 
         void add(const std::vector<RunRecord> &records)
         {
-            RunStore store(file_, ALL, false);
-            store.setExperiments({experimentOf()});
+            RunStore store(file_);
+            store.select({"1", "2"}, 10);
+            store.describe({experimentOf()});
             for (const RunRecord &record : records)
                 store.add(record);
         }
@@ -99,25 +88,22 @@ namespace
         RunRecord bare;
         bare.experiment = "garage";
         bare.planner = "b";
+        bare.fingerprint = "2";
         bare.set("run", 1);
         bare.set("seed", 1);
         const std::vector<RunRecord> records{recordOf("a", 0), recordOf("a", 1), bare};
         add(records);
-        std::vector<RunRecord> expected = records;
-        for (RunRecord &each : expected)
-            if (each.figures.count("Id") > 0)
-                each.figures["Id "] = each.figures.extract("Id").mapped();  // no key of the table
-        EXPECT_EQ(texts(recordsFor(ALL)), texts(expected));
         const StoredRuns stored = RunStore::read(file_);
-        EXPECT_EQ(texts(stored.records), texts(expected));
+        EXPECT_EQ(texts(stored.records), texts(records));
         ASSERT_EQ(stored.experiments.size(), 1U);
         EXPECT_EQ(std::get<std::string>(stored.experiments[0].at("hostname")), "here");
         EXPECT_EQ(std::get<std::int64_t>(stored.experiments[0].at("cores")), 2);
-        const RunStore store(file_, ALL, false);
+        EXPECT_EQ(std::get<double>(stored.experiments[0].at("totaltime")), 0.5);
+        RunStore store(file_);
+        store.select({"1", "2"}, 10);
         EXPECT_TRUE(store.has("garage", "b", 1));
         EXPECT_FALSE(store.has("garage", "b", 0));
-        EXPECT_EQ(store.setAside(), "");
-        // Of a run that took 0.25 s: at regular times, and at each improvement.
+        // Of a run that took 0.25 s: at regular times, which the improvements happen to be.
         EXPECT_EQ(std::get<std::int64_t>(store.database().ask("SELECT COUNT(*) FROM progress WHERE runid = 1")), 5);
     }
 
@@ -134,56 +120,57 @@ namespace
                             {"RUN", 9.0},
                             {"\xff", 5.0}});
         add({odd});
-        const RunRecord back = recordsFor(ALL).at(0);
+        const RunRecord back = RunStore::read(file_).records.at(0);
         EXPECT_EQ(back.number("a\"b select"), 1.0);
         EXPECT_TRUE(back.is("order"));
         EXPECT_EQ(back.number("'; DROP TABLE runs; --"), 2.0);
         EXPECT_EQ(back.number("?"), 5.0);
     }
 
-    TEST_F(RunStoreTest, WhatIsNotOfUseComesBack)
+    TEST_F(RunStoreTest, ShowsWhatIsSelectedAndKeepsAllElse)
     {
-        add({recordOf("a", 0, "1"), recordOf("b", 0, "2")});
-        const std::vector<std::string> before = texts(recordsFor(ALL));
+        add({recordOf("a", 0, "1"), recordOf("a", 1, "1"), recordOf("b", 0, "2")});
+        const std::vector<std::string> all = texts(RunStore::read(file_).records);
+        EXPECT_EQ(recordsFor({"1"}).size(), 2U);
+        EXPECT_EQ(recordsFor({"1", "2"}, 1).size(), 2U);
         {
-            RunStore store(file_, withFingerprints({"1", "3"}), false);
+            RunStore store(file_);
+            store.select({"1", "3"}, 10);
             EXPECT_TRUE(store.has("garage", "a", 0));
             EXPECT_FALSE(store.has("garage", "b", 0));
             store.add(recordOf("b", 0, "3"));
+            EXPECT_EQ(std::get<std::int64_t>(store.database().ask("SELECT COUNT(*) FROM plannerConfigs")), 2);
         }
-        EXPECT_EQ(recordsFor(withFingerprints({"1", "3"})).size(), 2U);
-        EXPECT_EQ(texts(recordsFor(withFingerprints({"1", "2"}))), before);
-        EXPECT_EQ(recordsFor(withFingerprints({"3"})).size(), 1U);  // though only a superseded one is of use
-        EXPECT_EQ(texts(recordsFor(withFingerprints({"1", "2"}))), before);
+        EXPECT_EQ(recordsFor({"1", "3"}).size(), 3U);
+        EXPECT_EQ(texts(recordsFor({"1", "2"})), all);
+        EXPECT_TRUE(recordsFor({"4"}).empty());
+        EXPECT_TRUE(RunStore::read(file_).experiments.empty());
+        RunStore(file_).forget();
+        EXPECT_TRUE(recordsFor({"1", "2", "3"}).empty());
+        EXPECT_EQ(std::get<std::int64_t>(RunStore(file_).database().ask("SELECT COUNT(*) FROM all_runs")), 4);
     }
 
-    TEST_F(RunStoreTest, WhatIsOfNoUseIsSetAside)
+    TEST_F(RunStoreTest, MachineAndDateAreThoseOfTheBeginning)
     {
-        for (int number = 1; number < 4; ++number)
+        add({recordOf("a", 0)});
+        RunStore store(file_);
+        const auto hostAndLimit = [&store]
         {
-            const std::string print = std::to_string(number);
-            RunStore store(file_, withFingerprints({print}), false);
-            EXPECT_TRUE(store.records().empty());
-            store.add(recordOf("a", 0, print));
-        }
-        EXPECT_EQ(RunStore(file_, ALL, true).setAside(), folder_.path("previous-benchmark-3.db"));
-        for (int number = 1; number < 4; ++number)
-        {
-            const std::string suffix = number > 1 ? "-" + std::to_string(number) : "";
-            const StoredRuns stored = RunStore::read(folder_.path("previous-benchmark" + suffix + ".db"));
-            EXPECT_EQ(stored.records.at(0).fingerprint, std::to_string(number));
-        }
-        EXPECT_EQ(RunStore(file_, ALL, true).setAside(), "");  // nothing is worth keeping
+            Row row = experimentOf("2027-01-01", "there");
+            row["timelimit"] = 3.0;
+            store.describe({row});
+            return std::get<std::string>(store.database().ask("SELECT hostname || timelimit FROM all_experiments"));
+        };
+        EXPECT_EQ(hostAndLimit(), "here3.0");
+        store.select({"4"}, 10);  // of which there is nothing yet
+        EXPECT_EQ(hostAndLimit(), "there3.0");
     }
 
     TEST_F(RunStoreTest, OneProcessWritesAndOthersRead)
     {
         add({recordOf("a", 0)});
-        RunStore first(file_, ALL, false);
-        for (const bool fresh : {false, true})
-            for (const char *print : {"1", "9"})
-                expectError([&] { RunStore(file_, withFingerprints({print}), fresh); },
-                            {"benchmark.db", "another parking_benchmark"});
+        RunStore first(file_);
+        expectError([this] { RunStore second(file_); }, {"benchmark.db", "another parking_benchmark"});
         first.add(recordOf("a", 1));
         EXPECT_EQ(RunStore::read(file_).records.size(), 2U);
     }
@@ -192,49 +179,58 @@ namespace
     {
         const auto refuse = [this](const std::string &content, const std::string &part)
         {
+            SCOPED_TRACE(part);
             folder_.write("benchmark.db", content);
-            expectError([this] { RunStore(file_, ALL, false); }, {"benchmark.db", part, "--fresh"});
+            expectError(
+                [this]
+                {
+                    RunStore store(file_);
+                    store.select({"1"}, 10);
+                    store.read();
+                },
+                {"benchmark.db", part});
             expectError([this] { RunStore::read(file_); }, {"benchmark.db", part});
-            EXPECT_EQ(contentOf(file_), content);
-            EXPECT_EQ(contentOf(RunStore(file_, ALL, true).setAside()), content);
         };
         add({recordOf("a", 0)});
         const std::string whole = contentOf(file_);
         refuse(std::string(1000, 'x'), "not a database");
-        refuse(whole.substr(0, 3 * 4096), "malformed");
-        Database(folder_.path("other.db"), Database::Access::Write).runAll("CREATE TABLE runs (id INTEGER)");
+        refuse(whole.substr(0, 5 * 4096), "malformed");
+        Database(folder_.path("other.db"), Database::Access::Write).run("CREATE TABLE runs (id INTEGER)");
         refuse(contentOf(folder_.path("other.db")), "no database of runs");
-        for (const char *damage : {"UPDATE details SET path = '{\"start\": 3}'", "UPDATE runs SET cusps = 'many'",
-                                   "UPDATE runs SET outcome = 11", "UPDATE runs SET cusps = 1.5"})
+        for (const char *damage : {"UPDATE details SET path = '{\"start\": 3}'", "UPDATE all_runs SET cusps = 'many'",
+                                   "UPDATE all_runs SET outcome = 11", "UPDATE all_runs SET cusps = 1.5"})
         {
             folder_.write("benchmark.db", whole);
-            Database(file_, Database::Access::Write).runAll(damage);
-            refuse(contentOf(file_), "run 1 of the table runs");
+            Database(file_, Database::Access::Write).run(damage);
+            refuse(contentOf(file_), "run 1 of the table all_runs");
         }
         expectError([this] { RunStore::read(folder_.path("missing")); }, {"missing"});
-        expectError([this] { RunStore(folder_.path("no/where"), ALL, false); }, {"cannot be written"});
+        expectError([this] { RunStore store(folder_.path("no/where")); }, {"cannot be written"});
     }
 
     TEST_F(RunStoreTest, PartsAreMerged)
     {
-        RunStore store(file_, ALL, false);
-        const StoredRuns late{{experimentOf("2026-01-03", "there")}, {recordOf("a", 0), recordOf("b", 0, "2")}},
-            early{{experimentOf("2026-01-02", "here")}, {recordOf("a", 1)}};
+        RunStore store(file_);
+        store.select({"1"}, 10);
+        const StoredRuns late{{experimentOf("2026-01-03", "there")}, {recordOf("a", 0, "1+x"), recordOf("b", 0, "2")}},
+            early{{experimentOf("2026-01-02", "here")}, {recordOf("a", 1, "1+y")}};
         for (int times = 0; times < 2; ++times)
             for (const StoredRuns &part : {late, early})
-                store.merge(part, withFingerprints({"1"}));
-        store.setExperiments({{{"name", "garage"}, {"timelimit", 3.0}}});
-        ASSERT_EQ(store.records().size(), 2U);
-        EXPECT_EQ(store.records()[1].run(), 1U);
-        const auto &database = store.database();
+                store.merge(part);
+        store.describe({{{"name", "garage"}, {"timelimit", 3.0}}});
+        ASSERT_EQ(store.read().records.size(), 2U);
+        EXPECT_EQ(store.read().records[1].run(), 1U);
+        const Database &database = store.database();
+        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 2);
         EXPECT_EQ(std::get<std::string>(database.ask("SELECT hostname FROM experiments")), "here+there");
         EXPECT_EQ(std::get<std::string>(database.ask("SELECT date FROM experiments")), "2026-01-02");
         EXPECT_EQ(std::get<double>(database.ask("SELECT totaltime FROM experiments")), 0.5);
-        // The same run measured again takes the place of the first.
-        RunRecord again = recordOf("a", 0);
+        // The same run measured again takes the place of the first, which is kept.
+        RunRecord again = recordOf("a", 0, "1+x");
         again.set("time", 0.5);
-        store.merge({{}, {again}}, ALL);
-        EXPECT_EQ(store.records()[0].number("time"), 0.5);
-        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM superseded")), 1);
+        store.merge({{}, {again}});
+        ASSERT_EQ(store.read().records.size(), 2U);
+        EXPECT_EQ(store.read().records[0].number("time"), 0.5);
+        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 3);
     }
 }  // namespace

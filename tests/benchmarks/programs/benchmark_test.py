@@ -275,16 +275,15 @@ class GoingOn(BenchmarkTest):
         self.assertEqual(self.records('out/benchmark.db', clock=True), before)
         self.assertTrue(os.path.exists(self.path('out/angled45.log')))
 
-    def test_what_is_different_is_set_aside(self):
+    def test_what_is_different_is_kept_and_comes_back(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        for extra, aside in ((['--runs', 1, '--seed', 9], 'previous-benchmark.db'),
-                             (['--runs', 2, '--fresh', '--seed', 9], 'previous-benchmark-2.db'),
-                             (['--runs', 1], 'previous-benchmark-3.db')):
-            with self.subTest(extra):
-                old = self.records('out/benchmark.db', clock=True)
-                done = self.benchmark('set.cfg', '--output', 'out', *extra)
-                self.assertIn('out/' + aside, done.stderr)
-                self.assertEqual(self.records('out/' + aside, clock=True), old)
+        first = self.records('out/benchmark.db', clock=True)
+        for arguments, isThere in ((['--seed', 9], False), ([], True), (['--seed', 9], True), (['--fresh'], False)):
+            with self.subTest(arguments):
+                done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1, *arguments)
+                self.assertEqual('All 8 runs are already finished' in done.stderr, isThere)
+                self.assertEqual(self.records('out/benchmark.db', clock=True) == first, arguments == [])
+        self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(3 * RUNS // 2,)])
 
     def test_two_at_a_time_are_refused(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')

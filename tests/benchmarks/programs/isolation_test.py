@@ -117,7 +117,6 @@ class Outcomes(IsolationTest):
         if kept > 0:
             self.assertIn('Going on: %d of 4' % kept, done.stderr)
         self.assert_others_finished(self.outcomes())
-        self.assertFalse([name for name in os.listdir(self.path('out')) if name.startswith('previous')])
 
     def test_settings_are_refused_as_ever(self):
         self.write('set.cfg', CONFIG.format(time=5, planners='fine=\nfine.speed=3\n'))

@@ -53,9 +53,6 @@ class JournalTest(ProgramTest):
         for run in kept:
             self.assertIn(run, now, 'a run that was there is gone')
 
-    def set_aside(self):
-        return sorted(name for name in os.listdir(self.path('out')) if name.startswith('previous'))
-
     def results(self):
         """Everything but the database."""
         return sorted(name for name in os.listdir(self.path('out')) if name != 'benchmark.db')
@@ -99,7 +96,7 @@ class Killed(JournalTest):
                     self.assertEqual(process.returncode, -signal.SIGKILL, errors)
                     killed['writing' if len(kept) == 2 * runs else 'planning'] += 1
             self.assertEqual(self.records('out/benchmark.db'), wanted)
-            self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM superseded'), [(0,)])
+            self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(2 * runs,)])
             self.assertEqual(self.results(),
                              sorted(['angled45.log', 'pictures', 'summary.csv', 'summary.md'] +
                                     reported * ['pairs.csv', 'report.html', 'standings.csv', 'statistics.json']))
@@ -145,7 +142,6 @@ class FullDisk(JournalTest):
                 kept = self.kept()
                 self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 2)
                 self.assert_all_there(kept, self.kept())
-                self.assertEqual(self.set_aside(), [])
                 wanted = wanted or self.records('out/benchmark.db')
                 self.assertEqual(self.records('out/benchmark.db'), wanted)
             failures += 1
@@ -153,7 +149,7 @@ class FullDisk(JournalTest):
         print('%d of %d writes failed' % (failures, room))
         self.assertGreater(failures, 10)
 
-    def test_full_while_something_is_set_aside_or_replaced(self):
+    def test_full_while_something_is_replaced(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
         old, lines = self.kept(), self.content('out/summary.md').count(b'\n')
         for room in range(0, 60, 5):
@@ -161,13 +157,11 @@ class FullDisk(JournalTest):
                 done, _ = self.start(room, '--runs', 1, '--seed', 4)
                 self.assertIn(done.returncode, (1, 2), done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-                databases = ['out/' + name for name in self.set_aside() + ['benchmark.db']]
-                self.assertIn(old, [self.kept(name) for name in databases])
-                self.assertLessEqual(len(databases), 2)
                 # Old or new, but whole.
                 self.assertEqual(self.content('out/summary.md').count(b'\n'), lines)
-                for name in databases:
-                    self.assertEqual(self.query(name, 'PRAGMA integrity_check'), [('ok',)])
+                self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
+                self.assertEqual(self.kept(), old)
+                self.assertEqual(self.query('out/benchmark.db', 'PRAGMA integrity_check'), [('ok',)])
 
 
 class TwoAtATime(JournalTest):
@@ -184,8 +178,7 @@ class TwoAtATime(JournalTest):
                 other = self.run_program(BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--runs', 60, *arguments)
                 if process.poll() is None:
                     self.assert_refused(other, 'out/benchmark.db', 'another parking_benchmark')
-                    self.assertEqual(self.set_aside(), [])
-                    refused += 1
+                        refused += 1
                 else:
                     break
             else:
@@ -195,8 +188,8 @@ class TwoAtATime(JournalTest):
         self.assertEqual(process.returncode, 0, errors)
         self.assertGreater(refused, 0)
         # Whoever came when it was over may have begun anew.
-        kept = 'out/previous-benchmark.db' if self.set_aside() else 'out/benchmark.db'
-        self.assertEqual(self.records(kept), self.records('whole/benchmark.db'))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 60)
+        self.assertEqual(self.records('out/benchmark.db'), self.records('whole/benchmark.db'))
 
 
 class Changes(JournalTest):
@@ -204,7 +197,6 @@ class Changes(JournalTest):
         """Runs a comparison of 3 runs each; how many of them were finished already."""
         self.write('set.cfg', config)
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', 3, *arguments)
-        self.assertEqual(self.set_aside(), [])
         found = re.search(r'(\d+)( of \d+)? runs are already finished', done.stderr)
         return int(found.group(1)) if found else 0
 
@@ -223,24 +215,20 @@ class Changes(JournalTest):
         self.assertEqual(self.records('out/benchmark.db', clock=True), first)
         self.assertEqual(len(self.query('out/benchmark.db', 'SELECT * FROM plannerConfigs')), 2)
 
-    def test_what_cannot_be_read_is_named_and_set_aside_on_request(self):
+    def test_what_cannot_be_read_is_named(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 3)
         good = self.content()
         with closing(sqlite3.connect(self.write('out/other.db', ''))) as database:
             database.execute('CREATE TABLE runs (id INTEGER)')
             database.commit()
-        for number, (content, part) in enumerate((
-                (b'junk' * 1000, 'not a database'), (self.content('out/other.db'), 'no database of runs'),
-                (good[:4096] + b'\xff' * (len(good) - 4096), 'malformed'))):
-            with self.subTest(part):
-                self.write('out/benchmark.db', content)
-                for arguments in ([], ['--merge']):
-                    self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=['out/benchmark.db: ', part])
-                done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--fresh')
-                aside = 'out/previous-benchmark%s.db' % (f'-{number + 1}' if number else '')
-                self.assertIn(aside, done.stderr)
-                self.assertEqual(self.content(aside), content)
-                self.assertEqual(len(self.kept()), 2)
+        for content, part in ((b'junk' * 1000, 'not a database'), (self.content('out/other.db'), 'no database of runs'),
+                              (good[:4096] + b'\xff' * (len(good) - 4096), 'malformed')):
+            self.write('out/benchmark.db', content)
+            for arguments in ([], ['--merge'], ['--fresh']):
+                with self.subTest(part, arguments=arguments):
+                    self.refused_benchmark('set.cfg', '--output', 'out', *arguments,
+                                           parts=['out/benchmark.db: ', part, 'move it away, or name another'])
+                    self.assertEqual(self.content(), content)
 
     def test_results_of_earlier_versions(self):
         self.write('out/runs.jsonl', '{"parking_benchmark": 2}\n')
