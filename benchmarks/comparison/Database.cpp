@@ -187,24 +187,6 @@ namespace parking
         return sqlite3_column_double(statement_, column);
     }
 
-    Database::Transaction::Transaction(Database &database) : database_(database)
-    {
-        database_.run("BEGIN IMMEDIATE");
-    }
-
-    Database::Transaction::~Transaction()
-    {
-        // What cannot be taken back now is taken back by whoever opens the file next.
-        if (open_)
-            sqlite3_exec(database_.handle_, "ROLLBACK", nullptr, nullptr, nullptr);
-    }
-
-    void Database::Transaction::commit()
-    {
-        database_.run("COMMIT");
-        open_ = false;
-    }
-
     std::string quotedName(const std::string &name)
     {
         std::string result = "\"";

@@ -15,7 +15,9 @@ namespace parking
 
     /** \brief An open file of SQLite, which one process at a time writes and others may read.
 
-        All errors are parking::Error with the file's name and SQLite's own words. */
+        Changes between BEGIN and COMMIT are made together, and are on the disk afterwards; what was not committed when
+        the database is closed, or its process ends, is taken back. All errors are parking::Error with the file's name
+       and SQLite's own words. */
     class Database
     {
     public:
@@ -26,6 +28,7 @@ namespace parking
             Write  ///< a missing file becomes a database; refused while another process writes it
         };
 
+        /** \brief Throws parking::Error also when the file is missing, to be read, or written by another process. */
         Database(const std::string &file, Access access);
         ~Database();
         Database(const Database &) = delete;
@@ -68,23 +71,6 @@ namespace parking
         private:
             const Database &database_;
             sqlite3_stmt *statement_{nullptr};
-        };
-
-        /** \brief All changes during its life are made together by commit(), or not at all. */
-        class Transaction
-        {
-        public:
-            explicit Transaction(Database &database);
-            ~Transaction();
-            Transaction(const Transaction &) = delete;
-            Transaction &operator=(const Transaction &) = delete;
-
-            /** \brief On return the changes are on the disk. */
-            void commit();
-
-        private:
-            Database &database_;
-            bool open_{true};
         };
 
         /** \brief Runs statements without values. */

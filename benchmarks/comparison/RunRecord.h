@@ -48,12 +48,14 @@ namespace parking
             or its type cannot hold the value. */
         void setFigure(const std::string &column, const FigureValue &value);
 
-        /** \brief The same for a value of any type; an empty optional sets nothing. */
+        /** \brief The same for a value of any type. */
         template <class Value>
         void set(const std::string &column, const Value &value)
         {
             setFigure(column, figureOf(value));
         }
+
+        /** \brief The same for a value that may be missing; then nothing is set. */
         template <class Value>
         void set(const std::string &column, const std::optional<Value> &value)
         {

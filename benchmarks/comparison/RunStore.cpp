@@ -251,7 +251,7 @@ namespace parking
             requireFormat(database_);
             return;
         }
-        Database::Transaction transaction(database_);
+        database_.run("BEGIN IMMEDIATE");
         database_.run(TABLES);
         const auto addNames = [this](const char *type, std::size_t count, const auto &nameOf)
         {
@@ -263,7 +263,7 @@ namespace parking
                  [](std::size_t i) { return Status(static_cast<Status::StatusType>(i)).asString(); });
         addNames("outcome", PLAN_STATUSES, [](std::size_t i) { return toString(static_cast<PlanStatus>(i)); });
         database_.run("PRAGMA user_version = " + std::to_string(FORMAT));
-        transaction.commit();
+        database_.run("COMMIT");
     }
 
     void RunStore::forget()
@@ -275,14 +275,14 @@ namespace parking
     {
         selected_ = {fingerprints.begin(), fingerprints.end()};
         count_ = static_cast<std::int64_t>(count);
-        Database::Transaction transaction(database_);
+        database_.run("BEGIN IMMEDIATE");
         database_.run("DELETE FROM selection");
         for (const std::string &fingerprint : fingerprints)
             insert("selection", {{"fingerprint", fingerprint}, {"count", count_}});
         Database::Statement others(database_, "SELECT DISTINCT fingerprint FROM details");
         while (others.step())
             selectIfBegun(others.text(0));
-        transaction.commit();
+        database_.run("COMMIT");
         known_.clear();
         Database::Statement runs(database_,
                                  "SELECT e.name, p.name, runs.run FROM runs JOIN all_experiments e ON "
@@ -305,7 +305,7 @@ namespace parking
     {
         // What the configuration says; all else is of the beginning.
         const std::set<std::string> configured{"timelimit", "memorylimit", "runcount", "seed"};
-        Database::Transaction transaction(database_);
+        database_.run("BEGIN IMMEDIATE");
         for (const Row &row : experiments)
         {
             const SqlValue &name = row.at("name");
@@ -318,7 +318,7 @@ namespace parking
         database_.run(
             "UPDATE all_experiments SET totaltime = "
             "(SELECT TOTAL(time) FROM runs WHERE experimentid = all_experiments.id)");
-        transaction.commit();
+        database_.run("COMMIT");
     }
 
     void RunStore::setColumn(const std::string &table, std::int64_t id, const std::string &column,
@@ -340,9 +340,9 @@ namespace parking
 
     void RunStore::add(const RunRecord &record)
     {
-        Database::Transaction transaction(database_);
+        database_.run("BEGIN IMMEDIATE");
         insert(record);
-        transaction.commit();
+        database_.run("COMMIT");
     }
 
     void RunStore::grow(const std::string &table, const std::string &column, const std::string &type)
@@ -424,7 +424,7 @@ namespace parking
         std::map<Key, RunRecord> there;
         for (RunRecord &record : readRuns(database_))
             there.emplace(keyOf(record), std::move(record));
-        Database::Transaction transaction(database_);
+        database_.run("BEGIN IMMEDIATE");
         for (const RunRecord &record : part.records)
         {
             const auto same = there.find(keyOf(record));
@@ -440,7 +440,7 @@ namespace parking
         }
         for (const Row &row : part.experiments)
             mergeExperiment(row);
-        transaction.commit();
+        database_.run("COMMIT");
     }
 
     void RunStore::mergeExperiment(Row row)

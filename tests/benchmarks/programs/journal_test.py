@@ -178,7 +178,7 @@ class TwoAtATime(JournalTest):
                 other = self.run_program(BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--runs', 60, *arguments)
                 if process.poll() is None:
                     self.assert_refused(other, 'out/benchmark.db', 'another parking_benchmark')
-                        refused += 1
+                    refused += 1
                 else:
                     break
             else:
