@@ -39,8 +39,7 @@ namespace parking
 
         /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
             configuration count, also when other planners have changed since. Makes the output folder, once all settings
-            are found to be right. From then on until the end no other process can write the database; one of a
-            different comparison is set aside.
+            are found to be right. From then on until the end no other process can write the database.
 
             \param stop once true, ends before the next run
             \return whether all are done. Throws parking::Error. */
