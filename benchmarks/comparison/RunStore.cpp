@@ -169,31 +169,21 @@ namespace parking
                             "read; move it away, or name another --output");
         }
 
-        std::map<std::int64_t, std::vector<Improvement>> readProgress(const Database &database)
+        /** \param condition what follows WHERE, with values for its `?` */
+        std::vector<RunRecord> readRuns(const Database &database, const std::string &condition,
+                                        const std::vector<SqlValue> &values)
         {
-            std::map<std::int64_t, std::vector<Improvement>> progress;
-            Database::Statement steps(
-                database,
-                "SELECT runid, time, best_cost FROM progress WHERE best_cost IS NOT NULL ORDER BY runid, time");
-            while (steps.step())
-            {
-                std::vector<Improvement> &own = progress[steps.number(0)];
-                const double cost = steps.real(2);
-                if (own.empty() || cost < own.back().cost)
-                    own.push_back({steps.real(1), cost});
-            }
-            return progress;
-        }
-
-        std::vector<RunRecord> readRuns(const Database &database)
-        {
-            std::map<std::int64_t, std::vector<Improvement>> progress = readProgress(database);
             std::vector<RunRecord> runs;
+            Database::Statement steps(database,
+                                      "SELECT time, best_cost FROM progress WHERE runid = ? AND best_cost IS "
+                                      "NOT NULL ORDER BY time");
             Database::Statement rows(
                 database,
                 "SELECT runs.id, e.name, p.name, p.settings, details.fingerprint, details.reason, details.path, runs.* "
                 "FROM runs JOIN all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
-                "JOIN details ON details.runid = runs.id ORDER BY e.name, p.name, runs.run");
+                "JOIN details ON details.runid = runs.id WHERE " +
+                    condition + " ORDER BY e.name, p.name, runs.run",
+                values);
             const std::vector<std::string> names = rows.names();
             const int first = 10, end = static_cast<int>(names.size());  // behind those and the three ids
             while (rows.step())
@@ -204,7 +194,11 @@ namespace parking
                 record.parameters = parametersFrom(rows.text(3));
                 record.fingerprint = rows.text(4);
                 record.reason = rows.text(5);
-                record.progress = std::move(progress[rows.number(0)]);
+                steps.bind({rows.number(0)});
+                while (steps.step())
+                    if (const double cost = steps.real(1);
+                        record.progress.empty() || cost < record.progress.back().cost)
+                        record.progress.push_back({steps.real(0), cost});
                 try
                 {
                     for (int i = first; i < end; ++i)
@@ -224,18 +218,6 @@ namespace parking
                 }
             }
             return runs;
-        }
-
-        StoredRuns readAll(const Database &database)
-        {
-            requireFormat(database);
-            StoredRuns stored{{}, readRuns(database)};
-            Database::Statement rows(database, "SELECT * FROM experiments");
-            const std::vector<std::string> names = rows.names();
-            while (rows.step())
-                for (Row &row = stored.experiments.emplace_back(); row.size() < names.size();)
-                    row.emplace(names[row.size()], rows.value(static_cast<int>(row.size())));
-            return stored;
         }
 
         std::string beginningOf(const std::string &fingerprint)
@@ -422,7 +404,7 @@ namespace parking
     void RunStore::merge(const StoredRuns &part)
     {
         std::map<Key, RunRecord> there;
-        for (RunRecord &record : readRuns(database_))
+        for (RunRecord &record : readRuns(database_, "1", {}))
             there.emplace(keyOf(record), std::move(record));
         database_.run("BEGIN IMMEDIATE");
         for (const RunRecord &record : part.records)
@@ -468,13 +450,22 @@ namespace parking
             setColumn("all_experiments", id, column, value);
     }
 
-    StoredRuns RunStore::read() const
+    std::vector<RunRecord> RunStore::read(const std::string &experiment) const
     {
-        return readAll(database_);
+        return readRuns(database_, "e.name = ?", {experiment});
     }
 
-    StoredRuns RunStore::read(const std::string &file)
+    StoredRuns RunStore::readFile(const std::string &file)
     {
-        return readAll(Database(file, Database::Access::Read));
+        const Database database(file, Database::Access::Read);
+        requireFormat(database);
+        StoredRuns stored{{}, readRuns(database, "1", {})};
+        Database::Statement rows(database, "SELECT * FROM experiments");
+        const std::vector<std::string> names = rows.names();
+        while (rows.step())
+            for (std::size_t i = 0; i < names.size(); ++i)
+                (i == 0 ? stored.experiments.emplace_back() : stored.experiments.back())[names[i]] =
+                    rows.value(static_cast<int>(i));
+        return stored;
     }
 }  // namespace parking

@@ -63,12 +63,12 @@ namespace parking
             experiment is that of the part that began first, with the names of all. */
         void merge(const StoredRuns &part);
 
-        /** \brief All that is shown. */
-        StoredRuns read() const;
+        /** \brief The runs of an experiment that are shown. */
+        std::vector<RunRecord> read(const std::string &experiment) const;
 
-        /** \brief The same of a database that another process may have open. Throws parking::Error naming the file when
-            it is missing or something else. */
-        static StoredRuns read(const std::string &file);
+        /** \brief All that a database shows, which another process may have open. Throws parking::Error naming the file
+            when it is missing or something else. */
+        static StoredRuns readFile(const std::string &file);
 
         /** \brief The open database, for queries. */
         const Database &database() const

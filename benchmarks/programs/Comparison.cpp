@@ -23,9 +23,9 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 #include <system_error>
 
 #include <fnmatch.h>
@@ -334,9 +334,9 @@ namespace parking
         };
         std::vector<StoredRuns> all;
         for (const std::string &file : files)
-            require(file, all.emplace_back(RunStore::read(file)).records);
+            require(file, all.emplace_back(RunStore::readFile(file)).records);
         if (files.empty())
-            require(database(), RunStore::read(database()).records);
+            require(database(), RunStore::readFile(database()).records);
         makeFolder(folder_);  // now that there is something to put into it
         store_ = std::make_unique<RunStore>(database());
         select(prints);
@@ -351,10 +351,7 @@ namespace parking
         const fs::path folder(folder_);
         std::map<std::string, std::vector<const RunRecord *>> runs;  // by planner
         for (const RunRecord &record : records)
-            if (record.experiment == experiment.name)
-                runs[record.planner].push_back(&record);
-        if (runs.empty())
-            return;
+            runs[record.planner].push_back(&record);
         const std::string log = (folder / (experiment.name + ".log")).string();
         writeFileAtomically(log, omplLog(store_->database(), experiment.name));
         files.logs.push_back(log);
@@ -386,24 +383,32 @@ namespace parking
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");
-        const std::vector<RunRecord> records = store_->read().records;
         ComparisonFiles files;
         files.database = database();
         const fs::path folder(folder_);
-        const auto summaryRows = summarize(config_, experiments_, records);
-        const std::string failures = failuresText(records);
-        summary_ = summaryText(summaryRows) + failures;
-        std::size_t expected = 0;
         removeRemains(folder);
         makeFolder((folder / "pictures").string());
         if (config_.savePaths != SavePaths::None)
             makeFolder((folder / "paths").string());
+        std::vector<SummaryRow> summaryRows;
+        std::vector<RunRecord> failed;
         for (const Experiment &experiment : experiments_)
         {
-            expected += experiment.planners.size() * config_.runCount;
+            // One after the other, as there may be very many runs.
+            const std::vector<RunRecord> records = store_->read(experiment.name);
+            const std::size_t expected = experiment.planners.size() * config_.runCount;
+            files.missing += expected - std::min(expected, records.size());
+            if (records.empty())
+                continue;
+            for (SummaryRow &row : summarize(config_, {experiment}, records))
+                summaryRows.push_back(std::move(row));
+            std::copy_if(records.begin(), records.end(), std::back_inserter(failed),
+                         [](const RunRecord &record)
+                         { return isFailure(record.outcome().value_or(PlanStatus::Timeout)); });
             writeExperiment(experiment, records, files);
         }
-        files.missing = expected - std::min(expected, records.size());
+        const std::string failures = failuresText(failed);
+        summary_ = summaryText(summaryRows) + failures;
         files.table = (folder / "summary.md").string();
         writeFileAtomically(files.table, summaryMarkdown(summaryRows) + failures);
         files.csv = (folder / "summary.csv").string();

@@ -67,7 +67,7 @@ namespace
         {
             RunStore store(file_);
             store.select(fingerprints, count);
-            return store.read().records;
+            return store.read("garage");
         }
 
         void add(const std::vector<RunRecord> &records)
@@ -93,7 +93,7 @@ namespace
         bare.set("seed", 1);
         const std::vector<RunRecord> records{recordOf("a", 0), recordOf("a", 1), bare};
         add(records);
-        const StoredRuns stored = RunStore::read(file_);
+        const StoredRuns stored = RunStore::readFile(file_);
         EXPECT_EQ(texts(stored.records), texts(records));
         ASSERT_EQ(stored.experiments.size(), 1U);
         EXPECT_EQ(std::get<std::string>(stored.experiments[0].at("hostname")), "here");
@@ -120,7 +120,7 @@ namespace
                             {"RUN", 9.0},
                             {"\xff", 5.0}});
         add({odd});
-        const RunRecord back = RunStore::read(file_).records.at(0);
+        const RunRecord back = RunStore::readFile(file_).records.at(0);
         EXPECT_EQ(back.number("a\"b select"), 1.0);
         EXPECT_TRUE(back.is("order"));
         EXPECT_EQ(back.number("'; DROP TABLE runs; --"), 2.0);
@@ -130,7 +130,7 @@ namespace
     TEST_F(RunStoreTest, ShowsWhatIsSelectedAndKeepsAllElse)
     {
         add({recordOf("a", 0, "1"), recordOf("a", 1, "1"), recordOf("b", 0, "2")});
-        const std::vector<std::string> all = texts(RunStore::read(file_).records);
+        const std::vector<std::string> all = texts(RunStore::readFile(file_).records);
         EXPECT_EQ(recordsFor({"1"}).size(), 2U);
         EXPECT_EQ(recordsFor({"1", "2"}, 1).size(), 2U);
         {
@@ -144,7 +144,7 @@ namespace
         EXPECT_EQ(recordsFor({"1", "3"}).size(), 3U);
         EXPECT_EQ(texts(recordsFor({"1", "2"})), all);
         EXPECT_TRUE(recordsFor({"4"}).empty());
-        EXPECT_TRUE(RunStore::read(file_).experiments.empty());
+        EXPECT_TRUE(RunStore::readFile(file_).experiments.empty());
         RunStore(file_).forget();
         EXPECT_TRUE(recordsFor({"1", "2", "3"}).empty());
         EXPECT_EQ(std::get<std::int64_t>(RunStore(file_).database().ask("SELECT COUNT(*) FROM all_runs")), 4);
@@ -172,7 +172,7 @@ namespace
         RunStore first(file_);
         expectError([this] { RunStore second(file_); }, {"benchmark.db", "another parking_benchmark"});
         first.add(recordOf("a", 1));
-        EXPECT_EQ(RunStore::read(file_).records.size(), 2U);
+        EXPECT_EQ(RunStore::readFile(file_).records.size(), 2U);
     }
 
     TEST_F(RunStoreTest, WhatIsSomethingElseIsRefused)
@@ -186,10 +186,10 @@ namespace
                 {
                     RunStore store(file_);
                     store.select({"1"}, 10);
-                    store.read();
+                    store.read("garage");
                 },
                 {"benchmark.db", part});
-            expectError([this] { RunStore::read(file_); }, {"benchmark.db", part});
+            expectError([this] { RunStore::readFile(file_); }, {"benchmark.db", part});
         };
         add({recordOf("a", 0)});
         const std::string whole = contentOf(file_);
@@ -204,7 +204,7 @@ namespace
             Database(file_, Database::Access::Write).run(damage);
             refuse(contentOf(file_), "run 1 of the table all_runs");
         }
-        expectError([this] { RunStore::read(folder_.path("missing")); }, {"missing"});
+        expectError([this] { RunStore::readFile(folder_.path("missing")); }, {"missing"});
         expectError([this] { RunStore store(folder_.path("no/where")); }, {"cannot be written"});
     }
 
@@ -218,8 +218,8 @@ namespace
             for (const StoredRuns &part : {late, early})
                 store.merge(part);
         store.describe({{{"name", "garage"}, {"timelimit", 3.0}}});
-        ASSERT_EQ(store.read().records.size(), 2U);
-        EXPECT_EQ(store.read().records[1].run(), 1U);
+        ASSERT_EQ(store.read("garage").size(), 2U);
+        EXPECT_EQ(store.read("garage")[1].run(), 1U);
         const Database &database = store.database();
         EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 2);
         EXPECT_EQ(std::get<std::string>(database.ask("SELECT hostname FROM experiments")), "here+there");
@@ -229,8 +229,8 @@ namespace
         RunRecord again = recordOf("a", 0, "1+x");
         again.set("time", 0.5);
         store.merge({{}, {again}});
-        ASSERT_EQ(store.read().records.size(), 2U);
-        EXPECT_EQ(store.read().records[0].number("time"), 0.5);
+        ASSERT_EQ(store.read("garage").size(), 2U);
+        EXPECT_EQ(store.read("garage")[0].number("time"), 0.5);
         EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 3);
     }
 }  // namespace
