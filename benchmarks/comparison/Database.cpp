@@ -75,8 +75,12 @@ namespace parking
 
     void Database::fail() const
     {
-        const int cause = sqlite3_system_errno(handle_), code = sqlite3_errcode(handle_);
-        throw Error(file_ + ": SQLite: " + oneLine(sqlite3_errmsg(handle_)) +
+        const int code = sqlite3_errcode(handle_);
+        const std::string text = sqlite3_errmsg(handle_);
+        int cause = sqlite3_system_errno(handle_);
+        if (cause == 0 && code == SQLITE_IOERR)  // a file knows what happened to it (quota, limit of its size)
+            sqlite3_file_control(handle_, "main", SQLITE_FCNTL_LAST_ERRNO, &cause);
+        throw Error(file_ + ": SQLite: " + oneLine(text) +
                     (cause != 0 ? std::string(" (") + std::strerror(cause) + ")" : "") +
                     (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ? "; move it away, or name another file" : ""));
     }

@@ -240,7 +240,7 @@ class Output(InputTest):
         self.assertEqual([run for run in everything if run in kept], kept)
         # No room for results: the runs stay, and no file is half written.
         os.remove(self.path('out/angled45.log'))
-        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=lambda: limit(1024), parts=['out/angled45.log'])
+        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=lambda: limit(1024), parts=['out/'])
         self.assertEqual(sorted(os.listdir(self.path('out'))), ['benchmark.db', 'pictures', 'summary.csv', 'summary.md'])
         self.assertEqual(self.records('out/benchmark.db', clock=True), everything)
 
