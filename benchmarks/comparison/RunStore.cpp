@@ -258,12 +258,14 @@ namespace parking
         selected_ = {fingerprints.begin(), fingerprints.end()};
         count_ = static_cast<std::int64_t>(count);
         database_.run("BEGIN IMMEDIATE");
+        std::vector<std::string> last;
+        for (Database::Statement shown(database_, "SELECT fingerprint FROM selection"); shown.step();)
+            last.push_back(shown.text(0));
         database_.run("DELETE FROM selection");
         for (const std::string &fingerprint : fingerprints)
             insert("selection", {{"fingerprint", fingerprint}, {"count", count_}});
-        Database::Statement others(database_, "SELECT DISTINCT fingerprint FROM details");
-        while (others.step())
-            selectIfBegun(others.text(0));
+        for (const std::string &fingerprint : last)
+            selectIfBegun(fingerprint);
         database_.run("COMMIT");
         known_.clear();
         Database::Statement runs(database_,

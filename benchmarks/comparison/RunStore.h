@@ -42,7 +42,8 @@ namespace parking
         /** \brief No run that is there shall be shown again. */
         void forget();
 
-        /** \brief Shows the runs with these fingerprints, or fingerprints that go on from these with a '+'.
+        /** \brief Shows the runs with these fingerprints. For a fingerprint without the part behind its '+', that of
+            the program: those that go on from it and are shown already, or are merged.
 
             \param count runs of each planner on each experiment */
         void select(const std::vector<std::string> &fingerprints, std::size_t count);

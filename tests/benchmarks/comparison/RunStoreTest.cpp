@@ -150,6 +150,19 @@ namespace
         EXPECT_EQ(std::get<std::int64_t>(RunStore(file_).database().ask("SELECT COUNT(*) FROM all_runs")), 4);
     }
 
+    TEST_F(RunStoreTest, ShowsTheRunsOfOneProgramAtATime)
+    {
+        for (const char *program : {"1+old", "1+new"})
+        {
+            RunStore store(file_);
+            store.select({program}, 10);
+            store.add(recordOf("a", 0, program));
+        }
+        const std::vector<RunRecord> shown = recordsFor({"1"});
+        ASSERT_EQ(shown.size(), 1U);
+        EXPECT_EQ(shown[0].fingerprint, "1+new");
+    }
+
     TEST_F(RunStoreTest, MachineAndDateAreThoseOfTheBeginning)
     {
         add({recordOf("a", 0)});
