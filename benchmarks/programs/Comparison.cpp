@@ -32,7 +32,6 @@
 #include <unistd.h>
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace parking
 {
