@@ -11,25 +11,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <tuple>
-
-#include <boost/program_options/options_description.hpp>
-#include <boost/program_options/parsers.hpp>
 
 #include <glob.h>
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 namespace parking
 {
     namespace
     {
-        constexpr std::size_t CONFIG_LIMIT = std::size_t(1) << 20;  // bytes
-
         const std::vector<std::string> PROBLEM_KEYS{
             "scenario",     "name",         "vehicle",   "space",     "footprint",  "circle_radius", "start.x",
             "start.y",      "start.theta",  "goal.x",    "goal.y",    "goal.theta", "volume.min.x",  "volume.min.y",
@@ -141,12 +137,11 @@ namespace parking
                             " does not");
         }
 
-        /** One line of [planner], that of the option \e index: `rrt=` adds an instance, `rrt.range=1` sets a parameter
-            of the latest one. */
+        /** One line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the latest one. */
         void setPlannerOption(BenchmarkConfig &config, const ProblemOptions &base, const PlannerRegistry &registry,
-                              const std::string &key, const std::string &value, const ConfigLines &lines,
-                              std::size_t index)
+                              const ConfigLine &line)
         {
+            const auto &[section, key, value, where] = line;
             const std::size_t dot = key.find('.');
             const PlannerEntry &entry = registry.find(key.substr(0, dot));
             if (dot == std::string::npos)
@@ -154,7 +149,7 @@ namespace parking
                 if (!value.empty())
                     throw Error("nothing may follow '" + key + "=', which adds a planner; a parameter is set by '" +
                                 key + ".parameter=value'");
-                config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", lines.at(index)}}});
+                config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", where}}});
                 config.planners.back().name = uniqueName(config, entry.name, config.planners.size() - 1);
                 return;
             }
@@ -165,7 +160,7 @@ namespace parking
             if (parameter.empty())
                 throw Error("'" + key + "' names no parameter; one is set by '" + entry.name + ".parameter=value'");
             PlannerSpec &spec = config.planners.back();
-            lines.noteOnce(spec.lines, parameter, key, index);
+            line.noteOnce(spec.lines, parameter);
             if (parameter == "name")
             {
                 checkName(value);
@@ -370,19 +365,7 @@ namespace parking
 
     BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry)
     {
-        const std::string text = readFile(file, CONFIG_LIMIT);
-        const ConfigLines lines(file, text);
-        po::options_description none;
-        po::basic_parsed_options<char> parsed(&none);
-        try
-        {
-            std::istringstream stream(text);
-            parsed = po::parse_config_file(stream, none, true);
-        }
-        catch (const po::error &error)
-        {
-            throw Error(file + ": " + oneLine(error.what()));
-        }
+        const std::vector<ConfigLine> lines = readConfigLines(file);
         BenchmarkConfig config;
         config.file = file;
         ProblemOptions base;
@@ -390,39 +373,35 @@ namespace parking
         const std::string folder = fs::path(file).parent_path().string();
         // Planners last, whatever the order of the sections: they start from the problem of all.
         for (const bool planners : {false, true})
-            for (std::size_t i = 0; i < parsed.options.size(); ++i)
+            for (const ConfigLine &line : lines)
             {
-                const std::string &name = parsed.options[i].string_key;
-                const std::string value = parsed.options[i].value.empty() ? "" : parsed.options[i].value.front();
-                const std::size_t dot = name.find('.');
-                const std::string section = name.substr(0, dot), key = name.substr(dot + 1);
-                if ((section == "planner") != planners)
+                if ((line.section == "planner") != planners)
                     continue;
                 try
                 {
-                    if (section == "problem" && key == "scenario")
+                    if (line.section == "problem" && line.key == "scenario")
                     {
-                        const std::vector<std::string> found = findScenarios(value, folder);
+                        const std::vector<std::string> found = findScenarios(line.value, folder);
                         config.scenarios.insert(config.scenarios.end(), found.begin(), found.end());
                         for (const std::string &each : found)
-                            config.scenarioLines.emplace(each, lines.at(i));
+                            config.scenarioLines.emplace(each, line.where);
                     }
-                    else if (section == "problem")
+                    else if (line.section == "problem")
                     {
-                        setProblemOption(base, key, value);
-                        lines.noteOnce(config.problemLines, "problem." + key, key, i);
+                        setProblemOption(base, line.key, line.value);
+                        line.noteOnce(config.problemLines, "problem." + line.key);
                     }
-                    else if (section == "benchmark")
+                    else if (line.section == "benchmark")
                     {
-                        setBenchmarkOption(config, key, value);
-                        lines.noteOnce(benchmarkLines, key, key, i);
+                        setBenchmarkOption(config, line.key, line.value);
+                        line.noteOnce(benchmarkLines, line.key);
                     }
                     else
-                        setPlannerOption(config, base, registry, key, value, lines, i);
+                        setPlannerOption(config, base, registry, line);
                 }
                 catch (const Error &error)
                 {
-                    throw Error(lines.at(i) + error.what());
+                    throw Error(line.where + error.what());
                 }
             }
         if (config.planners.empty())

@@ -2,20 +2,20 @@
 
 #include "benchmarks/comparison/RunRecord.h"
 
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
 namespace parking
 {
-    /** \brief The member of RunRecord that a column shows; its type is the column's type. */
-    using RunMember = std::variant<std::optional<bool> RunRecord::*, std::optional<std::uint64_t> RunRecord::*,
-                                   std::optional<double> RunRecord::*, std::optional<PlanStatus> RunRecord::*,
-                                   std::optional<ompl::base::PlannerStatus::StatusType> RunRecord::*,
-                                   std::size_t RunRecord::*, std::uint32_t RunRecord::*>;
+    /** \brief Type of a column, as OMPL's logs know it. */
+    enum class ColumnType
+    {
+        Boolean,  ///< yes or no
+        Integer,  ///< a count
+        Real,     ///< any number
+        Enum      ///< a whole number that has a name in the table `enums`
+    };
 
     /** \brief How a column is summed up over the runs of a planner on an experiment. */
     enum class Statistic
@@ -49,42 +49,29 @@ namespace parking
     struct RunColumn
     {
         const char *name;  ///< as in OMPL's logs, but without type; in the database '_' stands for blanks
-        RunMember member;  ///< where a RunRecord holds the figure
+        ColumnType type;   ///< of its values
         const char *unit;  ///< empty for counts and what is yes or no
         const char *text;  ///< what it means, for docs/comparison.md
-        std::optional<InSummary> summary;  ///< without it the summary does not show the column
-        std::optional<InReport> report;    ///< without it the report shows the column only where it knows its name
+        std::optional<InSummary> summary{};  ///< without it the summary does not show the column
+        std::optional<InReport> report{};    ///< without it the report shows the column only where it knows its name
 
-        /** \brief OMPL's: BOOLEAN, INTEGER, REAL or ENUM. */
-        const char *type() const;
-
-        /** \brief With its type, as OMPL writes it: "time REAL". */
-        std::string typedName() const;
-
-        /** \brief The figure of a run; nothing when it was not measured. */
-        std::optional<FigureValue> valueOf(const RunRecord &record) const;
-
-        /** \brief The figure as a number; NaN when it was not measured. */
-        double numberOf(const RunRecord &record) const;
-
-        /** \brief Sets the figure of a run. Throws parking::Error naming the column for a value that its type cannot
-            hold. */
-        void set(RunRecord &record, const FigureValue &value) const;
+        /** \brief The value as one of this column's type. Throws parking::Error naming the column for a value that it
+            cannot hold. */
+        FigureValue checked(const FigureValue &value) const;
     };
 
-    /** \brief All columns: the one place that knows their names, units and meanings.
+    /** \brief OMPL's word: BOOLEAN, INTEGER, REAL or ENUM. */
+    std::string toString(ColumnType type);
 
-        The lines of runs.jsonl, OMPL's logs and with them the database, the summary, the report's further columns and
-        the table in docs/comparison.md are loops over it. */
+    /** \brief All columns: the one place that knows their names, types, units and meanings.
+
+        The database and OMPL's logs, the summary, the report's further columns and the table in docs/comparison.md are
+        loops over it. Whoever adds a figure adds a row here, and sets it where it is measured. */
     const std::vector<RunColumn> &runColumns();
 
-    /** \brief The column of this name. Throws parking::Error when there is none. */
-    const RunColumn &runColumn(std::string_view name);
+    /** \brief The column of this name; null when there is none. */
+    const RunColumn *findRunColumn(const std::string &name);
 
-    /** \brief All that \e record holds as OMPL's benchmark keeps it: typed names, values as text. */
-    std::map<std::string, std::string> omplProperties(const RunRecord &record);
-
-    /** \brief Takes over what OMPL's benchmark has measured: into columns that have no value yet; what no column is for
-        becomes reported. */
-    void takeOmplProperties(RunRecord &record, const std::map<std::string, std::string> &properties);
+    /** \brief The same. Throws parking::Error when there is none. */
+    const RunColumn &runColumn(const std::string &name);
 }  // namespace parking

@@ -2,6 +2,7 @@
 
 #include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/problems/PathJson.h"
+#include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <cmath>
@@ -36,24 +37,34 @@ namespace parking
         }
     }  // namespace
 
+    void RunRecord::setFigure(const std::string &column, const FigureValue &value)
+    {
+        figures[column] = runColumn(column).checked(value);
+    }
+
+    double RunRecord::number(const std::string &column) const
+    {
+        const auto found = figures.find(column);
+        if (found == figures.end())
+            return std::numeric_limits<double>::quiet_NaN();
+        return std::visit([](auto each) { return static_cast<double>(each); }, found->second);
+    }
+
+    std::optional<PlanStatus> RunRecord::outcome() const
+    {
+        const double value = number("outcome");
+        return std::isnan(value) ? std::nullopt : std::optional<PlanStatus>(static_cast<PlanStatus>(value));
+    }
+
     json RunRecord::toJson() const
     {
-        json text{{"experiment", experiment}, {"planner", planner}, {"parameters", parameters}};
-        if (!fingerprint.empty())
-            text["fingerprint"] = fingerprint;
-        if (!reason.empty())
-            text["reason"] = reason;
-        json &figures = text["figures"] = json::object();
-        for (const RunColumn &column : runColumns())
-            if (const std::optional<FigureValue> value = column.valueOf(*this))
-                figures[column.name] = figureJson(*value);
-        json &own = text["reported"] = json::object();
-        for (const auto &[name, value] : reported)
-            own[name] = figureJson(value);
-        json improvements = json::array();
+        json text{{"experiment", experiment},   {"planner", planner}, {"parameters", parameters},
+                  {"fingerprint", fingerprint}, {"reason", reason},   {"figures", json::object()},
+                  {"progress", json::array()}};
+        for (const auto &[name, value] : figures)
+            text["figures"][name] = figureJson(value);
         for (const Improvement &each : progress)
-            improvements.push_back(json::array({each.time, each.cost}));
-        text["progress"] = std::move(improvements);
+            text["progress"].push_back(json::array({each.time, each.cost}));
         if (!hasPath)
             return text;
         text["path"] = parking::toJson(path);
@@ -67,15 +78,16 @@ namespace parking
         text.at("experiment").get_to(record.experiment);
         text.at("planner").get_to(record.planner);
         text.at("parameters").get_to(record.parameters);
-        record.fingerprint = text.value("fingerprint", "");
-        record.reason = text.value("reason", "");
-        const json &figures = text.at("figures");
-        for (const char *key : {"run", "seed"})
-            figures.at(key);  // which run it is must be there, all else may be missing
-        for (const auto &[name, value] : figures.items())
-            runColumn(name).set(record, figureFrom(value));
-        for (const auto &[name, value] : text.at("reported").items())
-            record.reported[name] = figureFrom(value);
+        text.at("fingerprint").get_to(record.fingerprint);
+        text.at("reason").get_to(record.reason);
+        for (const auto &[name, value] : text.at("figures").items())
+            if (findRunColumn(name) != nullptr)
+                record.setFigure(name, figureFrom(value));
+            else
+                record.figures[name] = figureFrom(value);
+        for (const char *which : {"run", "seed"})
+            if (record.figures.count(which) == 0)
+                throw Error(std::string("a run without its ") + which);
         for (const json &each : text.at("progress"))
             record.progress.push_back({each.at(0).get<double>(), each.at(1).get<double>()});
         const auto path = text.find("path");

@@ -15,8 +15,11 @@
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -58,20 +61,39 @@ namespace parking
 
         RunRecord failedRun(RunRecord record, PlanStatus outcome, const std::string &reason)
         {
-            record.outcome = outcome;
-            record.reason = reason;
-            record.success = record.late = false;
-            record.status = ob::PlannerStatus::CRASH;
+            record.set("outcome", outcome);
+            record.reason = oneLine(reason);
+            record.set("success", false);
+            record.set("late", false);
+            record.set("status", ob::PlannerStatus::CRASH);
             return record;
         }
 
-        void putPath(RunRecord &record, const PlannedPath &path)
+        /** A figure as OMPL writes it; nothing when it cannot be read. */
+        std::optional<FigureValue> figureFrom(const std::string &text, const std::string &type)
         {
-            record.pathLength = path.length;
-            record.cusps = path.cusps;
-            record.leastClearance = path.clearance;
-            record.denselyValid = path.recheck.valid;
-            record.denseCollisions = path.recheck.collisions;
+            constexpr double LARGEST = 9007199254740992.0;  // beyond it a double does not hold every whole number
+            double number = 0.0;
+            if (!parseNumber(text, number))
+                return type == "REAL" && text == "inf"
+                           ? std::optional<FigureValue>(std::numeric_limits<double>::infinity())
+                           : std::nullopt;
+            if (type == "BOOLEAN")
+                return number != 0.0;
+            if (type == "REAL")
+                return number;
+            return std::abs(number) < LARGEST ? std::optional<FigureValue>(static_cast<std::int64_t>(number))
+                                              : std::nullopt;
+        }
+
+        /** What the path is like. \param prefix of the columns' names */
+        void putPath(RunRecord &record, const std::string &prefix, const PlannedPath &path)
+        {
+            record.set(prefix + "path length", path.length);
+            record.set(prefix + "cusps", path.cusps);
+            record.set(prefix + "least clearance", path.clearance);
+            record.set(prefix + "densely valid", path.recheck.valid);
+            record.set(prefix + "dense collisions", path.recheck.collisions);
         }
 
         /** What the path is like: its shape, what is around it, and how long a car takes along it. */
@@ -82,25 +104,25 @@ namespace parking
                 !(planned.length < Referee::FARTHEST))
                 return;
             const PathShape shape = shapeOf(planned.path);
-            record.attainsGoal = attainsGoal(planned.end, problem.scenario().goals);
-            record.angleOverLength = shape.angleOverLength;
-            record.maxCurvature = shape.maxCurvature;
-            record.normalizedCurvature = shape.normalizedCurvature;
-            record.smoothness = shape.smoothness;
-            record.reverseShare = shape.reverseShare;
+            record.set("attains goal", attainsGoal(planned.end, problem.scenario().goals));
+            record.set("angle over length", shape.angleOverLength);
+            record.set("max curvature", shape.maxCurvature);
+            record.set("normalized curvature", shape.normalizedCurvature);
+            record.set("smoothness", shape.smoothness);
+            record.set("reverse share", shape.reverseShare);
             const ClearanceFigures clearance =
                 clearanceAlong(planned.path, [&problem](const Pose &pose, double enough)
                                { return problem.referee().space().clearance(pose, enough); });
-            record.meanClearance = clearance.mean;
-            record.medianClearance = clearance.median;
+            record.set("mean clearance", clearance.mean);
+            record.set("median clearance", clearance.median);
             try
             {
                 const CuspToCusp profile = cuspToCusp(planned.path, problem.scenario().vehicle);
-                record.profileTime = profile.time;
-                record.profileCost = profile.cost();
-                record.profileJerk = profile.meanJerk;
-                record.standingSteerings = profile.standingSteerings;
-                record.standingSteeringTime = profile.standingSteeringTime;
+                record.set("cusp to cusp time", profile.time);
+                record.set("cusp to cusp cost", profile.cost());
+                record.set("cusp to cusp jerk", profile.meanJerk);
+                record.set("steerings at standstill", profile.standingSteerings);
+                record.set("steering at standstill time", profile.standingSteeringTime);
             }
             catch (const Error &)
             {
@@ -108,46 +130,47 @@ namespace parking
             }
         }
 
+        /** What a drive is like, or a trajectory. \param prefix of the columns' names */
+        void putDrive(RunRecord &record, const std::string &prefix, const DriveFigures &frames)
+        {
+            record.set(prefix + "attains goal", frames.attainsGoal);
+            record.set(prefix + "colliding frames", frames.collidingShare());
+            record.set(prefix + "standing time", frames.standingTime);
+            record.set(prefix + "jerk", frames.meanJerk);
+        }
+
         /** OMPL's simplification, on the solution in the problem definition. */
         void simplify(RunRecord &record, const Problem &problem, const PreparedPlanner &prepared, double timeLimit)
         {
             const auto begin = std::chrono::steady_clock::now();
             prepared.setup->simplifySolution(SIMPLIFY_SHARE * timeLimit);
-            record.simplificationTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            record.set("simplification time",
+                       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
             const auto *solution =
                 dynamic_cast<const ompl::geometric::PathGeometric *>(prepared.problem()->getSolutionPath().get());
-            const PlannedPath path = readPath(problem, *solution, record.exact);
-            record.simplifiedLength = path.length;
-            record.simplifiedCusps = path.cusps;
-            record.simplifiedClearance = path.clearance;
-            record.simplifiedDenselyValid = path.recheck.valid;
-            record.simplifiedDenseCollisions = path.recheck.collisions;
+            putPath(record, "simplified ", readPath(problem, *solution, record.exact));
         }
 
         /** The paper's figures of the drive. */
         void track(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
-            record.drivenToTheEnd = false;
+            record.set("driven to the end", false);
             try
             {
                 const DriveResult drive = drivePath(problem, path);
                 const Evaluation &figures = drive.evaluation;
-                record.drivenToTheEnd = drive.arrived;
-                record.travelTime = figures.travelTime;
-                record.drivenLength = figures.drivenLength;
-                record.meanAcceleration = figures.meanAbsAcceleration;
-                record.meanSteeringAngle = figures.meanAbsSteering * DEGREES;
-                record.greatestPositionError = figures.maxPositionError;
-                record.finalPositionError = figures.finalPositionError;
-                record.finalYawError = figures.finalYawError;
-                record.drivingCollisions = figures.collisions;
-                record.medianMpcTime = figures.solveTime.median;
-                const DriveFigures frames =
-                    driveFigures(drive.trajectory, problem.scenario().goals, problem.footprint());
-                record.driveAttainsGoal = frames.attainsGoal;
-                record.driveCollidingFrames = frames.collidingShare();
-                record.driveStandingTime = frames.standingTime;
-                record.driveJerk = frames.meanJerk;
+                record.set("driven to the end", drive.arrived);
+                record.set("travel time", figures.travelTime);
+                record.set("driven length", figures.drivenLength);
+                record.set("mean acceleration", figures.meanAbsAcceleration);
+                record.set("mean steering angle", figures.meanAbsSteering * DEGREES);
+                record.set("greatest position error", figures.maxPositionError);
+                record.set("final position error", figures.finalPositionError);
+                record.set("final yaw error", figures.finalYawError);
+                record.set("collisions while driving", figures.collisions);
+                record.set("median MPC time", figures.solveTime.median);
+                putDrive(record, "drive ",
+                         driveFigures(drive.trajectory, problem.scenario().goals, problem.footprint()));
             }
             catch (const Error &)
             {
@@ -166,18 +189,15 @@ namespace parking
                 const OptimizedTrajectory found =
                     quickestTrajectory(problem.footprint(), problem.scenario().bounds, path.path, options).trajectory;
                 const TpcapCost cost = tpcapCost(found.motion);
-                record.trajectoryDuration = cost.time;
-                record.trajectoryCost = cost.total();
-                record.controlEffort = cost.controlEffort;
-                record.steeringIntegral = cost.steeringIntegral;
-                record.trajectoryGearChanges = cost.gearChanges;
-                record.trajectoryStopsToSteer = found.fallback;
-                record.trajectoryTime = processorTime() - begin;
-                const DriveFigures frames = driveFigures(found.motion, problem.scenario().goals, problem.footprint());
-                record.trajectoryAttainsGoal = frames.attainsGoal;
-                record.trajectoryCollidingFrames = frames.collidingShare();
-                record.trajectoryStandingTime = frames.standingTime;
-                record.trajectoryJerk = frames.meanJerk;
+                record.set("trajectory duration", cost.time);
+                record.set("trajectory cost", cost.total());
+                record.set("trajectory control effort", cost.controlEffort);
+                record.set("trajectory steering integral", cost.steeringIntegral);
+                record.set("trajectory gear changes", cost.gearChanges);
+                record.set("trajectory stops to steer", found.fallback);
+                record.set("trajectory time", processorTime() - begin);
+                putDrive(record, "trajectory ",
+                         driveFigures(found.motion, problem.scenario().goals, problem.footprint()));
             }
             catch (const Error &)
             {
@@ -190,25 +210,43 @@ namespace parking
         {
             record.exact = run.status == PlanStatus::Exact;
             // AIT* and LazyPRM* look at the clock too seldom: what they find after the limit is worth nothing.
-            record.late = record.exact && run.firstSolutionTime > timeLimit + LATE;
-            record.outcome = run.status;
-            record.reason = run.reason;
-            record.success = record.exact && run.path && run.path->recheck.valid && !*record.late;
+            const bool late = record.exact && run.firstSolutionTime > timeLimit + LATE;
+            record.set("late", late);
+            record.set("outcome", run.status);
+            record.reason = oneLine(run.reason);
+            record.set("success", record.exact && run.hasValidPath() && !late);
             if (record.exact)
-                record.firstSolutionTime = run.firstSolutionTime;
-            record.planningTime = run.planningTime;
-            record.mapLoadingTime = problem.loadingTime() + run.mapLoadingTime;
-            record.nodesExpanded = run.search.expanded;
-            record.motionsGenerated = run.search.generated;
-            record.openListOperations = run.search.openListOperations;
-            record.openListComparisons = run.search.openListComparisons;
+                record.set("first solution time", run.firstSolutionTime);
+            record.set("planning time", run.planningTime);
+            record.set("map loading time", problem.loadingTime() + run.mapLoadingTime);
+            record.set("nodes expanded", run.search.expanded);
+            record.set("motions generated", run.search.generated);
+            record.set("open list operations", run.search.openListOperations);
+            record.set("open list comparisons", run.search.openListComparisons);
             if (run.search.stateChecks > 0)  // nobody counts the checks of a disc
             {
-                record.statesChecked = run.search.stateChecks;
-                record.exactChecks = run.search.exactChecks;
+                record.set("states checked", run.search.stateChecks);
+                record.set("exact checks", run.search.exactChecks);
             }
         }
     }  // namespace
+
+    void takeOmplProperties(RunRecord &record, const std::map<std::string, std::string> &properties)
+    {
+        for (const auto &[typedName, text] : properties)
+        {
+            const std::size_t blank = typedName.rfind(' ');
+            if (blank == std::string::npos)
+                continue;
+            std::string name = typedName.substr(0, blank);
+            std::replace(name.begin(), name.end(), '_', ' ');
+            const std::string type = typedName.substr(blank + 1);
+            const RunColumn *column = findRunColumn(name);
+            const std::optional<FigureValue> value = figureFrom(text, type);
+            if (value && (column == nullptr || type == toString(column->type)))
+                record.figures.emplace(name, *value);  // what was measured here is kept over OMPL's
+        }
+    }
 
     UnitRunner::UnitRunner(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                            const PlannerRegistry &registry, Isolation isolation, const std::atomic<bool> &stop)
@@ -327,8 +365,8 @@ namespace parking
         RunRecord record;
         record.experiment = experiments_[unit.experiment].name;
         record.planner = config_.planners[unit.planner].name;
-        record.run = unit.run;
-        record.seed = seedOf(config_, experiments_, unit);
+        record.set("run", unit.run);
+        record.set("seed", seedOf(config_, experiments_, unit));
         return record;
     }
 
@@ -387,7 +425,8 @@ namespace parking
     void UnitRunner::benchmarkRun(RunRecord &record, const PlannerSpec &spec, const Problem &world,
                                   const std::function<void()> &solved) const
     {
-        seedRandomNumbers(record.seed);
+        const auto seed = static_cast<std::uint32_t>(record.number("seed"));
+        seedRandomNumbers(seed);
         const PreparedPlanner prepared = world.prepare(registry_.find(spec.planner), spec.settings);
         prepared.planner->setName(spec.name);
         if (prepared.measured != nullptr)
@@ -406,7 +445,7 @@ namespace parking
         benchmark.setPreRunEvent(
             [&](const ob::PlannerPtr &)
             {
-                seedRandomNumbers(record.seed);
+                seedRandomNumbers(seed);
                 world.resetCounts();
                 quiet.reset();
                 memory.begin();
@@ -415,7 +454,7 @@ namespace parking
         benchmark.setPostRunEvent(
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
-                record.peakMemory = memory.megabytes();
+                record.set("peak memory", memory.megabytes());
                 quiet.emplace();
                 solved();
                 takeOmplProperties(record, properties);
@@ -436,28 +475,30 @@ namespace parking
         if (failure)
             std::rethrow_exception(failure);
         const auto &experiment = benchmark.getRecordedExperimentData();
-        if (!record.outcome || experiment.planners.empty())
+        if (!record.outcome() || experiment.planners.empty())
             throw Error("an exception, of which OMPL's benchmark tells no more");
         record.parameters = experiment.planners.front().common;
     }
 
     void UnitRunner::measure(RunRecord &record, const Problem &world, const PreparedPlanner &prepared) const
     {
-        const PlanRun run =
-            evaluateRun(world, prepared, record.status.value_or(ob::PlannerStatus::UNKNOWN), config_.timeLimit);
+        const auto status = record.figures.count("status") > 0
+                                ? static_cast<ob::PlannerStatus::StatusType>(record.number("status"))
+                                : ob::PlannerStatus::UNKNOWN;
+        const PlanRun run = evaluateRun(world, prepared, status, config_.timeLimit);
         putOutcome(record, world, run, config_.timeLimit);
         if (prepared.measured != nullptr)
         {
             // Without the millisecond that OMPL's own clock takes to notice the end.
-            record.time = run.planningTime + run.mapLoadingTime;
-            record.cpuTime = run.cpuTime;
+            record.set("time", run.planningTime + run.mapLoadingTime);
+            record.set("cpu time", run.cpuTime);
             record.progress = prepared.measured->record()->improvements();
         }
         if (!run.path)
             return;
-        putPath(record, *run.path);
+        putPath(record, "", *run.path);
         putMetrics(record, world, *run.path);
-        record.distanceToGoal = run.goalDistance;
+        record.set("distance to goal", run.goalDistance);
         record.hasPath = true;
         record.path = run.path->path;
         if (config_.simplify && record.exact)

@@ -21,6 +21,10 @@ namespace parking
         All       ///< every run
     };
 
+    /** \brief Takes over what OMPL's benchmark has measured, by typed names ("time REAL"): figures that the record does
+        not have yet. */
+    void takeOmplProperties(RunRecord &record, const std::map<std::string, std::string> &properties);
+
     /** \brief Does single runs of a comparison, each through ompl::tools::Benchmark.
 
         Every run has a planner, a problem definition, a goal and samplers of its own, made anew from the run's own

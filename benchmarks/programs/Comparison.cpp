@@ -1,8 +1,7 @@
 #include "benchmarks/programs/Comparison.h"
 
-#include "benchmarks/comparison/ExperimentLog.h"
+#include "benchmarks/comparison/OmplLog.h"
 #include "benchmarks/comparison/UnitRunner.h"
-#include "benchmarks/database/DatabaseWriter.h"
 #include "benchmarks/summary/ComparisonPictures.h"
 #include "benchmarks/summary/ReportScript.h"
 #include "benchmarks/summary/Summary.h"
@@ -24,16 +23,15 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 #include <system_error>
 
 #include <fnmatch.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace parking
 {
@@ -58,8 +56,7 @@ namespace parking
                 for (const auto &entry : fs::directory_iterator(each, ignored))
                 {
                     const std::string name = entry.path().filename().string();
-                    if (fnmatch("*.new.??????", name.c_str(), 0) == 0 || fnmatch(".report-*", name.c_str(), 0) == 0 ||
-                        fnmatch("benchmark.db.new[.-]*", name.c_str(), 0) == 0)
+                    if (fnmatch("*.new.??????", name.c_str(), 0) == 0 || fnmatch(".report-*", name.c_str(), 0) == 0)
                         remains.push_back(entry.path());
                 }
             for (const fs::path &each : remains)
@@ -74,7 +71,7 @@ namespace parking
         std::string pathCsv(const Scenario &scenario, const RunRecord &record)
         {
             std::string text = "x,y,yaw,direction,curvature\n";
-            const double sampling = samplingOf(record.path.length(), record.denselyValid.value_or(false));
+            const double sampling = samplingOf(record.path.length(), record.is("densely valid"));
             for (const PathState &state : record.path.sample(sampling))
             {
                 const Pose pose = scenario.toWorld(state.pose);
@@ -127,9 +124,9 @@ namespace parking
     void Comparison::protectInputs() const
     {
         const fs::path folder(folder_);
-        std::vector<std::string> outputs{runsFile()}, inputs{config_.file};
-        for (const char *name : {"benchmark.db", "summary.md", "summary.csv", "report.html", "statistics.json",
-                                 "standings.csv", "pairs.csv"})
+        std::vector<std::string> outputs{database()}, inputs{config_.file};
+        for (const char *name :
+             {"summary.md", "summary.csv", "report.html", "statistics.json", "standings.csv", "pairs.csv"})
             outputs.push_back((folder / name).string());
         for (const Experiment &experiment : experiments_)
         {
@@ -167,64 +164,85 @@ namespace parking
         }
     }
 
-    std::string Comparison::runsFile() const
+    std::string Comparison::database() const
     {
         const std::string part =
             options_.shards == 1 ? ""
                                  : "-" + std::to_string(options_.shard + 1) + "-of-" + std::to_string(options_.shards);
-        return (fs::path(folder_) / ("runs" + part + ".jsonl")).string();
+        return (fs::path(folder_) / ("benchmark" + part + ".db")).string();
     }
 
-    json Comparison::header(const std::vector<std::string> &setups) const
+    std::vector<Row> Comparison::experimentRows() const
+    {
+        std::vector<Row> rows;
+        for (const Experiment &experiment : experiments_)
+            rows.push_back({{"name", experiment.name},
+                            {"timelimit", config_.timeLimit},
+                            {"memorylimit", config_.memoryLimit},
+                            {"runcount", static_cast<std::int64_t>(config_.runCount)},
+                            {"seed", std::to_string(config_.seed)}});
+        return rows;
+    }
+
+    Comparison::Fingerprints Comparison::fingerprints() const
+    {
+        const std::string program = fileDigest("/proc/self/exe");
+        std::map<std::string, std::string> libraries;
+        Fingerprints result;
+        for (const Experiment &experiment : experiments_)
+            for (const std::size_t index : experiment.planners)
+            {
+                const PlannerSpec &planner = config_.planners[index];
+                std::string &print = result[{experiment.name, planner.name}];
+                print = fingerprint(config_, experiment, planner);
+                if (options_.merge)
+                    continue;  // machines may have programs of their own
+                const std::string &library = registry_.find(planner.planner).library;
+                if (!library.empty() && libraries.count(library) == 0)
+                    libraries[library] = "+" + fileDigest(library);
+                print += "+" + program + libraries[library];
+            }
+        return result;
+    }
+
+    void Comparison::select(const Fingerprints &fingerprints)
+    {
+        std::vector<std::string> wanted;
+        for (const auto &[names, print] : fingerprints)
+            wanted.push_back(print);
+        store_->select(wanted, config_.runCount);
+    }
+
+    std::vector<Row> Comparison::experimentsOf(UnitRunner &runner) const
     {
         const std::string cpu = []
         {
             const QuietChildren quiet;
             return ompl::machine::getCPUInfo();
         }();
-        json result{
-            {"fingerprint", fingerprint(config_)},
-            {"fingerprints", fingerprints()},
-            {"config", config_.file},
-            {"host", ompl::machine::getHostname()},
-            {"cpu", cpu},
-            {"machine", machineText()},
-            {"parameters", machineParameters()},
-            {"seed", config_.seed},
-            {"time_limit", config_.timeLimit},
-            {"started", std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count()}};
-        json texts = json::object();
-        for (std::size_t i = 0; i < experiments_.size(); ++i)
-            texts[experiments_[i].name] = setups[i] + machineText() + "\n";
-        result["setups"] = std::move(texts);
-        return result;
+        std::vector<Row> rows = experimentRows();
+        for (std::size_t i = 0; i < rows.size(); ++i)
+        {
+            Row row{{"version", omplVersion()},
+                    {"hostname", ompl::machine::getHostname()},
+                    {"cpuinfo", cpu},
+                    {"date", ompl::time::as_string(ompl::time::now())},
+                    {"setup", runner.setupText(i) + "Configuration " + config_.file + "\n" + machineText() + "\n"}};
+            for (const auto &[name, version] : machineVersions())
+                row[name] = version;
+            rows[i].merge(row);
+        }
+        return rows;
     }
 
-    json Comparison::fingerprints() const
+    void Comparison::requireNoEarlierFormat() const
     {
-        const std::string program = fileDigest("/proc/self/exe");
-        std::map<std::string, std::string> libraries;
-        json result = json::object();
-        for (const Experiment &experiment : experiments_)
-            for (const std::size_t index : experiment.planners)
-            {
-                const PlannerSpec &planner = config_.planners[index];
-                const std::string &library = registry_.find(planner.planner).library;
-                if (!library.empty() && libraries.count(library) == 0)
-                    libraries[library] = "+" + fileDigest(library);
-                result[experiment.name][planner.name] =
-                    fingerprint(config_, experiment, planner) + "+" + program + libraries[library];
-            }
-        return result;
-    }
-
-    void Comparison::openStore(const std::vector<std::string> &setups)
-    {
-        store_ = std::make_unique<ResultStore>(runsFile(), header(setups), options_.fresh);
-        if (!store_->setAside().empty() && !options_.quiet)
-            std::cerr << "Runs of an earlier comparison were moved to " << store_->setAside() << std::endl;
-        if (!store_->damage().empty())
-            std::cerr << "parking_benchmark: " << store_->damage() << std::endl;
+        std::error_code ignored;
+        if (const std::string runs = (fs::path(folder_) / "runs.jsonl").string();
+            !options_.fresh && fs::exists(runs, ignored) && !fs::exists(database(), ignored))
+            throw Error(runs +
+                        ": results of an earlier version of parking_benchmark, which this one cannot read; name "
+                        "another --output, or start over with --fresh");
     }
 
     bool Comparison::run(const std::atomic<bool> &stop)
@@ -233,10 +251,13 @@ namespace parking
         runner.checkSettings();
         tellUnsolvable(runner);
         makeFolder(folder_);
-        std::vector<std::string> setups;
-        for (std::size_t i = 0; i < experiments_.size(); ++i)
-            setups.push_back(runner.setupText(i));
-        openStore(setups);
+        requireNoEarlierFormat();
+        store_ = std::make_unique<RunStore>(database());
+        if (options_.fresh)
+            store_->forget();
+        const auto prints = fingerprints();
+        select(prints);
+        store_->describe(experimentsOf(runner));
         const std::vector<Unit> units = planUnits(config_, experiments_, options_.shard, options_.shards);
         std::vector<Unit> left;
         std::vector<std::string> names;
@@ -262,113 +283,76 @@ namespace parking
             RunRecord record = runner.run(unit);
             if (stop)
                 return false;
-            if (!options_.quiet && isFailure(record.outcome.value_or(PlanStatus::Timeout)))
+            if (!options_.quiet && isFailure(record.outcome().value_or(PlanStatus::Timeout)))
                 progress.note(failureText(record));
-            store_->add(std::move(record));
+            record.fingerprint = prints.at({record.experiment, record.planner});
+            store_->add(record);
             progress.end(planner, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
         return true;
     }
 
-    std::vector<std::string> Comparison::inputs() const
+    std::vector<std::string> Comparison::parts() const
     {
         std::vector<std::string> files;
-        const auto addFolder = [&files](const std::string &folder)
-        {
-            for (const auto &entry : fs::directory_iterator(folder))
-            {
-                const std::string name = entry.path().filename().string();
-                if (name.compare(0, 4, "runs") == 0 && entry.path().extension() == ".jsonl" && entry.is_regular_file())
-                    files.push_back(entry.path().string());
-            }
-        };
-        if (!options_.merge)
-            return {runsFile()};
         std::error_code ignored;
-        if (options_.inputs.empty() && fs::is_directory(folder_, ignored))
-            addFolder(folder_);
+        const auto addFolder = [&](const std::string &folder, const char *pattern)
+        {
+            for (const auto &entry : fs::directory_iterator(folder, ignored))
+                if (fnmatch(pattern, entry.path().filename().c_str(), 0) == 0 && entry.is_regular_file(ignored))
+                    files.push_back(entry.path().string());
+        };
+        if (options_.inputs.empty())
+            addFolder(folder_, "benchmark-*.db");
         for (const std::string &input : options_.inputs)
-        {
-            if (fs::is_directory(input, ignored))
-                addFolder(input);
-            else
+            if (!fs::is_directory(input, ignored))
                 files.push_back(input);
-        }
+            else if (addFolder(input, "benchmark*.db"); files.empty())
+                throw Error(input + ": holds no runs to merge (benchmark*.db)");
         std::sort(files.begin(), files.end());
-        if (files.empty())
-        {
-            std::string folders;
-            for (const std::string &input : options_.inputs)
-                folders += (folders.empty() ? "" : ", ") + input;
-            throw Error((folders.empty() ? folder_ : folders) + ": holds no runs to merge (runs*.jsonl)");
-        }
         return files;
     }
 
-    bool Comparison::isWanted(const RunRecord &record) const
+    void Comparison::mergeParts()
     {
-        if (record.run >= config_.runCount)
-            return false;
-        for (const Experiment &experiment : experiments_)
-            if (experiment.name == record.experiment)
-                for (const std::size_t index : experiment.planners)
-                    if (config_.planners[index].name == record.planner)
-                    {
-                        // Machines may have programs of their own; the rest of a fingerprint tells those apart.
-                        const std::string wanted = fingerprint(config_, experiment, config_.planners[index]) + "+";
-                        return record.fingerprint.compare(0, wanted.size(), wanted) == 0;
-                    }
-        return false;
-    }
-
-    void Comparison::gather()
-    {
-        std::map<std::tuple<std::string, std::string, std::size_t>, RunRecord> known;
-        std::set<std::string> hosts;
-        header_ = nullptr;
-        const auto take = [&](const json &header, const std::vector<RunRecord> &records)
+        requireNoEarlierFormat();
+        const std::vector<std::string> files = parts();
+        if (files.empty() && !fs::exists(database()))
+            throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
+        const Fingerprints prints = fingerprints();
+        const auto require = [&](const std::string &file, const std::vector<RunRecord> &records)
         {
-            hosts.insert(header.value("host", "unknown"));
-            if (header_.is_null() || header.value("started", 0.0) < header_.value("started", 0.0))
-                header_ = header;
-            for (const RunRecord &record : records)
-                if (isWanted(record))
-                    known.emplace(std::make_tuple(record.experiment, record.planner, record.run), record);
-        };
-        if (store_)
-            take(store_->header(), store_->records());
-        else
-            for (const std::string &file : inputs())
+            const auto isWanted = [&prints](const RunRecord &record)
             {
-                StoredResults stored = ResultStore::read(file);
-                if (!stored.damage.empty())
-                    std::cerr << "parking_benchmark: " << stored.damage << std::endl;
-                if (!stored.records.empty() && std::none_of(stored.records.begin(), stored.records.end(),
-                                                            [this](const RunRecord &each) { return isWanted(each); }))
-                    throw Error(file + ": holds the runs of another comparison than " + config_.file +
-                                " with these options (configuration, scenarios, limits or seed differ)");
-                take(stored.header, stored.records);
-            }
-        std::string names;
-        for (const std::string &host : hosts)
-            names += (names.empty() ? "" : "+") + host;
-        header_["host"] = names;
-        records_.clear();
-        for (auto &[key, record] : known)
-            records_.push_back(std::move(record));
+                const auto print = prints.find({record.experiment, record.planner});
+                return print != prints.end() && record.fingerprint.find(print->second + "+") == 0;
+            };
+            if (!records.empty() && std::none_of(records.begin(), records.end(), isWanted))
+                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                            " with these options (configuration, scenarios, limits or seed differ)");
+        };
+        std::vector<StoredRuns> all;
+        for (const std::string &file : files)
+            require(file, all.emplace_back(RunStore::readFile(file)).records);
+        if (files.empty())
+            require(database(), RunStore::readFile(database()).records);
+        makeFolder(folder_);  // now that there is something to put into it
+        store_ = std::make_unique<RunStore>(database());
+        select(prints);
+        for (const StoredRuns &part : all)
+            store_->merge(part);
+        store_->describe(experimentRows());
     }
 
-    void Comparison::writeExperiment(const Experiment &experiment, ComparisonFiles &files) const
+    void Comparison::writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
+                                     ComparisonFiles &files) const
     {
         const fs::path folder(folder_);
-        std::vector<const RunRecord *> own;
-        for (const RunRecord &record : records_)
-            if (record.experiment == experiment.name)
-                own.push_back(&record);
-        if (own.empty())
-            return;
+        std::map<std::string, std::vector<const RunRecord *>> runs;  // by planner
+        for (const RunRecord &record : records)
+            runs[record.planner].push_back(&record);
         const std::string log = (folder / (experiment.name + ".log")).string();
-        writeFileAtomically(log, experimentLog(config_, experiment, header_, own));
+        writeFileAtomically(log, omplLog(store_->database(), experiment.name));
         files.logs.push_back(log);
 
         const Scenario scenario = experiment.scenario();
@@ -376,18 +360,15 @@ namespace parking
         for (const std::size_t index : experiment.planners)
         {
             const std::string &planner = config_.planners[index].name;
-            std::vector<const RunRecord *> runs;
-            for (const RunRecord *record : own)
-                if (record->planner == planner)
-                    runs.push_back(record);
-            best.emplace_back(planner, bestRun(runs));
-            for (const RunRecord *record : runs)
+            best.emplace_back(planner, bestRun(runs[planner]));
+            for (const RunRecord *record : runs[planner])
                 if (record->hasPath && (config_.savePaths == SavePaths::All ||
                                         (config_.savePaths == SavePaths::Shortest && record == best.back().second)))
-                    writeFileAtomically((folder / "paths" /
-                                         (experiment.name + "-" + planner + "-" + std::to_string(record->run) + ".csv"))
-                                            .string(),
-                                        pathCsv(scenario, *record));
+                    writeFileAtomically(
+                        (folder / "paths" /
+                         (experiment.name + "-" + planner + "-" + std::to_string(record->run()) + ".csv"))
+                            .string(),
+                        pathCsv(scenario, *record));
         }
         const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
         writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
@@ -396,32 +377,37 @@ namespace parking
 
     ComparisonFiles Comparison::write()
     {
-        gather();
-        if (!options_.inputs.empty())
-            makeFolder(folder_);  // now that there is something to put into it
+        if (options_.merge)
+            mergeParts();
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");
         ComparisonFiles files;
-        files.folder = folder_;
+        files.database = database();
         const fs::path folder(folder_);
-        const auto summaryRows = summarize(config_, experiments_, records_);
-        const std::string failures = failuresText(records_);
-        summary_ = summaryText(summaryRows) + failures;
-        std::size_t expected = 0;
-        files.database = (folder / "benchmark.db").string();
-        DatabaseWriter database(files.database);  // first, as it keeps others from writing here
         removeRemains(folder);
         makeFolder((folder / "pictures").string());
         if (config_.savePaths != SavePaths::None)
             makeFolder((folder / "paths").string());
+        std::vector<SummaryRow> summaryRows;
+        std::vector<RunRecord> failed;
         for (const Experiment &experiment : experiments_)
         {
-            expected += experiment.planners.size() * config_.runCount;
-            writeExperiment(experiment, files);
+            // One after the other, as there may be very many runs.
+            const std::vector<RunRecord> records = store_->read(experiment.name);
+            const std::size_t expected = experiment.planners.size() * config_.runCount;
+            files.missing += expected - std::min(expected, records.size());
+            if (records.empty())
+                continue;
+            for (SummaryRow &row : summarize(config_, {experiment}, records))
+                summaryRows.push_back(std::move(row));
+            std::copy_if(records.begin(), records.end(), std::back_inserter(failed),
+                         [](const RunRecord &record)
+                         { return isFailure(record.outcome().value_or(PlanStatus::Timeout)); });
+            writeExperiment(experiment, records, files);
         }
-        files.missing = expected - std::min(expected, records_.size());
-        database.write(files.logs);
+        const std::string failures = failuresText(failed);
+        summary_ = summaryText(summaryRows) + failures;
         files.table = (folder / "summary.md").string();
         writeFileAtomically(files.table, summaryMarkdown(summaryRows) + failures);
         files.csv = (folder / "summary.csv").string();
@@ -430,7 +416,7 @@ namespace parking
         try
         {
             if (options_.report)
-                files.report = makeReport(folder_, inputs());
+                files.report = makeReport(folder_, {files.database});
         }
         catch (const Error &error)
         {

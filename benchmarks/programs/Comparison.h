@@ -1,17 +1,17 @@
 #pragma once
 
 #include "benchmarks/comparison/Experiment.h"
-#include "benchmarks/comparison/ResultStore.h"
 #include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/comparison/RunStore.h"
 #include "benchmarks/comparison/UnitRunner.h"
 #include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/programs/BenchmarkOptions.h"
 
-#include <nlohmann/json.hpp>
-
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace parking
@@ -39,31 +39,20 @@ namespace parking
 
         /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
             configuration count, also when other planners have changed since. Makes the output folder, once all settings
-            are found to be right. From then on until the end no other process can write the file of runs; one of a
-            different comparison is set aside.
+            are found to be right. From then on until the end no other process can write the database.
 
             \param stop once true, ends before the next run
             \return whether all are done. Throws parking::Error. */
         bool run(const std::atomic<bool> &stop);
 
-        /** \brief Puts the finished runs together: logs, database, tables, pictures, report. Each replaces what was
-            there once it is whole, so that it can be done again at any time; what killed processes have left unfinished
-            goes away. Throws parking::Error, also while another process does the same in the folder. */
+        /** \brief Makes of the finished runs, those of other parts merged where the options say so, logs, tables,
+            pictures and report. Each replaces what was there once it is whole, so that it can be done again at any
+            time; what killed processes have left unfinished goes away. Throws parking::Error, also while another
+            process does the same in the folder. */
         ComparisonFiles write();
 
-        /** \brief As the file says, with what the command line changes. */
-        const BenchmarkConfig &config() const
-        {
-            return config_;
-        }
-
-        /** \brief Of all results. */
-        const std::string &folder() const
-        {
-            return folder_;
-        }
-        /** \brief The file of this shard's runs. */
-        std::string runsFile() const;
+        /** \brief The database of this shard's runs. */
+        std::string database() const;
 
         /** \brief The table for the terminal, of what write() has put together. */
         const std::string &summary() const
@@ -72,29 +61,33 @@ namespace parking
         }
 
     private:
-        nlohmann::json header(const std::vector<std::string> &setups) const;
-        std::vector<std::string> inputs() const;
-        /** By experiment and planner: of everything that its runs depend on, the program included. */
-        nlohmann::json fingerprints() const;
-        void openStore(const std::vector<std::string> &setups);
+        /** Throws when the folder has results that this version does not know. */
+        void requireNoEarlierFormat() const;
         /** Throws when something that is read would be written over. */
         void protectInputs() const;
         /** Says which experiments nobody can solve, and why. */
         void tellUnsolvable(UnitRunner &runner) const;
-        /** Is it one of this comparison's, whatever program did it? */
-        bool isWanted(const RunRecord &record) const;
-        void gather();
+        /** Rows of the table `experiments`: what the configuration says of each. */
+        std::vector<Row> experimentRows() const;
+        /** The same with machine and date. */
+        std::vector<Row> experimentsOf(UnitRunner &runner) const;
+        using Fingerprints = std::map<std::pair<std::string, std::string>, std::string>;
+        /** By experiment and planner: of everything that its runs depend on; the program included, but for merging. */
+        Fingerprints fingerprints() const;
+        void select(const Fingerprints &fingerprints);
+        /** Databases of other parts, to be merged. */
+        std::vector<std::string> parts() const;
+        void mergeParts();
         /** Log, paths and picture. */
-        void writeExperiment(const Experiment &experiment, ComparisonFiles &files) const;
+        void writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
+                             ComparisonFiles &files) const;
 
         BenchmarkOptions options_;
         const PlannerRegistry &registry_;
         BenchmarkConfig config_;
         std::vector<Experiment> experiments_;
         std::string folder_;
-        std::unique_ptr<ResultStore> store_;
-        nlohmann::json header_;
-        std::vector<RunRecord> records_;
+        std::unique_ptr<RunStore> store_;
         std::string summary_;
     };
 }  // namespace parking

@@ -85,14 +85,14 @@ namespace
             std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
             if (!comparison.run(interrupted))
             {
-                std::cerr << "Interrupted. What is finished is kept in " << comparison.runsFile()
+                std::cerr << "Interrupted. What is finished is kept in " << comparison.database()
                           << "; the same command goes on from there." << std::endl;
                 return INTERRUPTED;
             }
             if (options.shards > 1)
             {
                 std::cout << "Part " << options.shard + 1 << " of " << options.shards
-                          << " is done: " << comparison.runsFile() << "\nWhen all are, --merge puts them together.\n";
+                          << " is done: " << comparison.database() << "\nWhen all are, --merge puts them together.\n";
                 return DONE;
             }
         }

@@ -245,6 +245,10 @@ def _read_database(results, file):
                     steps = progress.setdefault(identifier, [])
                     if cost is not None and (not steps or cost < steps[-1][1]):
                         steps.append((float(time), float(cost)))
+            paths = {}
+            if connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'details'").fetchone():
+                paths = {run: json.loads(path) for run, path in connection.execute('SELECT runid, path FROM details '
+                                                                                   'WHERE path IS NOT NULL')}
             counts = {}
             for row in connection.execute('SELECT * FROM runs ORDER BY id'):
                 problem = str(experiments[row['experimentid']]['name'])
@@ -255,7 +259,7 @@ def _read_database(results, file):
                 index = int(properties.get('run', cell[0]))
                 cell[0] += 1
                 run = Run(problem, planner, index, int(properties.get('seed', 0)), properties,
-                          progress.get(row['id'], []))
+                          progress.get(row['id'], []), paths.get(row['id']))
                 results.rechecked = results.rechecked and 'success' in properties
                 judge(run)
                 results.runs.append(run)

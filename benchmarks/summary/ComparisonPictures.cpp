@@ -12,7 +12,7 @@ namespace parking
     {
         SampledPath sampled(const RunRecord &record)
         {
-            return record.path.sample(samplingOf(record.path.length(), record.denselyValid.value_or(false)));
+            return record.path.sample(samplingOf(record.path.length(), record.is("densely valid")));
         }
         /** Twelve colours that differ for most eyes, also in print. */
         constexpr std::array<const char *, 12> COLOURS{"#2563eb", "#ea580c", "#059669", "#be185d",
@@ -32,7 +32,7 @@ namespace parking
             if (!record->hasPath)
                 continue;
             if (best == nullptr || rank(*record) > rank(*best) ||
-                (rank(*record) == rank(*best) && record->pathLength < best->pathLength))
+                (rank(*record) == rank(*best) && record->number("path length") < best->number("path length")))
                 best = record;
         }
         return best;
@@ -70,7 +70,7 @@ namespace parking
                 line.emplace_back(state.pose.x, state.pose.y);
             map.drawLine(SvgLayer::Lines, line, style);
             char length[32];
-            std::snprintf(length, sizeof length, " %.1f m", record->pathLength.value_or(0.0));
+            std::snprintf(length, sizeof length, " %.1f m", record->number("path length"));
             map.addLegend({planner + length +
                                (record->isSuccess() ? ""
                                 : record->exact     ? " (invalid)"

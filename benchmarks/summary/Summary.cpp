@@ -163,7 +163,7 @@ namespace parking
             std::vector<double> values;
             for (const RunRecord *record : records)
                 if (record->isSuccess())
-                    values.push_back(column.numberOf(*record));
+                    values.push_back(record->number(column.name));
                 else if (column.summary->statistic == Statistic::Distribution)
                     values.push_back(INFINITE);
             // Of those that have the figure: a path without a trajectory has none of its figures.
@@ -188,7 +188,7 @@ namespace parking
             for (const RunRecord *record : records)
                 if (record->isSuccess())
                     ++row.solved;
-                else if (record->exact && record->denselyValid == false)
+                else if (record->exact && record->number("densely valid") == 0.0)
                     ++row.invalid;
                 else if (record->hasPath)
                     ++row.approximate;
@@ -288,8 +288,8 @@ namespace parking
 
     std::string failureText(const RunRecord &record)
     {
-        return record.planner + " on " + record.experiment + ", run " + std::to_string(record.run) + ": " +
-               toString(*record.outcome) + ": " + oneLine(record.reason);
+        return record.planner + " on " + record.experiment + ", run " + std::to_string(record.run()) + ": " +
+               toString(*record.outcome()) + ": " + oneLine(record.reason);
     }
 
     std::string failuresText(const std::vector<RunRecord> &records)
@@ -301,9 +301,9 @@ namespace parking
         };
         std::map<std::tuple<std::string, std::string, PlanStatus>, Failures> all;
         for (const RunRecord &record : records)
-            if (record.outcome && isFailure(*record.outcome))
+            if (const auto outcome = record.outcome(); outcome && isFailure(*outcome))
             {
-                Failures &same = all[{record.planner, record.experiment, *record.outcome}];
+                Failures &same = all[{record.planner, record.experiment, *outcome}];
                 if (same.count++ == 0)
                     same.first = &record;
             }

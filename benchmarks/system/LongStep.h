@@ -1,34 +1,33 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <iostream>
 #include <string>
-#include <thread>
+
+#include <unistd.h>
 
 namespace parking
 {
-    /** \brief Tells on standard error, when that is a terminal, what a step is that takes longer than half a second,
-       and for how long it has been going on. The line is gone when the step is over.
-
-        Not round anything that forks without starting another program. */
+    /** \brief While it lives, standard error says what the program is doing, when that is a terminal. */
     class LongStep
     {
     public:
         /** \brief \param what for example "planning" */
-        explicit LongStep(std::string what);
-        ~LongStep();
+        explicit LongStep(const std::string &what) : width_(isatty(STDERR_FILENO) == 1 ? what.size() + 3 : 0)
+        {
+            if (width_ > 0)
+                std::cerr << '\r' << what << "..." << std::flush;
+        }
+
+        ~LongStep()
+        {
+            if (width_ > 0)
+                std::cerr << '\r' << std::string(width_, ' ') << '\r' << std::flush;
+        }
+
         LongStep(const LongStep &) = delete;
         LongStep &operator=(const LongStep &) = delete;
 
     private:
-        void tell();
-
-        std::string what_;
-        std::chrono::steady_clock::time_point begin_;
-        std::mutex mutex_;
-        std::condition_variable over_;
-        bool isOver_{false};
-        std::thread teller_;
+        std::size_t width_;
     };
 }  // namespace parking

@@ -27,26 +27,30 @@ namespace parking
         }
     }  // namespace
 
-    nlohmann::json machineParameters()
+    std::map<std::string, std::int64_t> machineVersions()
     {
-        return {{"project_version INTEGER", std::to_string(PARKING_VERSION_NUMBER)},
-                {"ompl_version INTEGER", std::to_string(OMPL_VERSION_VALUE)},
-                {"fcl_version INTEGER", std::to_string(FCL_NUMBER)},
-                {"ceres_version INTEGER", std::to_string(CERES_NUMBER)},
-                {"eigen_version INTEGER", std::to_string(EIGEN_NUMBER)},
-                {"boost_version INTEGER", std::to_string(BOOST_VERSION)},
-                {"compiler_version INTEGER", std::to_string(COMPILER_NUMBER)},
-                {"cores INTEGER", std::to_string(std::thread::hardware_concurrency())}};
+        return {{"project_version", PARKING_VERSION_NUMBER},
+                {"ompl_version", OMPL_VERSION_VALUE},
+                {"fcl_version", FCL_NUMBER},
+                {"ceres_version", CERES_NUMBER},
+                {"eigen_version", EIGEN_NUMBER},
+                {"boost_version", BOOST_VERSION},
+                {"compiler_version", COMPILER_NUMBER},
+                {"cores", std::thread::hardware_concurrency()}};
+    }
+
+    std::string omplVersion()
+    {
+        return "OMPL " + dotted(OMPL_VERSION_VALUE);
     }
 
     std::string machineText()
     {
         utsname system{};
         uname(&system);
-        return std::string("ompl_improved_astar ") + dotted(PARKING_VERSION_NUMBER) + ", OMPL " +
-               dotted(OMPL_VERSION_VALUE) + ", FCL " + dotted(FCL_NUMBER) + ", Ceres " + dotted(CERES_NUMBER) +
-               ", Eigen " + dotted(EIGEN_NUMBER) + ", compiler " + __VERSION__ + "\n" + system.sysname + " " +
-               system.release + " " + system.machine + ", " + std::to_string(std::thread::hardware_concurrency()) +
-               " cores";
+        return std::string("ompl_improved_astar ") + dotted(PARKING_VERSION_NUMBER) + ", " + omplVersion() + ", FCL " +
+               dotted(FCL_NUMBER) + ", Ceres " + dotted(CERES_NUMBER) + ", Eigen " + dotted(EIGEN_NUMBER) +
+               ", compiler " + __VERSION__ + "\n" + system.sysname + " " + system.release + " " + system.machine +
+               ", " + std::to_string(std::thread::hardware_concurrency()) + " cores";
     }
 }  // namespace parking

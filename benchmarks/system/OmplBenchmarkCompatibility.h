@@ -3,11 +3,8 @@
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
-#include <ompl/tools/benchmark/Benchmark.h>
 
-#include <map>
 #include <memory>
-#include <string>
 
 namespace ompl::base
 {
@@ -20,15 +17,6 @@ namespace parking
         libraries meet is in state_validity/ompl/OmplCompatibility.h. */
     namespace ompl_compatibility
     {
-        /** \brief The figures of a run for OMPL's benchmark, whose type is a map up to 1.6, and later a struct derived
-            from one. */
-        inline ompl::tools::Benchmark::RunProperties runProperties(const std::map<std::string, std::string> &figures)
-        {
-            ompl::tools::Benchmark::RunProperties properties;
-            properties.insert(figures.begin(), figures.end());
-            return properties;
-        }
-
         /** \brief \e Validator itself, where this OMPL defines it: only a type that is complete has a size. */
         template <class Validator>
         auto validatorOfCurves(const ompl::base::SpaceInformationPtr &si, int /*preferred*/)

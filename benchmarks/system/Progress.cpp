@@ -11,17 +11,18 @@ namespace parking
     namespace
     {
         constexpr double INTERVAL_TERMINAL = 0.2, INTERVAL_FILE = 15.0;  // seconds between words
-    }                                                                    // namespace
 
-    std::string duration(double seconds)
-    {
-        const auto whole = static_cast<long long>(std::llround(std::max(0.0, seconds)));
-        if (whole < 60)
-            return std::to_string(whole) + " s";
-        if (whole < 3600)
-            return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
-        return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
-    }
+        /** 754 seconds as "12 min 34 s". */
+        std::string duration(double seconds)
+        {
+            const auto whole = static_cast<long long>(std::llround(std::max(0.0, seconds)));
+            if (whole < 60)
+                return std::to_string(whole) + " s";
+            if (whole < 3600)
+                return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+            return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+        }
+    }  // namespace
 
     Progress::Progress(const std::vector<std::string> &planners, double timeLimit, bool quiet)
       : total_(planners.size()),

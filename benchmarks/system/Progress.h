@@ -51,7 +51,4 @@ namespace parking
         std::size_t width_{0};
         std::chrono::steady_clock::time_point said_;
     };
-
-    /** \brief 754 seconds as "12 min 34 s". */
-    std::string duration(double seconds);
 }  // namespace parking

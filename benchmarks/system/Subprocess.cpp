@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -17,6 +18,11 @@
 
 namespace parking
 {
+    namespace
+    {
+        constexpr int NOT_STARTED = 127;  // status, as of a shell
+    }
+
     bool isProgram(const std::string &name)
     {
         if (name.find('/') != std::string::npos)
@@ -35,37 +41,22 @@ namespace parking
         for (const std::string &each : command)
             arguments.push_back(const_cast<char *>(each.c_str()));
         arguments.push_back(nullptr);
-        std::array<int, 2> errors{}, failure{};
-        const auto refuse = [&command](int error)
-        {
-            throw Error(command.front() + ": cannot be started: " + std::strerror(error));
-        };
+        std::array<int, 2> errors{};
         if (pipe2(errors.data(), O_CLOEXEC) != 0)
-            refuse(errno);
-        if (pipe2(failure.data(), O_CLOEXEC) != 0)
-        {
-            const int error = errno;
-            close(errors[0]);
-            close(errors[1]);
-            refuse(error);
-        }
+            throw Error(command.front() + ": cannot be started: " + std::strerror(errno));
         const pid_t self = getpid(), child = fork();
         if (child == 0)
         {
             // It must not go on writing when this process was killed and its successor writes the same.
             prctl(PR_SET_PDEATHSIG, SIGKILL);
-            if (getppid() != self)
-                _exit(EXIT_FAILURE);
             const int nothing = open("/dev/null", O_RDWR);
-            if (dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
+            if (getppid() == self && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
                 dup2(errors[1], STDERR_FILENO) >= 0)
                 execvp(arguments.front(), arguments.data());
-            const int error = errno;
-            _exit(write(failure[1], &error, sizeof error) > 0 ? EXIT_FAILURE : EXIT_FAILURE + 1);
+            perror(arguments.front());
+            _exit(NOT_STARTED);
         }
-        int error = child < 0 ? errno : 0;
         close(errors[1]);
-        close(failure[1]);
         ProcessResult result;
         std::array<char, 4096> buffer{};
         while (child > 0)
@@ -76,16 +67,13 @@ namespace parking
             else if (count == 0 || errno != EINTR)
                 break;
         }
-        if (child > 0 && read(failure[0], &error, sizeof error) < static_cast<ssize_t>(sizeof error))
-            error = 0;
         close(errors[0]);
-        close(failure[0]);
+        if (child < 0)
+            throw Error(command.front() + ": cannot be started: no more processes");
         int status = 0;
-        while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         {
         }
-        if (error != 0)
-            refuse(error);
         result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         return result;
     }

@@ -8,7 +8,7 @@ namespace parking
     /** \brief What a program left behind. */
     struct ProcessResult
     {
-        int status{-1};      ///< exit status; 128 + the signal's number when one ended it
+        int status{-1};      ///< exit status; 127: not started; 128 + the signal's number when one ended it
         std::string errors;  ///< what it wrote to standard error
     };
 
@@ -16,7 +16,7 @@ namespace parking
     bool isProgram(const std::string &name);
 
     /** \brief Runs a program, found in PATH, with its arguments and waits for its end. Its standard output is thrown
-        away. No shell is involved. Throws parking::Error when it cannot be started. */
+        away. No shell is involved. Throws parking::Error when there can be no other process. */
     ProcessResult runProcess(const std::vector<std::string> &command);
 
     /** \brief The last line of what a program wrote that is not blank: where Python's errors say what is wrong. */

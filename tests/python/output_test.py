@@ -1,5 +1,4 @@
 """Pictures, pages, results of comparisons, stubs."""
-import json
 import math
 import os
 import re
@@ -126,32 +125,6 @@ def test_animate_makes_a_page_that_needs_nothing(tmp_path):
     assert file.read_text(encoding='utf-8') == animation.page
 
 
-def line(planner, run, length, fingerprint='1'):
-    return json.dumps({'experiment': 'slot', 'planner': planner, 'fingerprint': fingerprint, 'parameters': {'a': '1'},
-                       'reported': {'iterations': 3}, 'progress': [[0.1, length + 1], [0.2, length]],
-                       'figures': {'run': run, 'seed': 1000 + run, 'path length': length, 'success': True}})
-
-
-def test_runs_of_a_journal(tmp_path):
-    pytest.importorskip('pandas')
-    header = json.dumps({'parking_benchmark': 2, 'fingerprints': {'slot': {'mine': '1', 'other': '1'}}})
-    (tmp_path / 'runs.jsonl').write_text('\n'.join([
-        header, line('mine', 1, 10.0), line('mine', 0, 11.0), line('mine', 0, 11.0), line('other', 0, 12.0),
-        line('other', 1, 99.0, 'of another configuration'), '{"cut sho']))
-    for path in (tmp_path, tmp_path / 'runs.jsonl'):
-        frame = ia.read_runs(path)
-        assert list(frame['planner']) == ['mine', 'mine', 'other']
-        assert list(frame['run']) == [0, 1, 0]
-        assert frame.groupby('planner')['path length'].median().to_dict() == {'mine': 10.5, 'other': 12.0}
-        assert frame['progress'][0] == [(0.1, 12.0), (0.2, 11.0)]
-    (tmp_path / 'runs.jsonl').write_text(header + '\n{"experiment": 3}\n')
-    with pytest.raises(ia.Error, match=r'runs\.jsonl:2: is not a line'):
-        ia.read_runs(tmp_path)
-    (tmp_path / 'runs.jsonl').write_text('{"parking_benchmark": 1}\n')
-    with pytest.raises(ia.Error, match='another version'):
-        ia.read_runs(tmp_path)
-
-
 def test_runs_of_a_database(tmp_path):
     pytest.importorskip('pandas')
     with pytest.raises(ia.Error, match='holds no results'):
@@ -164,19 +137,25 @@ def test_runs_of_a_database(tmp_path):
     connection.executescript('''
         CREATE TABLE experiments (id INTEGER, name TEXT);
         CREATE TABLE plannerConfigs (id INTEGER, name TEXT, settings TEXT);
-        CREATE TABLE runs (id INTEGER, experimentid INTEGER, plannerid INTEGER, run INTEGER, path_length REAL);
+        CREATE TABLE runs (id INTEGER, experimentid INTEGER, plannerid INTEGER, run INTEGER, success BOOLEAN,
+                           path_length REAL);
         CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL);
         INSERT INTO experiments VALUES (1, 'slot');
-        INSERT INTO plannerConfigs VALUES (1, 'geometric_RRTConnect', '');
-        INSERT INTO runs VALUES (1, 1, 1, 0, 12.5);
-        INSERT INTO runs VALUES (2, 1, 1, 1, NULL);
-        INSERT INTO progress VALUES (1, 0.5, 12.5);''')
+        INSERT INTO plannerConfigs VALUES (1, 'geometric_RRTConnect', 'range = 2' || char(10) || ';');
+        INSERT INTO runs VALUES (1, 1, 1, 1, 1, 12.5);
+        INSERT INTO runs VALUES (2, 1, 1, 0, NULL, NULL);
+        INSERT INTO progress VALUES (1, 0.4, NULL), (1, 0.5, 13), (1, 0.6, 13), (1, 0.7, 12.5);''')
     connection.commit()
     connection.close()
     for path in (tmp_path, file):
         frame = ia.read_runs(path)
         assert list(frame['planner']) == ['RRTConnect', 'RRTConnect'] and list(frame['problem']) == ['slot', 'slot']
-        assert frame['path length'][0] == 12.5 and frame['progress'][0] == [(0.5, 12.5)]
+        assert list(frame['run']) == [0, 1] and frame['success'][1] is True and frame['success'][0] is None
+        assert frame['path length'][1] == 12.5 and frame['progress'][1] == [(0.5, 13.0), (0.7, 12.5)]
+        assert frame['parameters'][0] == {'range': '2'}
+    file.write_text('junk')
+    with pytest.raises(ia.Error, match='is not a benchmark database'):
+        ia.read_runs(tmp_path)
 
 
 def test_the_stubs_know_what_there_is():

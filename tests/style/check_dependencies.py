@@ -33,7 +33,7 @@ MAY_INCLUDE = {
     'tests': LIBRARIES + ['benchmarks', 'examples', 'playground', 'integrations'],
 }
 # The rooms of the comparison, each of which may use those before it. The studies beside them use what they like.
-ROOMS = [f'benchmarks/{room}' for room in ('worlds', 'system', 'database', 'planners', 'metrics', 'problems', 'comparison',
+ROOMS = [f'benchmarks/{room}' for room in ('worlds', 'system', 'planners', 'metrics', 'problems', 'comparison',
                                            'summary', 'programs')]
 MAY_INCLUDE.update({room: LIBRARIES + ROOMS[:k] for k, room in enumerate(ROOMS)})
 

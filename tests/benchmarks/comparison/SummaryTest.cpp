@@ -18,18 +18,18 @@ namespace
         RunRecord record;
         record.experiment = "garage";
         record.planner = planner;
-        record.run = run;
+        record.set("run", run);
         record.hasPath = length > 0.0;
         record.exact = exact;
-        record.success = exact && valid;
+        record.set("success", exact && valid);
         if (exact)
-            record.firstSolutionTime = time;
+            record.set("first solution time", time);
         if (record.hasPath)
         {
-            record.pathLength = length;
-            record.cusps = 3;
-            record.denselyValid = valid;
-            record.leastClearance = 0.25;
+            record.set("path length", length);
+            record.set("cusps", 3);
+            record.set("densely valid", valid);
+            record.set("least clearance", 0.25);
         }
         return record;
     }
@@ -73,9 +73,9 @@ namespace
 
     TEST_F(SummaryTest, WhatIsYesOrNoIsAShareOfTheSuccessfulRunsThatHaveIt)
     {
-        records_[0].attainsGoal = true;
-        records_[1].attainsGoal = false;  // and the third one does not say
-        records_[4].attainsGoal = true;   // not valid
+        records_[0].set("attains goal", true);
+        records_[1].set("attains goal", false);  // and the third one does not say
+        records_[4].set("attains goal", true);   // not valid
         const std::vector<SummaryRow> rows = summarize(config_, experiments_, records_);
         EXPECT_EQ(rows[0].figure("attains goal").median, 0.5);
         EXPECT_TRUE(std::isnan(rows[1].figure("attains goal").median));

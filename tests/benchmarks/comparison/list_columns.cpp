@@ -9,14 +9,14 @@ int main()
     for (const parking::RunColumn &column : parking::runColumns())
     {
         nlohmann::json each{
-            {"name", column.name}, {"type", column.type()}, {"unit", column.unit}, {"text", column.text}};
+            {"name", column.name}, {"type", toString(column.type)}, {"unit", column.unit}, {"text", column.text}};
         if (column.report)
             each["report"] = {{"name", column.name},
                               {"heading", column.report->heading},
                               {"factor", column.report->factor},
                               {"unit", column.report->unit},
                               {"folded", column.report->folded},
-                              {"share", column.type() == std::string("BOOLEAN")}};
+                              {"share", column.type == parking::ColumnType::Boolean}};
         columns.push_back(std::move(each));
     }
     std::cout << columns.dump(1) << '\n';

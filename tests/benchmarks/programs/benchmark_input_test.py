@@ -114,7 +114,7 @@ class Configuration(InputTest):
         self.refused_benchmark('/dev/zero', parts=['/dev/zero', 'device'])
         self.assertFalse(os.path.exists(self.path('out')))
         os.mkdir(self.path('out'))
-        os.rename(self.path('pipe'), self.path('out/runs.jsonl'))
+        os.rename(self.path('pipe'), self.path('out/benchmark.db'))
         for arguments in ([], ['--merge']):
             self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=['out'])
         # A configuration is read once.
@@ -210,7 +210,7 @@ class Output(InputTest):
                            '[planner]\nimproved_astar=\n' % name)
                 self.refused_benchmark('own.cfg', '--output', 'out', parts=['out/' + name, 'input'])
                 self.assertEqual(self.read('out/' + name), case)
-        self.assertFalse(os.path.exists(self.path('out/runs.jsonl')))
+        self.assertFalse(os.path.exists(self.path('out/benchmark.db')))
 
     def setUp(self):
         super().setUp()
@@ -223,39 +223,38 @@ class Output(InputTest):
         self.assertEqual(os.listdir(self.folder), ['set.cfg'])
 
     def test_the_disk_is_full(self):
-        def limit(size=16384):
+        def limit(size):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
         arguments = ['set.cfg', '--output', 'out', '--quiet', '--no-report']
-        self.refused_benchmark(*arguments, preexec_fn=limit, parts=['out/runs.jsonl', 'File too large'])
-        lines = self.read('out/runs.jsonl').splitlines()
-        self.assertGreater(len(lines), 2)
-        self.assertLess(len(lines), 21)
-        self.assertTrue(self.read('out/runs.jsonl').endswith('}\n'))  # no line was cut short
+        self.benchmark(*arguments[:-1], '--runs', 3)
+        room = os.path.getsize(self.path('out/benchmark.db')) + 4096
+        self.refused_benchmark(*arguments, preexec_fn=lambda: limit(room), parts=['out/benchmark.db', 'File too large'])
+        kept = self.records('out/benchmark.db', clock=True)
+        self.assertGreater(len(kept), 3)
+        self.assertLess(len(kept), 20)
         # With room again it goes on.
         done = self.benchmark('set.cfg', '--output', 'out')
-        self.assertIn('Going on: %d of 20' % (len(lines) - 1), done.stderr)
+        self.assertIn('Going on: %d of 20' % len(kept), done.stderr)
+        everything = self.records('out/benchmark.db', clock=True)
+        self.assertEqual([run for run in everything if run in kept], kept)
         # No room for results: the runs stay, and no file is half written.
-        log, database = (os.path.getsize(self.path('out/' + name)) for name in ('angled45.log', 'benchmark.db'))
-        self.assertLess(log + 1024, database)  # there is room for the log, and not for the database
-        os.remove(self.path('out/benchmark.db'))
-        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=lambda: limit(log + 1024),
-                               parts=['out/benchmark.db'])
-        self.assertEqual(sorted(os.listdir(self.path('out'))),
-                         ['angled45.log', 'pictures', 'runs.jsonl', 'summary.csv', 'summary.md'])
-        self.assertEqual(len(self.read('out/runs.jsonl').splitlines()), 21)
+        os.remove(self.path('out/angled45.log'))
+        self.refused_benchmark('set.cfg', '--output', 'out', '--merge', preexec_fn=lambda: limit(1024), parts=['out/'])
+        self.assertEqual(sorted(os.listdir(self.path('out'))), ['benchmark.db', 'pictures', 'summary.csv', 'summary.md'])
+        self.assertEqual(self.records('out/benchmark.db', clock=True), everything)
 
     def test_runs_that_are_none(self):
-        os.mkdir(self.path('out'))
-        for content in ('junk\n', '{}\n', '{"parking_benchmark": 99}\n', '', '[' * 100000 + '\n'):
+        for content in ('junk\n', '', 'SQLite format 3\0', '[' * 100000 + '\n'):
             with self.subTest(content[:30]):
-                self.write('out/runs.jsonl', content)
-                self.refused_benchmark('set.cfg', '--output', 'out', '--merge', parts=['out/runs.jsonl'])
+                self.write('elsewhere/benchmark-1-of-2.db', content)
+                self.refused_benchmark('set.cfg', '--output', 'out', '--merge', '--from', 'elsewhere',
+                                       parts=['elsewhere/benchmark-1-of-2.db'])
+        self.assertFalse(os.path.exists(self.path('out')))
 
     def test_the_database_needs_no_other_program(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, env={'PATH': self.folder})
-        with open(self.path('out/benchmark.db'), 'rb') as stream:
-            self.assertEqual(stream.read(16), b'SQLite format 3\0')
+        self.assertEqual(len(self.records('out/benchmark.db')), 1)
 
     def test_standard_output_that_is_full(self):
         with open('/dev/full', 'w') as full:

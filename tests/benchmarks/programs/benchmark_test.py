@@ -3,7 +3,7 @@
 import csv
 import fcntl
 import glob
-import json
+import math
 import os
 import shutil
 import signal
@@ -12,8 +12,9 @@ import subprocess
 import time
 import unittest
 import xml.etree.ElementTree
+from contextlib import closing
 
-from programs import BENCHMARK, SOURCE, ProgramTest, bundled, main
+from programs import BENCHMARK, IDS, SOURCE, ProgramTest, bundled, main
 
 # Planners that come to an end by themselves: with a generous limit their results do not depend on the machine's speed.
 CONFIG = '''
@@ -37,43 +38,10 @@ PLANNERS = {'improved_astar', 'reeds_shepp', 'RRTConnect', 'short_steps'}
 RUNS = 2 * 2 * len(PLANNERS)
 
 
-def depends_on_the_clock(name):
-    return 'time' in name or 'memory' in name
-
-
 class BenchmarkTest(ProgramTest):
     def setUp(self):
         super().setUp()
         self.write('set.cfg', CONFIG)
-
-    def records(self, *names):
-        """The runs in files of results, in a fixed order, without what depends on the machine's speed."""
-        runs = []
-        for name in names:
-            with open(self.path(name)) as stream:
-                next(stream)
-                for line in stream:
-                    run = json.loads(line)
-                    run['figures'] = {key: value for key, value in run['figures'].items()
-                                      if not depends_on_the_clock(key)}
-                    run['progress'] = [cost for _, cost in run['progress']]
-                    runs.append(run)
-        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['figures']['run']))
-
-    def query(self, database, statement):
-        with sqlite3.connect(self.path(database)) as connection:
-            cursor = connection.execute(statement)
-            return [column[0] for column in cursor.description], cursor.fetchall()
-
-    def database_runs(self, database):
-        """The rows of the database without times, in a fixed order."""
-        names, rows = self.query(database, '''
-            SELECT experiments.name AS problem, plannerConfigs.name AS planner, runs.* FROM runs
-            JOIN experiments ON runs.experimentid = experiments.id
-            JOIN plannerConfigs ON runs.plannerid = plannerConfigs.id
-            ORDER BY problem, planner, run''')
-        kept = [i for i, name in enumerate(names) if not depends_on_the_clock(name) and not name.endswith('id')]
-        return [[names[i] for i in kept]] + [[row[i] for i in kept] for row in rows]
 
 
 class Results(BenchmarkTest):
@@ -81,7 +49,7 @@ class Results(BenchmarkTest):
         self.write('set.cfg', CONFIG.replace('[planner]', 'save_paths = shortest\n[planner]'))
         done = self.benchmark('set.cfg', '--output', 'out', '--quiet')
         self.assertEqual(done.stderr, '')
-        self.assertEqual(len(self.records('out/runs.jsonl')), RUNS)
+        self.assertEqual(len(self.records('out/benchmark.db')), RUNS)
         for name in ('angled45', 'perpendicular'):
             log = self.read('out/%s.log' % name)
             self.assertRegex(log, r'\AOMPL version [1-9][0-9.]+\nExperiment ' + name + '\n')
@@ -112,28 +80,65 @@ class Results(BenchmarkTest):
         self.assertEqual(process.returncode, 0)
         self.assertEqual(seen, {'set.cfg', 'out'})
 
+    def columns(self, table):
+        return [name for name, in self.query('out/benchmark.db', f"SELECT name FROM pragma_table_info('{table}')")]
+
     def test_the_database_has_the_schema_of_ompl(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet')
-        names, _ = self.query('out/benchmark.db', 'SELECT * FROM experiments')
+        names = self.columns('experiments')
         for name in ('id', 'name', 'totaltime', 'timelimit', 'memorylimit', 'runcount', 'version', 'hostname', 'cpuinfo',
                      'date', 'seed', 'setup', 'ompl_version', 'fcl_version', 'project_version', 'cores'):
             self.assertIn(name, names)
-        names, rows = self.query('out/benchmark.db', 'SELECT * FROM runs')
-        self.assertEqual(len(rows), RUNS)
+        names = self.columns('runs')
         for name in ('experimentid', 'plannerid', 'solved', 'time', 'memory', 'status', 'solution_length', 'success',
                      'first_solution_time', 'path_length', 'cusps', 'densely_valid', 'least_clearance', 'seed', 'run'):
             self.assertIn(name, names)
-        _, rows = self.query('out/benchmark.db', 'SELECT name FROM plannerConfigs')
+        rows = self.query('out/benchmark.db', 'SELECT name FROM plannerConfigs')
         self.assertEqual({name for name, in rows}, {'geometric_' + name for name in PLANNERS})
         for table in ('enums', 'progress'):
             self.query('out/benchmark.db', 'SELECT * FROM ' + table)
-        _, rows = self.query('out/benchmark.db', '''
+        rows = self.query('out/benchmark.db', '''
             SELECT settings FROM plannerConfigs WHERE name = 'geometric_short_steps' ''')
         self.assertIn('range = 2', rows[0][0])
-        _, rows = self.query('out/benchmark.db', '''
+        rows = self.query('out/benchmark.db', '''
             SELECT COUNT(*) FROM runs JOIN plannerConfigs ON plannerid = plannerConfigs.id
             WHERE name = 'geometric_improved_astar' AND success AND densely_valid AND path_length > 5''')
         self.assertEqual(rows, [(4,)])
+
+    @unittest.skipUnless(shutil.which('ompl_benchmark_statistics'), 'Debian has it in ompl-demos')
+    def test_the_database_is_what_ompl_makes_of_the_logs(self):
+        self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\n[planner]') + 'RRTstar=\n')
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--time', 0.3)
+        done = self.run_program('ompl_benchmark_statistics', '-d', 'out/theirs.db',
+                                *sorted(glob.glob(self.path('out/*.log'))))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def cell(value):
+            if isinstance(value, float):
+                return None if value == math.inf else float(f'{value:.12g}')  # SQLite reads numbers to a bit or two
+            return value
+
+        def tables(database):
+            with closing(sqlite3.connect(self.path(database))) as connection:
+                connection.row_factory = sqlite3.Row
+                experiments = {row['name']: {name: cell(row[name]) for name in row.keys() if name != 'id'}
+                               for row in connection.execute('SELECT * FROM experiments')}
+                runs = {}
+                for row in connection.execute('''
+                        SELECT experiments.name AS experiment, plannerConfigs.name AS planner, settings, runs.* FROM runs
+                        JOIN experiments ON experimentid = experiments.id
+                        JOIN plannerConfigs ON plannerid = plannerConfigs.id'''):
+                    steps = connection.execute('SELECT time, best_cost FROM progress WHERE runid = ? ORDER BY time',
+                                               (row['id'],)).fetchall()
+                    runs[row['experiment'], row['planner'], row['run']] = (
+                        {name: cell(row[name]) for name in row.keys() if name not in IDS},
+                        [tuple(map(cell, step)) for step in steps])
+                types = {table: {name: kind for _, name, kind, *_ in connection.execute(f'PRAGMA table_info({table})')}
+                         for table in ('experiments', 'plannerConfigs', 'enums', 'runs', 'progress')}
+                return experiments, runs, types, sorted(map(tuple, connection.execute('SELECT * FROM enums')))
+
+        for ours, theirs in zip(tables('out/benchmark.db'), tables('out/theirs.db')):
+            self.assertEqual(ours, theirs)
 
     def test_time_outs_count_as_infinite(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'reeds_shepp')
@@ -145,7 +150,7 @@ class Results(BenchmarkTest):
     def test_cost_over_time_is_in_the_database(self):
         self.write('set.cfg', CONFIG.replace('improved_astar.xy_resolution=0.3', 'RRTstar='))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'RRTstar', '--time', 0.5, '--runs', 1)
-        _, rows = self.query('out/benchmark.db', 'SELECT runid, time, best_cost FROM progress ORDER BY runid, time')
+        rows = self.query('out/benchmark.db', 'SELECT runid, time, best_cost FROM progress ORDER BY runid, time')
         costs = {}
         for run, _, cost in rows:
             if cost is not None:
@@ -157,8 +162,8 @@ class Results(BenchmarkTest):
     def test_the_same_seed_gives_the_same_results(self):
         for folder, seed in (('a', 3), ('b', 3), ('c', 4)):
             self.benchmark('set.cfg', '--output', folder, '--quiet', '--seed', seed)
-        self.assertEqual(self.records('a/runs.jsonl'), self.records('b/runs.jsonl'))
-        self.assertNotEqual(self.records('a/runs.jsonl'), self.records('c/runs.jsonl'))
+        self.assertEqual(self.records('a/benchmark.db'), self.records('b/benchmark.db'))
+        self.assertNotEqual(self.records('a/benchmark.db'), self.records('c/benchmark.db'))
 
     def test_each_problem_in_its_setting(self):
         self.write('set.cfg', CONFIG.replace('scenario = %s\n' % bundled('angled45'),
@@ -172,7 +177,7 @@ improved_astar.problem.footprint=circle
 ''')
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'grid16', '--planner',
                        'improved_astar')
-        runs = self.records('out/runs.jsonl')
+        runs = self.records('out/benchmark.db')
         self.assertEqual([(run['experiment'], run['planner']) for run in runs],
                          [('perpendicular', 'improved_astar'), ('underground_garage', 'improved_astar'),
                           ('underground_garage_se2_circle', 'grid16')])
@@ -181,7 +186,7 @@ improved_astar.problem.footprint=circle
     def test_simplified_and_driven_paths_are_reported_beside(self):
         self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\n[planner]'))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect')
-        for run in self.records('out/runs.jsonl'):
+        for run in self.records('out/benchmark.db'):
             for name in ('simplified path length', 'simplified densely valid',
                          'driven to the end', 'mean acceleration', 'mean steering angle'):
                 self.assertIn(name, run['figures'])
@@ -192,7 +197,7 @@ improved_astar.problem.footprint=circle
         self.write('set.cfg', CONFIG.replace('[planner]', 'trajectory = yes\n[planner]'))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect', '--planner',
                        'improved_astar')
-        runs = [run['figures'] for run in self.records('out/runs.jsonl')]
+        runs = [run['figures'] for run in self.records('out/benchmark.db')]
         self.assertEqual(len(runs), 4)
         for run in runs:
             time = run['trajectory duration']
@@ -210,19 +215,25 @@ improved_astar.problem.footprint=circle
         self.write('cases/vehicle.yaml', 'wheelbase: 3\n')
         self.benchmark('set.cfg', '--scenarios', 'cases', '--output', 'out', '--quiet', '--runs', 1, '--planner',
                        'improved_astar')
-        runs = self.records('out/runs.jsonl')
+        runs = self.records('out/benchmark.db')
         self.assertEqual({run['experiment'] for run in runs}, {'a9', 'a10', 'b'})
 
 
 class GoingOn(BenchmarkTest):
+    def has_runs(self, number):
+        try:
+            return self.query('out/benchmark.db', 'SELECT COUNT(*) FROM runs') >= [(number,)]
+        except sqlite3.OperationalError:  # no tables yet
+            return False
+
     def start_and_interrupt(self, finished, number):
         """Interrupts a comparison once this many runs are finished."""
         process = subprocess.Popen([BENCHMARK, 'set.cfg', '--no-report', '--output', 'out', '--runs', str(number)], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60
-        file = self.path('out/runs.jsonl')
+        file = self.path('out/benchmark.db')
         while process.poll() is None and time.monotonic() < deadline:
-            if os.path.exists(file) and len(self.read('out/runs.jsonl').splitlines()) > finished:
+            if os.path.exists(file) and self.has_runs(finished):
                 process.send_signal(signal.SIGINT)
                 break
             time.sleep(0.002)
@@ -234,48 +245,50 @@ class GoingOn(BenchmarkTest):
         status, errors = self.start_and_interrupt(5, number)
         self.assertEqual(status, 130, errors)
         self.assertIn('goes on from there', errors)
-        kept = self.records('out/runs.jsonl')
+        kept = self.records('out/benchmark.db')
         self.assertGreaterEqual(len(kept), 5)
         self.assertLess(len(kept), 8 * number)
-        # The last line was cut short, as a crash might leave it.
-        with open(self.path('out/runs.jsonl'), 'a') as stream:
-            stream.write('{"experiment": "angl')
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', number)
         self.assertIn('Going on: %d of %d' % (len(kept), 8 * number), done.stderr)
         self.benchmark('set.cfg', '--output', 'whole', '--runs', number, '--quiet')
-        self.assertEqual(self.records('out/runs.jsonl'), self.records('whole/runs.jsonl'))
+        self.assertEqual(self.records('out/benchmark.db'), self.records('whole/benchmark.db'))
 
     def test_more_runs_are_added_to_what_there_is(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        before = self.read('out/runs.jsonl')
+        before = self.records('out/benchmark.db', clock=True)
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', 2)
         self.assertIn('Going on: %d of %d' % (RUNS // 2, RUNS), done.stderr)
-        self.assertTrue(self.read('out/runs.jsonl').startswith(before))
+        after = self.records('out/benchmark.db', clock=True)
+        self.assertEqual([run for run in after if run['figures']['run'] == 0], before)
+        # With fewer they are of no use for a while.
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
+        self.assertEqual(self.records('out/benchmark.db', clock=True), before)
+        self.benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet')
+        self.assertEqual(self.records('out/benchmark.db', clock=True), after)
 
     def test_what_is_finished_is_not_done_again(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        before = self.read('out/runs.jsonl')
-        os.remove(self.path('out/benchmark.db'))
+        before = self.records('out/benchmark.db', clock=True)
+        os.remove(self.path('out/angled45.log'))
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1)
         self.assertIn('All %d runs are already finished; --fresh' % (RUNS // 2), done.stderr)
-        self.assertEqual(self.read('out/runs.jsonl'), before)
-        self.assertTrue(os.path.exists(self.path('out/benchmark.db')))
+        self.assertEqual(self.records('out/benchmark.db', clock=True), before)
+        self.assertTrue(os.path.exists(self.path('out/angled45.log')))
 
-    def test_what_is_different_is_set_aside(self):
+    def test_what_is_different_is_kept_and_comes_back(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        for extra, aside in ((['--runs', 1, '--seed', 9], 'previous-runs.jsonl'),
-                             (['--runs', 2, '--fresh', '--seed', 9], 'previous-runs-2.jsonl'),
-                             (['--runs', 1], 'previous-runs-3.jsonl')):
-            with self.subTest(extra):
-                old = self.read('out/runs.jsonl')
-                done = self.benchmark('set.cfg', '--output', 'out', *extra)
-                self.assertIn('out/' + aside, done.stderr)
-                self.assertEqual(self.read('out/' + aside), old)
+        first = self.records('out/benchmark.db', clock=True)
+        for arguments, isThere in ((['--seed', 9], False), ([], True), (['--seed', 9], True), (['--fresh'], False)):
+            with self.subTest(arguments):
+                done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1, *arguments)
+                self.assertEqual('All 8 runs are already finished' in done.stderr, isThere)
+                self.assertEqual(self.records('out/benchmark.db', clock=True) == first, arguments == [])
+        self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(3 * RUNS // 2,)])
 
     def test_two_at_a_time_are_refused(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        with open(self.path('out/runs.jsonl'), 'r+') as stream:
-            fcntl.flock(stream, fcntl.LOCK_EX)
+        with open(self.path('out/benchmark.db'), 'r+') as stream:
+            fcntl.lockf(stream, fcntl.LOCK_EX, 1, 1 << 62)
             self.refused_benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet', parts=['another'])
 
 
@@ -285,14 +298,14 @@ class Shards(BenchmarkTest):
         for i in (1, 2, 3):
             done = self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--shard', '%d/3' % i)
             self.assertIn('--merge', done.stdout)
-        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/runs-*.jsonl')))
-        self.assertEqual(parts, ['parts/runs-%d-of-3.jsonl' % i for i in (1, 2, 3)])
+        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/benchmark-*.db')))
+        self.assertEqual(parts, ['parts/benchmark-%d-of-3.db' % i for i in (1, 2, 3)])
         counts = [len(self.records(part)) for part in parts]
         self.assertEqual(sum(counts), RUNS)
         self.assertLessEqual(max(counts) - min(counts), 1)
         self.benchmark('set.cfg', '--output', 'parts', '--merge')
-        self.assertEqual(self.records(*parts), self.records('whole/runs.jsonl'))
-        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+        self.assertEqual(self.records(*parts), self.records('whole/benchmark.db'))
+        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
 
     def test_shards_with_isolation_are_one_run_too(self):
         self.benchmark('set.cfg', '--output', 'whole', '--quiet')
@@ -300,10 +313,10 @@ class Shards(BenchmarkTest):
         for i in (1, 2, 3):
             self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--isolate', '--shard', '%d/3' % i)
         self.benchmark('set.cfg', '--output', 'parts', '--merge')
-        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/runs-*.jsonl')))
-        self.assertEqual(self.records(*parts), self.records('apart/runs.jsonl'))
-        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('apart/benchmark.db'))
-        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/benchmark-*.db')))
+        self.assertEqual(self.records(*parts), self.records('apart/benchmark.db'))
+        self.assertEqual(self.records('parts/benchmark.db'), self.records('apart/benchmark.db'))
+        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
 
     def test_a_shard_that_is_missing(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--shard', '1/2')
@@ -314,8 +327,8 @@ class Shards(BenchmarkTest):
         for i in (1, 2):
             self.benchmark('set.cfg', '--output', 'host%d' % i, '--quiet', '--shard', '%d/2' % i)
         self.benchmark('set.cfg', '--output', 'all', '--merge', '--from', 'host1', '--from',
-                       'host2/runs-2-of-2.jsonl')
-        self.assertEqual(len(self.database_runs('all/benchmark.db')), 1 + RUNS)
+                       'host2/benchmark-2-of-2.db')
+        self.assertEqual(len(self.records('all/benchmark.db')), RUNS)
         self.refused_benchmark('set.cfg', '--output', 'all', '--merge', '--from', 'host1', '--seed', 8,
                                parts=['another comparison'])
 
@@ -326,7 +339,7 @@ class Shards(BenchmarkTest):
                                 '--quiet', '--no-report', '--shard', '{}/4', ':::', 1, 2, 3, 4)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
-        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
 
     def test_shards_as_a_slurm_job_array(self):
         here = os.path.dirname(os.path.abspath(__file__))
@@ -340,10 +353,10 @@ class Shards(BenchmarkTest):
                                 os.path.join(SOURCE, 'benchmarks', 'slurm_array'), 'set.cfg', 'parts', env=environment)
         said = ''.join(self.read(name) for name in os.listdir(self.folder) if name.startswith('task-'))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr + said)
-        self.assertEqual(len(glob.glob(self.path('parts/runs-*-of-4.jsonl'))), 4)
+        self.assertEqual(len(glob.glob(self.path('parts/benchmark-*-of-4.db'))), 4)
         self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
         self.benchmark('set.cfg', '--output', 'whole', '--quiet')
-        self.assertEqual(self.database_runs('parts/benchmark.db'), self.database_runs('whole/benchmark.db'))
+        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
 
     def stop_slurm(self):
         """Ends the processes that start_slurm has started, and only these; Slurm's own children end with them."""

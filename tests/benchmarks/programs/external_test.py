@@ -1,6 +1,5 @@
 """The example that wraps a program as a planner: paths, nonsense, programs that fail or hang, and nothing else is lost."""
 
-import json
 import os
 import time
 
@@ -59,11 +58,8 @@ class External(ProgramTest):
         self.write('set.cfg', text)
         done = self.benchmark('set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet')
         found = {}
-        with open(self.path('out/runs.jsonl')) as stream:
-            next(stream)
-            for line in stream:
-                run = json.loads(line)
-                found[run['planner']] = (run['figures']['outcome'], run['figures']['success'], run.get('reason', ''))
+        for run in self.records('out/benchmark.db'):
+            found[run['planner']] = (run['figures']['outcome'], run['figures']['success'], run['reason'])
         self.assertEqual(len(found), 1 + len(commands))
         self.assertTrue(found['reeds_shepp'][1] and found['good'][1] and found['talks'][1], found)
         self.assertFalse(any(found[name][1] for name in commands if name not in ('good', 'talks')))

@@ -1,9 +1,7 @@
 """No planner can end a comparison: whatever it does is an outcome of its own runs, and the others finish."""
 
-import json
 import os
 import signal
-import sqlite3
 import subprocess
 import time
 
@@ -39,36 +37,18 @@ if SANITIZER:
         os.environ[name] = os.environ.get(name, '') + ':handle_segv=0'
 
 
-def depends_on_the_clock(name):
-    return 'time' in name or 'memory' in name
-
-
 class IsolationTest(ProgramTest):
     def compare(self, planners, *arguments, limit=20, **options):
         self.write('set.cfg', CONFIG.format(time=limit, planners=''.join(each + '=\n' for each in planners)))
         return self.benchmark('set.cfg', '--output', 'out', '--plugin', PLUGIN, *arguments, **options)
 
-    def records(self, name='out'):
-        runs = []
-        with open(self.path(name + '/runs.jsonl')) as stream:
-            for line in stream:
-                run = json.loads(line)
-                if 'parking_benchmark' not in run:
-                    run['figures'] = {key: value for key, value in run['figures'].items()
-                                      if not depends_on_the_clock(key)}
-                    run['progress'] = [cost for _, cost in run['progress']]
-                    runs.append(run)
-        return sorted(runs, key=lambda run: (run['planner'], run['figures']['run']))
-
     def outcomes(self):
         """What the database says: planner -> set of names of outcomes."""
-        with sqlite3.connect(self.path('out/benchmark.db')) as connection:
-            rows = connection.execute('''
-                SELECT plannerConfigs.name, enums.description, status FROM runs
-                JOIN plannerConfigs ON plannerid = plannerConfigs.id
-                JOIN enums ON enums.name = 'outcome' AND enums.value = outcome''').fetchall()
         found = {}
-        for planner, outcome, _ in rows:
+        for planner, outcome in self.query('out/benchmark.db', '''
+                SELECT plannerConfigs.name, enums.description FROM runs
+                JOIN plannerConfigs ON plannerid = plannerConfigs.id
+                JOIN enums ON enums.name = 'outcome' AND enums.value = outcome'''):
             found.setdefault(planner.replace('geometric_', ''), []).append(outcome)
         return found
 
@@ -80,7 +60,7 @@ class IsolationTest(ProgramTest):
         """Outcome and reason of each planner, in all places where they should be."""
         outcomes = self.outcomes()
         self.assert_others_finished(outcomes)
-        reasons = {run['planner']: run.get('reason', '') for run in self.records()}
+        reasons = {run['planner']: run['reason'] for run in self.records('out/benchmark.db')}
         for planner, (outcome, reason) in expected.items():
             self.assertEqual(outcomes[planner], [outcome] * 2, planner)
             self.assertIn(reason, reasons[planner])
@@ -115,11 +95,11 @@ class Outcomes(IsolationTest):
 
     def test_with_and_without_isolation_results_agree(self):
         self.compare(['RRTConnect', 'fine'], '--isolate', '--quiet')
-        apart = self.records()
+        apart = self.records('out/benchmark.db')
         os.rename(self.path('out'), self.path('apart'))
         self.compare(['RRTConnect', 'fine'], '--no-isolate', '--quiet')
         self.assertEqual(len(apart), 8)
-        self.assertEqual(self.records(), apart)
+        self.assertEqual(self.records('out/benchmark.db'), apart)
 
     def test_taking_the_culprit_out_costs_nothing(self):
         # The suite as a whole is killed in the middle of its run, and goes on without it.
@@ -127,17 +107,16 @@ class Outcomes(IsolationTest):
         process = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet'],
                                    cwd=self.folder)
         deadline = time.monotonic() + 60
-        while time.monotonic() < deadline and not os.path.exists(self.path('out/runs.jsonl')):
+        while time.monotonic() < deadline and not os.path.exists(self.path('out/benchmark.db')):
             time.sleep(0.05)
         time.sleep(1.5)
         process.kill()
         process.wait()
-        kept = len(self.records())
+        kept = len(self.records('out/benchmark.db'))
         done = self.compare([], limit=100)
         if kept > 0:
             self.assertIn('Going on: %d of 4' % kept, done.stderr)
         self.assert_others_finished(self.outcomes())
-        self.assertFalse([name for name in os.listdir(self.path('out')) if name.startswith('previous')])
 
     def test_settings_are_refused_as_ever(self):
         self.write('set.cfg', CONFIG.format(time=5, planners='fine=\nfine.speed=3\n'))

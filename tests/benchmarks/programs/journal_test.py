@@ -1,9 +1,9 @@
 """Nothing is lost: parking_benchmark killed at random instants, on a disk that fills up, with two at a time, with planners
-that come and go, and with garbage in its file of runs."""
+that come and go, and with garbage in the place of its database."""
 
-import json
 import os
 import random
+import re
 import shutil
 import signal
 import sqlite3
@@ -28,45 +28,34 @@ reeds_shepp=
 '''.format(angled=bundled('angled45'))
 
 
-def depends_on_the_clock(name):
-    return 'time' in name or 'memory' in name
-
-
 class JournalTest(ProgramTest):
     def setUp(self):
         super().setUp()
         self.write('set.cfg', CONFIG)
 
-    def content(self, name='out/runs.jsonl'):
+    def content(self, name='out/benchmark.db'):
         with open(self.path(name), 'rb') as stream:
             return stream.read()
 
-    def whole_lines(self):
-        """What is kept for good: all up to the end of the last line. Nothing before there is a run."""
-        if not os.path.exists(self.path('out/runs.jsonl')):
-            return b''
-        text = self.content()
-        text = text[:text.rfind(b'\n') + 1]
-        return text if text.count(b'\n') > 1 else b''
+    def kept(self, name='out/benchmark.db'):
+        """All that is in a database, read from a copy: what a killed process left half done stays for the next one."""
+        shutil.rmtree(self.path('copy'), ignore_errors=True)
+        os.mkdir(self.path('copy'))
+        for suffix in ('', '-journal'):
+            if os.path.exists(self.path(name + suffix)):
+                shutil.copy(self.path(name + suffix), self.path('copy/runs.db' + suffix))
+        try:
+            return self.records('copy/runs.db', clock=True)
+        except sqlite3.OperationalError:  # no file, or no tables yet
+            return []
 
-    def records(self, name):
-        """The runs of a file in a fixed order, without what depends on the machine's speed."""
-        runs = []
-        for line in self.content(name).splitlines():
-            run = json.loads(line)
-            if 'parking_benchmark' in run:
-                continue
-            run['figures'] = {key: value for key, value in run['figures'].items() if not depends_on_the_clock(key)}
-            run['progress'] = [cost for _, cost in run['progress']]
-            runs.append(run)
-        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['figures']['run']))
-
-    def set_aside(self):
-        return sorted(name for name in os.listdir(self.path('out')) if name.startswith('previous'))
+    def assert_all_there(self, kept, now):
+        for run in kept:
+            self.assertIn(run, now, 'a run that was there is gone')
 
     def results(self):
-        """Everything but the file of runs."""
-        return sorted(name for name in os.listdir(self.path('out')) if name != 'runs.jsonl')
+        """Everything but the database."""
+        return sorted(name for name in os.listdir(self.path('out')) if name != 'benchmark.db')
 
 
 class Killed(JournalTest):
@@ -79,20 +68,20 @@ class Killed(JournalTest):
         begin = time.monotonic()
         self.benchmark(*command[1:3], 'whole', *command[4:])
         rewriting = time.monotonic() - begin
-        wanted = self.records('whole/runs.jsonl')
+        wanted = self.records('whole/benchmark.db')
         self.assertEqual(len(wanted), 2 * runs)
         rng = random.Random(1)
         killed = {'planning': 0, 'writing': 0}
         rounds = 0
         while sum(killed.values()) < KILLS:
             shutil.rmtree(self.path('out'), ignore_errors=True)
-            kept, done, planned, rounds = b'', False, False, rounds + 1
+            kept, done, planned, rounds = [], False, False, rounds + 1
             # The report is made last and takes longest: most rounds do without, so that there can be many kills.
             reported = rounds % 6 == 1
             arguments = command if reported else command + ['--no-report']
             # At least one process of a round finds all runs finished, and is hit while it writes the results again.
             while not (done and planned):
-                planned = kept.count(b'\n') == 1 + 2 * runs
+                planned = len(kept) == 2 * runs
                 process = subprocess.Popen(arguments, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                 try:
                     process.wait(rng.uniform(0.0, 1.2 * rewriting if planned and not reported else 0.7 * total))
@@ -100,16 +89,16 @@ class Killed(JournalTest):
                     process.send_signal(signal.SIGKILL)
                 _, errors = process.communicate()
                 done = process.returncode == 0
-                now = self.whole_lines()
-                self.assertTrue(now.startswith(kept), 'lines that were there are gone')
+                now = self.kept()
+                self.assert_all_there(kept, now)
                 kept = now
                 if not done:
                     self.assertEqual(process.returncode, -signal.SIGKILL, errors)
-                    killed['writing' if kept.count(b'\n') == 1 + 2 * runs else 'planning'] += 1
-            self.assertEqual(self.records('out/runs.jsonl'), wanted)
-            self.assertEqual(self.content().count(b'parking_benchmark'), 1)
+                    killed['writing' if len(kept) == 2 * runs else 'planning'] += 1
+            self.assertEqual(self.records('out/benchmark.db'), wanted)
+            self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(2 * runs,)])
             self.assertEqual(self.results(),
-                             sorted(['angled45.log', 'benchmark.db', 'pictures', 'summary.csv', 'summary.md'] +
+                             sorted(['angled45.log', 'pictures', 'summary.csv', 'summary.md'] +
                                     reported * ['pairs.csv', 'report.html', 'standings.csv', 'statistics.json']))
             self.assertEqual(os.listdir(self.path('out/pictures')), ['angled45.svg'])
         print('killed %s in %d rounds' % (killed, rounds))
@@ -118,8 +107,7 @@ class Killed(JournalTest):
     def test_remains_go_away_and_nothing_else(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
         before = self.results()
-        for name in ('benchmark.db.new', 'benchmark.db.new.4711', 'benchmark.db.new-journal', 'summary.md.new.aB3xYz',
-                     '.report-abc', 'pictures/angled45.svg.new.aB3xYz', 'runs.jsonl.new'):
+        for name in ('summary.md.new.aB3xYz', '.report-abc', 'pictures/angled45.svg.new.aB3xYz'):
             self.write('out/' + name, 'half')
         self.write('out/summary.md.backup', 'mine')
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
@@ -151,39 +139,29 @@ class FullDisk(JournalTest):
                 self.assertIn(done.returncode, (1, 2))
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertRegex(done.stderr, r'^parking_benchmark: (standard output|out\b).*')
-                kept = self.whole_lines()
+                kept = self.kept()
                 self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 2)
-                self.assertTrue(self.content().startswith(kept))
-                self.assertEqual(self.set_aside(), [])
-                wanted = wanted or self.records('out/runs.jsonl')
-                self.assertEqual(self.records('out/runs.jsonl'), wanted)
+                self.assert_all_there(kept, self.kept())
+                wanted = wanted or self.records('out/benchmark.db')
+                self.assertEqual(self.records('out/benchmark.db'), wanted)
             failures += 1
             room += 1 if room < EACH else STRIDE
         print('%d of %d writes failed' % (failures, room))
         self.assertGreater(failures, 10)
 
-    def test_full_while_something_is_set_aside_or_replaced(self):
+    def test_full_while_something_is_replaced(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
-        old = {name: self.content('out/' + name) for name in self.results() + ['runs.jsonl'] if '.' in name}
-        for room in range(12):
+        old, lines = self.kept(), self.content('out/summary.md').count(b'\n')
+        for room in range(0, 60, 5):
             with self.subTest(room):
                 done, _ = self.start(room, '--runs', 1, '--seed', 4)
                 self.assertIn(done.returncode, (1, 2), done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-                texts = [self.content('out/' + name) for name in os.listdir(self.path('out')) if 'runs' in name]
-                self.assertIn(old['runs.jsonl'], texts)
-                for name in self.set_aside() + ['runs.jsonl']:
-                    self.assertIn(b'fingerprints', self.content('out/' + name))
                 # Old or new, but whole.
-                self.assertEqual(self.content('out/summary.md').count(b'\n'), old['summary.md'].count(b'\n'))
-                with closing(sqlite3.connect(self.path('out/benchmark.db'))) as database:
-                    self.assertEqual(database.execute('PRAGMA integrity_check').fetchall(), [('ok',)])
-                    self.assertEqual(database.execute('SELECT COUNT(*) FROM runs').fetchall(), [(2,)])
-                if room < 5:  # a run each of two planners, and what precedes them
-                    for name in ('summary.md', 'benchmark.db'):
-                        self.assertEqual(self.content('out/' + name), old[name])
-                if self.set_aside():
-                    self.assertEqual(self.set_aside(), ['previous-runs.jsonl'])
+                self.assertEqual(self.content('out/summary.md').count(b'\n'), lines)
+                self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1)
+                self.assertEqual(self.kept(), old)
+                self.assertEqual(self.query('out/benchmark.db', 'PRAGMA integrity_check'), [('ok',)])
 
 
 class TwoAtATime(JournalTest):
@@ -193,14 +171,13 @@ class TwoAtATime(JournalTest):
                                    cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         refused = 0
         while process.poll() is None:
-            if not self.whole_lines():
+            if not self.kept():
                 time.sleep(0.002)
                 continue
             for arguments in (['--fresh'], ['--time', '3'], []):
                 other = self.run_program(BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--runs', 60, *arguments)
                 if process.poll() is None:
-                    self.assert_refused(other, 'out/runs.jsonl', 'another parking_benchmark')
-                    self.assertEqual(self.set_aside(), [])
+                    self.assert_refused(other, 'out/benchmark.db', 'another parking_benchmark')
                     refused += 1
                 else:
                     break
@@ -211,49 +188,54 @@ class TwoAtATime(JournalTest):
         self.assertEqual(process.returncode, 0, errors)
         self.assertGreater(refused, 0)
         # Whoever came when it was over may have begun anew.
-        kept = 'out/previous-runs.jsonl' if self.set_aside() else 'out/runs.jsonl'
-        self.assertEqual(self.records(kept), self.records('whole/runs.jsonl'))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 60)
+        self.assertEqual(self.records('out/benchmark.db'), self.records('whole/benchmark.db'))
 
 
 class Changes(JournalTest):
     def finished(self, config, *arguments):
+        """Runs a comparison of 3 runs each; how many of them were finished already."""
         self.write('set.cfg', config)
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', 3, *arguments)
-        found = [line for line in done.stderr.splitlines() if 'already finished' in line]
-        self.assertEqual(self.set_aside(), [])
-        return int(found[0].split(' of ')[0].split()[-1]) if found and ' of ' in found[0] else None
+        found = re.search(r'(\d+)( of \d+)? runs are already finished', done.stderr)
+        return int(found.group(1)) if found else 0
 
     def test_planners_come_and_go(self):
-        self.assertIsNone(self.finished(CONFIG))
-        first = self.records('out/runs.jsonl')
+        self.assertEqual(self.finished(CONFIG), 0)
+        first = self.records('out/benchmark.db', clock=True)
         self.assertEqual(self.finished(CONFIG + 'RRTConnect=\n'), 6)
         # One with another parameter is run again, the others are not.
         self.assertEqual(self.finished(CONFIG + 'RRTConnect=\nRRTConnect.range=2\n'), 6)
-        self.assertIn('range', self.read('out/runs.jsonl'))
-        self.assertNotIn('RRTConnect', self.read('out/summary.md').replace('RRTConnect', '', 3))
+        self.assertIn('range = 2\n', [run['settings'] for run in self.records('out/benchmark.db')][0])
         # And the first one's runs are there yet; nor is a planner that is gone in the results.
-        self.finished(CONFIG + 'RRTConnect=\n')
-        self.finished(CONFIG)
-        self.assertNotIn('RRTConnect', self.read('out/summary.md'))
-        self.assertNotIn('RRTConnect', self.read('out/angled45.log'))
+        self.assertEqual(self.finished(CONFIG + 'RRTConnect=\n'), 9)
+        self.assertEqual(self.finished(CONFIG), 6)
         self.benchmark('set.cfg', '--output', 'out', '--runs', 3, '--merge')
-        self.assertNotIn('RRTConnect', self.read('out/summary.md'))
-        self.assertEqual([run for run in self.records('out/runs.jsonl') if run['planner'] != 'RRTConnect'], first)
+        self.assertNotIn('RRTConnect', self.read('out/summary.md') + self.read('out/angled45.log'))
+        self.assertEqual(self.records('out/benchmark.db', clock=True), first)
+        self.assertEqual(len(self.query('out/benchmark.db', 'SELECT * FROM plannerConfigs')), 2)
 
-    def test_garbage_is_named_and_good_runs_are_kept(self):
+    def test_what_cannot_be_read_is_named(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 3)
-        lines = self.content().split(b'\n')
-        lines[3] = lines[3][:50] + b'\0\xff' + lines[3][52:]
-        self.write('out/runs.jsonl', b'\n'.join(lines[:5] + [b'[' * 100000] + lines[5:]))
+        good = self.content()
+        with closing(sqlite3.connect(self.write('out/other.db', ''))) as database:
+            database.execute('CREATE TABLE runs (id INTEGER)')
+            database.commit()
+        for content, part in ((b'junk' * 1000, 'not a database'), (self.content('out/other.db'), 'no database of runs'),
+                              (good[:4096] + b'\xff' * (len(good) - 4096), 'malformed')):
+            self.write('out/benchmark.db', content)
+            for arguments in ([], ['--merge'], ['--fresh']):
+                with self.subTest(part, arguments=arguments):
+                    self.refused_benchmark('set.cfg', '--output', 'out', *arguments,
+                                           parts=['out/benchmark.db: ', part, 'move it away, or name another'])
+                    self.assertEqual(self.content(), content)
+
+    def test_results_of_earlier_versions(self):
+        self.write('out/runs.jsonl', '{"parking_benchmark": 2}\n')
         for arguments in ([], ['--merge']):
-            done = self.run_program(BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--runs', 3, *arguments)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(len(done.stderr.splitlines()), 1)
-            self.assertIn('out/runs.jsonl:4: is not a line of benchmark results', done.stderr)
-            self.assertIn('it and 1 more are left out', done.stderr)
-            self.assertEqual(self.set_aside(), [])
-        self.assertIn('3/3', self.read('out/summary.md'))
-        self.assertIn(b'\n'.join(lines[:3]), self.content())
+            self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=['out/runs.jsonl', 'earlier version', '--fresh'])
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--fresh')
+        self.assertEqual(self.finished(CONFIG), 2)
 
 
 if __name__ == '__main__':

@@ -3,9 +3,11 @@
 import json
 import os
 import shutil
+import sqlite3
 import subprocess
 import tempfile
 import unittest
+from contextlib import closing
 
 SOURCE = os.environ['PARKING_SOURCE_DIR']
 PLAN = os.environ['PARKING_PLAN']
@@ -30,6 +32,13 @@ def bundled(name):
     return os.path.join(SCENARIOS, name + '.yaml')
 
 
+IDS = ('id', 'runid', 'experimentid', 'plannerid')  # of rows, in the order in which they were finished
+
+
+def depends_on_the_clock(name):
+    return 'time' in name or 'memory' in name
+
+
 class ProgramTest(unittest.TestCase):
     """A test in a folder of its own, which is the programs' working folder and gone afterwards."""
 
@@ -52,6 +61,35 @@ class ProgramTest(unittest.TestCase):
     def read(self, name):
         with open(self.path(name)) as stream:
             return stream.read()
+
+    def query(self, database, statement):
+        with closing(sqlite3.connect(self.path(database))) as connection:
+            return connection.execute(statement).fetchall()
+
+    def records(self, *databases, clock=False):
+        """The runs in databases of comparisons, in a fixed order; without what depends on the machine's speed unless clock."""
+        runs = []
+        for database in databases:
+            with closing(sqlite3.connect(self.path(database))) as connection:
+                connection.row_factory = sqlite3.Row
+                costs = {}
+                for run, cost in connection.execute('SELECT runid, best_cost FROM progress WHERE best_cost IS NOT NULL '
+                                                    'ORDER BY runid, time'):
+                    steps = costs.setdefault(run, [])
+                    if not steps or cost < steps[-1]:
+                        steps.append(cost)
+                for row in connection.execute('''
+                        SELECT experiments.name AS experiment, plannerConfigs.name AS planner, settings, details.*, runs.*
+                        FROM runs JOIN experiments ON experimentid = experiments.id
+                        JOIN plannerConfigs ON plannerid = plannerConfigs.id JOIN details ON runid = runs.id'''):
+                    run = {name: row[name] for name in ('experiment', 'planner', 'settings', 'fingerprint', 'reason')}
+                    run['planner'] = run['planner'][len('geometric_'):]
+                    run['path'] = json.loads(row['path'] or 'null')
+                    run['progress'] = costs.get(row['id'], [])
+                    run['figures'] = {name.replace('_', ' '): row[name] for name in row.keys()[9:] if row[name] is not None
+                                      and name not in IDS and (clock or not depends_on_the_clock(name))}
+                    runs.append(run)
+        return sorted(runs, key=lambda run: (run['experiment'], run['planner'], run['figures']['run']))
 
     def run_program(self, *command, timeout=120, **options):
         return subprocess.run([str(part) for part in command], cwd=self.folder, capture_output=True, text=True,

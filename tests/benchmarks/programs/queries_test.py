@@ -49,8 +49,7 @@ class QueriesTest(ProgramTest):
         table = self.read('results/summary.csv')
         for planner in ('improved_astar', 'hybrid_astar', 'RRTConnect', 'PRM', 'BITstar'):
             self.assertIn(planner, table)
-        with open(self.path('results/runs.jsonl')) as stream:
-            self.assertEqual(sum('"experiment"' in line for line in list(stream)[1:]), 10)
+        self.assertEqual(self.query('results/benchmark.db', 'SELECT COUNT(*) FROM runs'), [(10,)])
         script = os.path.join(SOURCE, 'benchmarks', 'report', 'general_page')
         done = self.run_program(sys.executable, '-B', script, 'results', 'queries', '--output', 'page/general.md')
         self.assertEqual((done.returncode, done.stderr), (0, ''))

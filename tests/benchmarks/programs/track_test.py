@@ -1,6 +1,5 @@
 """parking_plan --track: the drive in the JSON, in the picture and as a page."""
 
-import json
 import math
 import os
 
@@ -42,9 +41,7 @@ class TrackTest(ProgramTest):
                                   f'time_limit = 20\nrun_count = 1\ntrack = yes\n'
                                   f'[planner]\nimproved_astar=\nimproved_astar.{setting}\n')
             self.benchmark('set.cfg', '--output', setting, '--quiet')
-            with open(self.path(setting + '/runs.jsonl')) as stream:
-                next(stream)
-                figures = json.loads(next(stream))['figures']
+            figures = self.records(setting + '/benchmark.db', clock=True)[0]['figures']
             alone = result['tracking']
             self.assertEqual(figures['driven to the end'], alone['arrived'])
             for name, field in (('travel time', 'travel_time_s'), ('driven length', 'driven_length_m'),

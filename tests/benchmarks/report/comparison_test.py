@@ -3,7 +3,6 @@
 usage: comparison_test.py PARKING_BENCHMARK SCENARIOS
 """
 import csv
-import json
 import os
 import subprocess
 import sys
@@ -59,9 +58,7 @@ def main(program, scenarios):
             faults.append('the picture of the problem has no map that paths can be drawn on')
         else:
             # A stored path is drawn where the program itself has drawn it.
-            with open(os.path.join(output, 'runs.jsonl'), encoding='utf-8') as stream:
-                record = next(each for each in map(json.loads, list(stream)[1:]) if 'path' in each)
-            x, y, _ = record['path']['start']
+            x, y, _ = next(run.path for run in results.runs if run.path)['start']
             place = f'{(x - picture.left) * picture.scale:.2f}'.rstrip('0').rstrip('.')
             height = f'{(picture.top - y) * picture.scale:.2f}'.rstrip('0').rstrip('.')
             with open(os.path.join(output, 'pictures', 'perpendicular.svg'), encoding='utf-8') as stream:
