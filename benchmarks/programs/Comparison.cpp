@@ -430,7 +430,7 @@ namespace parking
         try
         {
             if (options_.report)
-                files.report = makeReport(folder_, inputs());
+                files.report = makeReport(folder_);
         }
         catch (const Error &error)
         {

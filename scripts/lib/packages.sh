@@ -5,7 +5,8 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing; test, docs, package, page, fuzz: only for tests, reference, ... | what for
+# package | build: for building and comparing; report: for the report of a comparison; test, docs, package, page, fuzz: only
+# for tests, reference, ... | what for
 packages()
 {
     cat <<'LIST'
@@ -28,6 +29,10 @@ libsqlite3-dev               | build | SQLite: the database of a comparison
 libmatio-dev                 | build | MATLAB files: CommonParking's cases and results; without it the rest builds
 zlib1g-dev                   | build | MATLAB files are compressed; comes with libmatio-dev
 python3                      | build page | reports from the database; checks of the tests
+python3-numpy                | report test package | arrays of reports and of the Python module
+python3-scipy                | report test | statistics of reports
+python3-jinja2               | report test | pages of reports
+python3-plotly               | report test | charts of reports
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
 pkg-config                   | test  | the consumer that finds the installed package by pkg-config
@@ -39,8 +44,7 @@ dpkg-dev                     | test package | finds out what packages a library 
 file                         | test package | tells programs from other files
 python3-dev                  | test package | the Python module
 pybind11-dev                 | test package | pybind11: the Python module
-python3-numpy                | test package | arrays of the Python module
-python3-matplotlib           | test  | pictures of the Python module
+python3-matplotlib           | test  | pictures of the Python module; curves for documents
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)

@@ -2,7 +2,7 @@
 import itertools
 import math
 
-from charts import shown
+from formatting import shown
 from design import FACTORS, KEYS, VARIANTS
 from paired import LEVEL, NEAR, comparison_of, correct
 from study import MEASURES

@@ -3,12 +3,12 @@ import json
 import math
 import os
 import re
+from html import escape as text
 
-from charts import text
 from design import KEYS
 from factorial import NAMES
 from published import ALGORITHMS
-from results import ReportError
+from database import ReportError
 from study import MEASURES
 from write_whole import write_whole
 

@@ -2,8 +2,7 @@
 import dataclasses
 import math
 
-from order_statistics import median, median_interval
-from standings.paired_tests import holm, sign_test
+from planner_statistics import holm, median, median_interval, sign_test
 
 NEAR = 1.05   # ratios nearer to 1 than by this factor count as none
 LEVEL = 0.05  # of what counts as certain

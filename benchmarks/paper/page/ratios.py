@@ -1,7 +1,7 @@
 """All ratios of the paper beside ours, with verdicts and with what was measured beside them."""
 import dataclasses
 
-from charts import shown
+from formatting import shown
 from design import ALGORITHMS
 from paired import Comparison, compare, correct, verdict, way_of
 from published import WHAT, ratio_rows

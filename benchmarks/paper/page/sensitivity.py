@@ -1,7 +1,7 @@
 """Do the verdicts hang on the disc's radius, the weight, or the cell?"""
 import os
 
-from charts import shown
+from formatting import shown
 from design import ALGORITHMS, SAME_PATH, SENSITIVITY, folder_of, study_of
 from paired import compare, correct, verdict, way_of
 from ratios import MEASURE_NAMES, named

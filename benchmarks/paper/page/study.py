@@ -3,8 +3,9 @@ import math
 import os
 
 from design import ALGORITHMS, SAME_PATH, folder_of
-from order_statistics import median
-from results import ReportError, read_results
+from database import ReportError
+from paths import read_results_with_paths
+from planner_statistics import median
 
 MINIMUM_TURN = 0.01  # radians; less is no corner
 WAITING, SMALL = 1.1, 5e-5  # a run that took longer than so much of its processor time, and seconds, had to wait
@@ -70,7 +71,7 @@ class Study:
 
     def __init__(self, results_folder, study, scenario):
         self.folder = os.path.join(results_folder, folder_of(study, scenario))
-        results = read_results(self.folder)
+        results = read_results_with_paths(self.folder)
         self.results = results
         self.maps = [name for name in results.problems if name.startswith(scenario)]
         self.unsolved = sum(not run.solved for run in results.runs)

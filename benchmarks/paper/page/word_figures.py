@@ -4,7 +4,7 @@ import os
 import struct
 
 from figures import COLOURS, drives_figure, label, svg
-from results import ReportError
+from database import ReportError
 from word_design import SCENARIOS
 from word_study import read_runs
 from write_whole import write_whole

@@ -3,9 +3,9 @@ import json
 import math
 import os
 
-from order_statistics import median
+from planner_statistics import median
 from paired import LEVEL, Comparison, compare, comparison_of, correct
-from results import ReportError, read_results
+from database import ReportError, read_results
 from word_design import ALGORITHMS, CLUTTER, GROWTH_FACTORS, GROWTH_KEYS, own_file, runs_file
 
 FORMAT = 1

@@ -3,18 +3,17 @@
 usage: comparison_test.py PARKING_BENCHMARK SCENARIOS
 """
 import csv
-import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
 
-from made_results import MAKE_REPORT, REPORT
+from made_results import MAKE_REPORT
 
-sys.path.insert(0, REPORT)
 from gallery import read_picture  # noqa: E402
 from page import Cell  # noqa: E402
-from results import read_results  # noqa: E402
+from database import read_results  # noqa: E402
 
 CONFIG = '''[problem]
 scenario = {scenarios}/perpendicular.yaml
@@ -55,21 +54,15 @@ def main(program, scenarios):
                 if not close(value, row[f'first_solution_{name}_s']):
                     faults.append(f'{row["planner"]}: {name} {value}, not {row[f"first_solution_{name}_s"]}')
         picture = read_picture(output, 'perpendicular')
-        if picture is None:
-            faults.append('the picture of the problem has no map that paths can be drawn on')
+        if picture is None or 'data-planner' in picture.content:
+            faults.append('the picture of the problem has no map without paths')
+        elif not {row['planner'] for row in rows if row['solved'] != '0'} <= set(picture.paths):
+            faults.append(f'there are paths of {list(picture.paths)} in the picture')
         else:
-            # A stored path is drawn where the program itself has drawn it.
-            with open(os.path.join(output, 'runs.jsonl'), encoding='utf-8') as stream:
-                record = next(each for each in map(json.loads, list(stream)[1:]) if 'path' in each)
-            x, y, _ = record['path']['start']
-            place = f'{(x - picture.left) * picture.scale:.2f}'.rstrip('0').rstrip('.')
-            height = f'{(picture.top - y) * picture.scale:.2f}'.rstrip('0').rstrip('.')
-            with open(os.path.join(output, 'pictures', 'perpendicular.svg'), encoding='utf-8') as stream:
-                drawing = stream.read()
-            if f'<polyline points="{place},{height} ' not in drawing:
-                faults.append(f'no path begins at {place},{height} in the picture')
-            if '<polyline points="' + place in picture.content:
-                faults.append('the map still has paths on it')
+            path = picture.paths['improved_astar']
+            best = next(run for run in results.of('perpendicular', 'improved_astar') if run.number == path.run)
+            if len(path.cusps) != best.figure('cusps'):
+                faults.append(f'{len(path.cusps)} changes of direction are drawn, {best.figure("cusps")} are in the database')
         # Parts of a comparison that are put together elsewhere have a report with all runs and their paths.
         parts = []
         for part in ('1/2', '2/2'):
@@ -81,7 +74,7 @@ def main(program, scenarios):
                        stdout=subprocess.DEVNULL)
         with open(os.path.join(whole, 'report.html'), encoding='utf-8') as stream:
             report = stream.read()
-        if 'class="forward"' not in report or '<b>6</b><span>runs</span>' not in report:
+        if not re.search('<polyline class="(forward|reverse) "', report) or '<b>6</b><span>runs</span>' not in report:
             faults.append('the report of merged parts lacks runs or paths')
     for fault in faults:
         print(fault)

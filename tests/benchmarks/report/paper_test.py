@@ -4,6 +4,7 @@ import math
 import os
 import random
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from made_results import REPORT, record
 
 PAPER = os.path.join(REPORT, '..', 'paper')
 PAGE = os.path.join(PAPER, 'page', 'paper_page')
-sys.path[:0] = [os.path.join(PAPER, 'page'), REPORT]
+sys.path[:0] = [os.path.join(PAPER, 'page')]
 
 import factorial  # noqa: E402
 import ratios  # noqa: E402
@@ -177,13 +178,13 @@ class Page(unittest.TestCase):
                     for problem in problems for algorithm, variant in ALGORITHMS.items()]
             runs += [record(problem + '_reeds_shepp_rectangle', 'Car', 0, 'solved', 0.01, 30.0, None, **figures_of('l', 0))
                      for problem in problems]
-            made_results.write(os.path.join(self.folder, name), runs)
+            made_results.write_with_paths(os.path.join(self.folder, name), runs)
         for name, _ in studies('maps', MAPS):
             scenario = name.rsplit('_', 1)[1]
             variants = VARIANTS if name.startswith('factorial') else dict.fromkeys(ALGORITHMS.values())
-            made_results.write(os.path.join(self.folder, name),
-                               [record(f'{scenario}_{k:02}', variant, 0, 'solved', 0.01, 25.0, None, **figures_of(variant, k))
-                                for k in range(MAPS) for variant in variants])
+            made_results.write_with_paths(os.path.join(self.folder, name), [
+                record(f'{scenario}_{k:02}', variant, 0, 'solved', 0.01, 25.0, None, **figures_of(variant, k))
+                for k in range(MAPS) for variant in variants])
         for name in ('basic_astar', 'improved_astar'):
             with open(os.path.join(self.folder, f'drive_{name}.json'), 'w', encoding='utf-8') as stream:
                 json.dump({'trajectory': [{'t': 0.1 * k, 'acceleration': 0.5, 'steering': 0.1} for k in range(50)]}, stream)
@@ -214,24 +215,22 @@ class Page(unittest.TestCase):
 
     def test_a_run_that_had_to_wait_does_not_count(self):
         folder = os.path.join(self.folder, 'factorial_perpendicular')
-        with open(os.path.join(folder, 'runs.jsonl'), encoding='utf-8') as stream:
-            lines = [json.loads(line) for line in stream]
-        for line in lines[1:]:
-            if line['planner'] == 'wlbs' and line['experiment'] != 'perpendicular_00':
-                line['figures']['time'] += 0.02
-        made_results.write(folder, lines[1:], lines[0])
+        with sqlite3.connect(os.path.join(folder, 'benchmark.db')) as connection:
+            connection.execute("UPDATE runs SET time = time + 0.02 WHERE plannerid = (SELECT id FROM plannerConfigs WHERE name = "
+                               "'geometric_wlbs') AND experimentid != (SELECT id FROM experiments WHERE name = "
+                               "'perpendicular_00')")
+        connection.close()
         self.assertEqual(self.run_page().returncode, 0)
         rows = {row[0]: row for row in reversed(self.rows())}
         self.assertEqual(rows['planning: Experiment 5 / Improved A\\*'][4], 'unclear')
         self.assertEqual(rows['loading and planning: Experiment 5 / Improved A\\*'][4], 'differs')
 
     def test_bad_input(self):
-        broken = [('perpendicular', lambda file: made_results.write(os.path.dirname(file), [record('x', 'Car', 0, 'none')])),
-                  ('factorial_parallel', os.remove),
-                  ('drives_parallel', lambda file: made_results.write(
-                      os.path.dirname(file), [], {**made_results.HEADER, 'parking_benchmark': 1}))]
+        broken = [('perpendicular', lambda folder: made_results.write_with_paths(folder, [record('x', 'Car', 0, 'none')])),
+                  ('factorial_parallel', lambda folder: os.remove(os.path.join(folder, 'benchmark.db'))),
+                  ('drives_parallel', lambda folder: os.remove(os.path.join(folder, 'runs.jsonl')))]
         for name, spoil in broken:
-            spoil(os.path.join(self.folder, name, 'runs.jsonl'))
+            spoil(os.path.join(self.folder, name))
             done = self.run_page()
             self.assertEqual(done.returncode, 2, name)
             self.assertEqual(done.stderr.count('\n'), 1, done.stderr)

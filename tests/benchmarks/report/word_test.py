@@ -15,7 +15,7 @@ from made_results import REPORT, record
 
 PAPER = os.path.join(REPORT, '..', 'paper')
 PAGE = os.path.join(PAPER, 'page', 'word_page')
-sys.path[:0] = [os.path.join(PAPER, 'page'), REPORT]
+sys.path[:0] = [os.path.join(PAPER, 'page')]
 
 import word_study  # noqa: E402
 from paired import Comparison, compare  # noqa: E402
