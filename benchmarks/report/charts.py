@@ -13,7 +13,7 @@ from planner_statistics import median, median_ranks
 COLOURS = ('#3d85c6', '#e07b39', '#1f9e89', '#d1559b', '#9270d6', '#9b9b20', '#3aa9d6', '#8b8b8b')
 DASHES = ('solid', 'dash', 'dot')
 MAX_POINTS = 300       # of a curve, which is as many as a screen has
-STEPS = 140            # times at which medians over time are computed
+STEPS = 80             # times at which medians over time are computed
 FARTHEST_RATIO = 1000.0  # at which performance profiles end
 
 
@@ -53,13 +53,14 @@ def _curve(index, name, x, y, hover, **more):
             'hovertemplate': '%{fullData.name}: ' + hover + '<extra></extra>', **more}
 
 
-def _band(index, x, low, high):
+def _band(index, name, x, low, high, hover):
     """The area between two step curves, as two traces."""
-    common = {'type': 'scatter', 'mode': 'lines', 'meta': index, 'x': _digits(x), 'hoverinfo': 'skip',
-              'line': {'shape': 'hv', 'width': 0, 'color': colour_of(index)}}
     red, green, blue = (int(colour_of(index)[k:k + 2], 16) for k in (1, 3, 5))
-    return [{**common, 'y': _digits(low)},
-            {**common, 'y': _digits(high), 'fill': 'tonexty', 'fillcolor': f'rgba({red},{green},{blue},0.13)'}]
+    area = {'fill': 'tonexty', 'fillcolor': f'rgba({red},{green},{blue},0.13)'}
+    traces = [_curve(index, name, x, low, 'interval from ' + hover), _curve(index, name, x, high, 'interval to ' + hover, **area)]
+    for trace in traces:
+        trace['line']['width'] = 0
+    return traces
 
 
 def time_range(times, limit):
@@ -124,13 +125,13 @@ def length_chart(names, runs_of, limit):
     for index, points in curves.items():
         if points:
             points.append((high, *points[-1][1:]))
-            x, middle, begin, end = zip(*points)
+            x, middle, *_ = zip(*points)
             middles += middle
             known = [point for point in points if math.isfinite(point[3])]
+            hover = '%{y:.2f} m by %{x:.3s}s'
             if known:
-                traces += _band(index, *zip(*((x, begin, end) for x, _, begin, end in known)))
-            labels = [f'{shown(b)} to {shown(e)} m' for b, e in zip(begin, end)]
-            traces.append(_curve(index, names[index], x, middle, '%{y:.2f} m (%{text}) by %{x:.3s}s', text=labels))
+                traces += _band(index, names[index], *zip(*((x, begin, end) for x, _, begin, end in known)), hover)
+            traces.append(_curve(index, names[index], x, middle, hover))
     if not traces:
         return None
     wide = max(middles) > 4.0 * min(middles)
@@ -197,8 +198,9 @@ def expected_chart(names, expected, count, limit):
     for index, points in expected.items():
         points = [(low, 0.0, 0.0, 0.0), *points]
         x, y, begin, end = zip(*points, (high, *points[-1][1:]))
-        bands += _band(index, x, begin, end)
-        curves.append(_curve(index, names[index], x, y, '%{y:.1f} problems by %{x:.3s}s'))
+        hover = '%{y:.1f} problems by %{x:.3s}s'
+        bands += _band(index, names[index], x, begin, end, hover)
+        curves.append(_curve(index, names[index], x, y, hover))
     return _figure(bands + curves, _time_axis(low, high),
                    {'title': _title(f'problems solved, of {count}'), 'range': [-0.02 * count, 1.02 * count]})
 

@@ -13,30 +13,20 @@ import charts
 from formatting import percent, probability, shown, shown_in, shown_time
 from gallery import read_picture
 from planner_statistics import LEVEL, median, median_interval, quantile, share_interval
-from standings import WITHIN
+from standings import WITHIN, share_solved
 from tables import FILES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-MAX_DETAILED_RUNS = 20000  # of a comparison in which each dot names its run
-MAX_SECTIONS, MAX_GALLERIES, MAX_MATRIX, MAX_SETUPS = 4_500_000, 1_500_000, 1_000_000, 400_000  # bytes of a page
+# A page stays below 10 MB by leaving out the details of what exceeds these.
+MAX_DETAILED_RUNS = 20000                # of a comparison in which each dot names its run
+MAX_SECTION_CELLS, MAX_MATRIX_CELLS = 1000, 5000  # planners on problems
+MAX_GALLERIES, MAX_SETUPS = 25, 100      # problems
 BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
 
 # Further columns, shown where the runs have such figures. The file is made from the table in
 # benchmarks/comparison/RunColumns.cpp.
 with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
     COLUMNS = json.load(_columns)
-
-
-class Budget:
-    """The bytes of the page for one of its parts. Once something does not fit, nothing more does."""
-
-    def __init__(self, size):
-        self.left = size
-
-    def take(self, content):
-        size = len(content.encode())
-        self.left = self.left - size if size <= self.left else -1
-        return self.left >= 0
 
 
 @dataclasses.dataclass
@@ -95,7 +85,7 @@ def _interval_tip(interval, count):
     low, _, certainty = interval
     if not math.isfinite(low):
         return ''
-    return (f'{100 * certainty:.1f} % confidence interval of the median, from the ranks of {count} runs' if certainty
+    return (f'{100 * certainty:.1f} % confidence interval of the median of {count} runs' if certainty
             else f'range of the {count} runs: too few for a 95 % confidence interval')
 
 
@@ -148,9 +138,10 @@ def overall_table(results, table):
                               'length over best'], rows), uneven
 
 
-def matrix_rows(results, table, linked):
-    """Problems against planners: share solved as colour, median time as text. linked: problems with a section."""
-    for number, (problem, cells) in enumerate(table.items()):
+def matrix(results, table, count, linked):
+    """The first problems against planners: share solved as colour, median time as text. linked: problems with a section."""
+    rows = []
+    for number, (problem, cells) in enumerate(list(table.items())[:count]):
         figures = []
         for index, planner in enumerate(results.planners):
             cell = cells.get(index)
@@ -165,7 +156,8 @@ def matrix_rows(results, table, linked):
                 tip += f'; first solution after {label}, {_shown_length(cell.length)} (medians)'
             figures.append(Figure(label + (' ▲' if cell.invalid else ''), None, tip, 'some' if cell.solved else 'none', '',
                                   cell.solved / cell.count))
-        yield Row(problem, figures, None, f'#problem-{number}' if number < linked else '')
+        rows.append(Row(problem, figures, None, f'#problem-{number}' if number < linked else ''))
+    return _table('matrix', ['problem', *results.planners], rows, sortable=False)
 
 
 def _further_columns(results, folded):
@@ -191,8 +183,7 @@ def problem_table(results, cells, columns):
         marks = []
         if cell.invalid:
             marks.append(('invalid', f'▲ {cell.invalid} invalid', f'{cell.invalid} of {cell.count} runs ended with a path '
-                          'that the planner calls a solution and that is not valid in the second check, at poses 5 mm '
-                          'apart: failures'))
+                          'that the planner calls a solution and that fails the second check'))
         if cell.approximate:
             marks.append(('near', f'{cell.approximate} approximate', f'{cell.approximate} of {cell.count} runs ended with '
                           'a path that does not reach the goal'))
@@ -284,19 +275,14 @@ def class_table(results, standings):
     return _table('matrix', ['class', 'problems', *results.planners], rows, sortable=False)
 
 
-class Charts:
+class Charts(dict):
     """The figures of the page by name; the page draws each when it comes into view."""
 
-    def __init__(self):
-        self.figures = {}
-
     def add(self, name, title, figure, note='', wide=False):
+        """What the template knows of a figure, or of its absence (None)."""
         if figure is not None:
-            self.figures[name] = figure
+            self[name] = figure
         return {'name': name, 'title': title, 'note': note, 'wide': wide, 'height': figure and figure['layout']['height']}
-
-    def content(self):
-        return json.dumps(self.figures, separators=(',', ':'), allow_nan=False).replace('<', '\\u003c')
 
 
 def _field_context(results, field, number, made):
@@ -351,14 +337,7 @@ def _card(results, index, cell, path, link):
     return card
 
 
-def _path_files(folder):
-    try:
-        return set(os.listdir(os.path.join(folder, 'paths')))
-    except OSError:
-        return set()
-
-
-def _gallery(results, problem, cells, files):
+def _gallery(results, problem, cells):
     """Paths of all planners on a problem; None without a picture to draw them on."""
     picture = read_picture(results.folder, problem)
     names = results.planners
@@ -366,9 +345,9 @@ def _gallery(results, problem, cells, files):
         return None  # or one of other results
     cards = []
     for index, cell in cells.items():
-        path = picture.paths.get(results.planners[index])
-        name = f'{problem}-{results.planners[index]}-{path.run}.csv' if path else ''
-        cards.append(_card(results, index, cell, path, f'paths/{name}' if name in files else ''))
+        path = picture.paths.get(names[index])
+        file = f'paths/{problem}-{names[index]}-{path.run}.csv' if path else ''
+        cards.append(_card(results, index, cell, path, file if os.path.isfile(os.path.join(results.folder, file)) else ''))
     return {'picture': picture, 'cards': cards}
 
 
@@ -384,27 +363,9 @@ def _problem_context(results, number, problem, cells, columns, made):
         panels.append(made.add(f'strip-{number}', 'First solution of every run; bar: median with its 95 % interval',
                                charts.strip_chart(names, rows, results.time_limit, detailed), wide=True))
     return {'number': number, 'name': problem, 'table': problem_table(results, cells, columns[False]),
-            'further': further_table(results, cells, columns[True]), 'panels': panels}
-
-
-def _sections(results, table, made, render):
-    """The sections of the problems, as many as the page has room for."""
-    columns = {folded: _further_columns(results, folded) for folded in (False, True)}
-    files = _path_files(results.folder)
-    sections, galleries, out = Budget(MAX_SECTIONS), Budget(MAX_GALLERIES), []
-    for number, (problem, cells) in enumerate(table.items()):
-        own = Charts()
-        section = render.problem(_problem_context(results, number, problem, cells, columns, own))
-        if not sections.take(section + own.content()):
-            break
-        made.figures.update(own.figures)
-        gallery = _gallery(results, problem, cells, files) if galleries.left >= 0 else None
-        paths = render.gallery(number, problem, gallery) if gallery else ''
-        if not galleries.take(paths):
-            paths = render.note('To keep this page short, the paths are left out here; the folder pictures has the best of '
-                                'each planner.')
-        out += [section, paths]
-    return out
+            'further': further_table(results, cells, columns[True]), 'panels': panels,
+            'gallery': _gallery(results, problem, cells) if number < MAX_GALLERIES else None,
+            'is_without_paths': number >= MAX_GALLERIES}
 
 
 def _links(results):
@@ -442,34 +403,24 @@ def report_page(results, standings):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.globals.update(inf=math.inf, colour_of=charts.colour_of, dash_of=charts.dash_of)
-    template = environment.get_template('report.html')
-    macros = environment.get_template('macros.html').module
-    made = Charts()
-    everything = {index: [run for cells in table.values() if index in cells for run in cells[index].runs]
-                  for index in range(len(results.planners))}
+    made, problems, planners = Charts(), results.problems, results.planners
+    everything = {index: [run for run in results.runs if run.planner == planner] for index, planner in enumerate(planners)}
     success = made.add('success-all', 'Success over time, all problems',
-                       charts.success_chart(results.planners, everything, results.time_limit))
-    sections = _sections(results, table, made, macros)
-    shown_sections = len(sections) // 2
-    matrix, rows = Budget(MAX_MATRIX), []
-    for row in matrix_rows(results, table, shown_sections):
-        if not matrix.take(macros.row(row, False)):
-            break
-        rows.append(row)
-    setups = Budget(MAX_SETUPS)
+                       charts.success_chart(planners, everything, results.time_limit))
+    columns = {folded: _further_columns(results, folded) for folded in (False, True)}
+    sections = [_problem_context(results, number, problem, table[problem], columns, made)
+                for number, problem in enumerate(problems[:MAX_SECTION_CELLS // len(planners)])]
     overall, uneven = overall_table(results, table)
     facts = _facts(results)
-    solved = sum(run.solved for run in results.runs)
-    return template.render(
-        title='Parking benchmark: ' + ', '.join(results.labels), subtitle=' · '.join(
-            facts[what] for what in ('started', 'host', 'processor') if what in facts),
-        tiles=[(len(results.problems), 'problems'), (len(results.planners), 'planners'),
-               (f'{len(results.runs):,}'.replace(',', ' '), 'runs'), (shown_time(results.time_limit), 'time limit'),
-               (percent(solved / len(results.runs)), 'of all runs solved'),
+    return environment.get_template('report.html').render(
+        title='Parking benchmark: ' + ', '.join(results.labels),
+        subtitle=' · '.join(facts[what] for what in ('started', 'host', 'processor') if what in facts),
+        tiles=[(len(problems), 'problems'), (len(planners), 'planners'), (f'{len(results.runs):,}'.replace(',', ' '), 'runs'),
+               (shown_time(results.time_limit), 'time limit'), (percent(share_solved(results.runs)), 'of all runs solved'),
                (sum(run.invalid for run in results.runs), 'invalid solutions')],
-        planners=list(enumerate(results.planners)), overall=overall, uneven=uneven, success=success,
-        matrix=_table('matrix', ['problem', *results.planners], rows, sortable=False), problems=len(table),
-        standings=_standings_context(results, standings, made), sections=sections, shown_sections=shown_sections,
-        rechecked=results.rechecked, facts=facts, settings=results.settings, links=_links(results),
-        setups=[(name, text.strip()) for name, text in results.setups.items() if name in table and setups.take(text)],
-        charts=made.content(), plotly=_packed_plotly())
+        planners=list(enumerate(planners)), overall=overall, uneven=uneven, success=success,
+        matrix=matrix(results, table, MAX_MATRIX_CELLS // len(planners), len(sections)), problems=len(problems),
+        standings=_standings_context(results, standings, made), sections=sections, rechecked=results.rechecked, facts=facts,
+        settings=results.settings, links=_links(results),
+        setups=[(problem, results.setups[problem].strip()) for problem in problems[:MAX_SETUPS]],
+        charts=json.dumps(made, separators=(',', ':'), allow_nan=False).replace('<', '\\u003c'), plotly=_packed_plotly())
