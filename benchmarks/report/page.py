@@ -13,14 +13,14 @@ import charts
 from formatting import percent, probability, shown, shown_in, shown_time
 from gallery import read_picture
 from planner_statistics import LEVEL, median, median_interval, quantile, share_interval
-from standings import WITHIN, share_solved
+from standings import MEASURES, WITHIN, share_solved
 from tables import FILES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # A page stays below 10 MB by leaving out the details of what exceeds these.
-MAX_DETAILED_RUNS = 20000                # of a comparison in which each dot names its run
+MAX_DETAILED_RUNS = 20000  # of a comparison in which each dot names its run
 MAX_SECTION_CELLS, MAX_MATRIX_CELLS = 1000, 5000  # planners on problems
-MAX_GALLERIES, MAX_SETUPS = 25, 100      # problems
+MAX_GALLERIES, MAX_SETUPS = 25, 100  # problems
 BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
 
 # Further columns, shown where the runs have such figures. The file is made from the table in
@@ -76,22 +76,14 @@ class Cell:
         return median(self.values_of_solved(name))
 
 
-def _interval_note(interval, show):
-    low, high, _ = interval
-    return f'{show(low)} – {show(high)}' if math.isfinite(low) else ''
-
-
-def _interval_tip(interval, count):
-    low, _, certainty = interval
-    if not math.isfinite(low):
-        return ''
-    return (f'{100 * certainty:.1f} % confidence interval of the median of {count} runs' if certainty
-            else f'range of the {count} runs: too few for a 95 % confidence interval')
-
-
 def _median_figure(value, interval, count, show, best):
-    kind = ('best ' if best else '') + ('' if interval[2] else 'range')
-    return Figure(show(value), value, _interval_tip(interval, count), kind, _interval_note(interval, show))
+    low, high, certainty = interval
+    kind = ' '.join(word for word, holds in (('best', best), ('range', not certainty)) if holds)
+    if not math.isfinite(low):
+        return Figure(show(value), value, '', kind)
+    tip = (f'{100 * certainty:.1f} % confidence interval of the median of {count} runs' if certainty
+           else f'range of the {count} runs: too few for a 95 % confidence interval')
+    return Figure(show(value), value, tip, kind, f'{show(low)} – {show(high)}')
 
 
 def _share_figure(solved, count):
@@ -252,11 +244,7 @@ def pair_matrix(results, standings, measure):
             figures.append(Figure(f'{own}–{other}', None, _pair_tip(results, pair),
                                   'pair' + ('' if not pair.differ else ' better' if ahead else ' worse')))
         rows.append(Row(results.planners[first], figures, first))
-    return _table('matrix', [standings_name(measure), *(results.planners[index] for index in there)], rows, sortable=False)
-
-
-def standings_name(measure):
-    return {'time': 'time to the first solution', 'length': 'length of the path'}[measure]
+    return _table('matrix', [MEASURES[measure], *(results.planners[index] for index in there)], rows, sortable=False)
 
 
 def class_table(results, standings):
@@ -291,7 +279,7 @@ def _field_context(results, field, number, made):
     panels = [made.add(f'expected-{number}', 'Problems solved over time, expected for one try each; band: 95 %',
                        charts.expected_chart(names, field.expected, count, results.time_limit))]
     for measure, best in BEST.items():
-        panels.append(made.add(f'profile-{measure}-{number}', f'Performance profile: {standings_name(measure)}, median of '
+        panels.append(made.add(f'profile-{measure}-{number}', f'Performance profile: {MEASURES[measure]}, median of '
                                'each problem', charts.profile_chart(names, field.profiles[measure], best)))
     if count > 1 and len(field.planners) > 1:
         for measure, ranking in field.rankings.items():
@@ -300,7 +288,7 @@ def _field_context(results, field, number, made):
                     f'{probability(test.p)} (by F of Iman and Davenport). ')
             note += (f"Bars join neighbours that pairwise Wilcoxon tests with Holm's correction do not tell apart at "
                      f"{100 * LEVEL:.0f} %. Nemenyi's critical difference, for comparison: {shown(ranking.critical)} ranks.")
-            panels.append(made.add(f'ranks-{measure}-{number}', f'Mean rank by {standings_name(measure)}',
+            panels.append(made.add(f'ranks-{measure}-{number}', f'Mean rank by {MEASURES[measure]}',
                                    charts.rank_chart(names, ranking.ranks, ranking.groups), note))
     listed = ', '.join(field.problems[:6]) + (' …' if count > 6 else '')
     return {'title': f'{len(field.planners)} planner{"s"[:len(field.planners) > 1]} on {count} '
