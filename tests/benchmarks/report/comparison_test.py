@@ -76,6 +76,19 @@ def main(program, scenarios):
             report = stream.read()
         if not re.search('<polyline class="(forward|reverse) "', report) or '<b>6</b><span>runs</span>' not in report:
             faults.append('the report of merged parts lacks runs or paths')
+        # Where Python lacks the packages of the report, one line says so, and all else is there.
+        os.mkdir(os.path.join(folder, 'bin'))
+        with open(os.path.join(folder, 'bin', 'python3'), 'w', encoding='utf-8') as stream:
+            stream.write('#!/bin/sh\necho "make_report: Python packages are missing" >&2\nexit 3\n')
+        os.chmod(stream.name, 0o755)
+        poor = os.path.join(folder, 'poor')
+        done = subprocess.run([program, config, '--output', poor, '--runs', '1', '--quiet'], capture_output=True, text=True,
+                              env={**os.environ, 'PATH': os.path.dirname(stream.name) + ':' + os.environ['PATH']}, check=False)
+        if (done.returncode, done.stderr) != (0, f'parking_benchmark: {poor}/report.html: is not made: make_report: Python '
+                                              'packages are missing\n'):
+            faults.append(f'without the packages: status {done.returncode}, {done.stderr}')
+        if 'report.html' in os.listdir(poor) or not {'benchmark.db', 'summary.csv', 'pictures'} <= set(os.listdir(poor)):
+            faults.append(f'without the packages there are {os.listdir(poor)}')
     for fault in faults:
         print(fault)
     return 1 if faults else 0
