@@ -240,6 +240,9 @@ def read_results(*sources):
         results.labels.append(label)
     if not results.runs:
         raise ReportError(f'{results.sources[0]}: holds no runs')
+    if len(sources) > 1:  # those of one planner stand beside each other
+        names = [re.sub(r' \(.*\)$', '', planner) for planner in results.planners]
+        results.planners.sort(key=lambda planner: names.index(re.sub(r' \(.*\)$', '', planner)))
     limits = {float(value) for value in results.facts.get('timelimit', [])}
     results.time_limit = max(limits) if limits else math.nan
     return results

@@ -254,7 +254,7 @@ class PageTest(Folder):
         with open(self.path('page.html'), encoding='utf-8') as stream:
             page = Page(stream.read())
         self.assertEqual([(row[0], row[4]) for row in page.tables[0][1:]], [
-            ('p (old)', '200 ms 200 ms – 200 ms'), ('q', '200 ms 200 ms – 200 ms'), ('p (new)', '100 ms 100 ms – 100 ms'),
+            ('p (old)', '200 ms 200 ms – 200 ms'), ('p (new)', '100 ms 100 ms – 100 ms'), ('q', '200 ms 200 ms – 200 ms'),
             ('r', '100 ms 100 ms – 100 ms')])
         self.assertEqual(os.listdir(self.path('old')), ['benchmark.db'])
 
