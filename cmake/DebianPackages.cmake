@@ -59,7 +59,8 @@ for pkg-config. The component core needs nothing but Eigen.")
 
 set(CPACK_COMPONENT_PROGRAMS_DEPENDS libraries)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME ${parking_source})
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3, python3-improved-astar, python3-scipy")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
+  "python3, python3-improved-astar, python3-jinja2, python3-numpy, python3-plotly, python3-scipy")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Programs: parking_plan plans a parking problem, optimises and drives the
 path; parking_benchmark compares planners on many problems.")
 

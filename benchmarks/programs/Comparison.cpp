@@ -416,7 +416,7 @@ namespace parking
         try
         {
             if (options_.report)
-                files.report = makeReport(folder_, {files.database});
+                files.report = makeReport(folder_);
         }
         catch (const Error &error)
         {

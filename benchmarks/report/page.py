@@ -1,33 +1,55 @@
-"""The report: one HTML page that needs nothing else."""
-import datetime
+"""The report: one HTML page that needs nothing else. report.html is its template."""
+import base64
+import dataclasses
+import gzip
 import json
 import math
 import os
 
-from charts import (cost_chart, shown, shown_time, strip_chart, style_of, success_chart, text)
-from gallery import card, read_picture
-from order_statistics import median, median_interval, quantile, share_interval
-from standings.section import standings_html
-from standings.tables import FILES
+import jinja2
+import plotly.offline
+
+import charts
+from formatting import percent, probability, shown, shown_in, shown_time
+from gallery import read_picture
+from planner_statistics import LEVEL, median, median_interval, quantile, share_interval
+from standings import MEASURES, WITHIN, share_solved
+from tables import FILES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DOTS = 20000  # runs up to which each has a dot of its own that can be pointed at
+# A page stays below 10 MB by leaving out the details of what exceeds these.
+MAX_DETAILED_RUNS = 20000  # of a comparison in which each dot names its run
+MAX_SECTION_CELLS, MAX_MATRIX_CELLS = 1000, 5000  # planners on problems
+MAX_GALLERIES, MAX_SETUPS = 25, 100  # problems
+BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
+
+# Further columns, shown where the runs have such figures. The file is made from the table in
+# benchmarks/comparison/RunColumns.cpp.
+with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
+    COLUMNS = json.load(_columns)
 
 
-class Room:
-    """So many bytes of the page for one of its parts: what comes when they are used up is left to the files beside it."""
+@dataclasses.dataclass
+class Figure:
+    """A cell of a table."""
+    text: str
+    sort: float = None  # by which its column is sorted
+    tip: str = ''       # shown where it is pointed at, tapped or focused
+    kind: str = ''      # class in the style sheet
+    note: str = ''      # smaller, beside the text
+    share: float = None  # drawn as a bar or a colour
+    interval: tuple = None  # of the share
 
-    def __init__(self, size):
-        self.left = size
 
-    def take(self, content):
-        """Is there room for this text? Then it is taken; and once something did not fit, nothing more does."""
-        size = len(content.encode())
-        self.left = self.left - size if size <= self.left else -1
-        return self.left >= 0
-
-
-SECTIONS, GALLERIES, MATRIX, SETUPS = 5_000_000, 2_000_000, 1_600_000, 400_000  # bytes, so that a page stays below 10 MB
+@dataclasses.dataclass
+class Row:
+    """A line of a table: of a planner, or of a problem or class (index None)."""
+    name: str
+    figures: list
+    index: int = None
+    link: str = ''
+    tip: str = ''
+    marks: list = dataclasses.field(default_factory=list)  # (class, text, tip) beside the name
 
 
 class Cell:
@@ -39,376 +61,354 @@ class Cell:
         self.solved = sum(run.solved for run in runs)
         self.invalid = sum(run.invalid for run in runs)
         self.approximate = sum(run.approximate for run in runs)
-        self.share = share_interval(self.solved, self.count)
-        times = [run.time for run in runs]
+        times, lengths = [run.time for run in runs], [run.length for run in runs]
         self.time, self.time_interval = median(times), median_interval(times)
         self.quartiles = quantile(times, 0.25), quantile(times, 0.75)
-        lengths = [run.length for run in runs]
         self.length, self.length_interval = median(lengths), median_interval(lengths)
-        self.best = min(lengths)
+        self.shortest = min(lengths)
+
+    def values_of_solved(self, name):
+        values = [run.figure(name) for run in self.runs if run.solved]
+        return [value for value in values if not math.isnan(value)]
 
     def of_solved(self, name):
-        """Median of a property over the solved runs; NaN without one."""
-        return median([run.figure(name) for run in self.runs if run.solved and not math.isnan(run.figure(name))])
-
-    def share_of_solved(self, name):
-        """Share of the solved runs for which a property is true; NaN without one that has it."""
-        values = [run.figure(name) for run in self.runs if run.solved and not math.isnan(run.figure(name))]
-        return sum(values) / len(values) if values else math.nan
+        """Median of a column over the solved runs; NaN without one."""
+        return median(self.values_of_solved(name))
 
 
-def interval_html(interval, show, count):
-    """[low, high], or the range of values when there are too few for an interval."""
+def _median_figure(value, interval, count, show, best):
     low, high, certainty = interval
-    if math.isnan(low) or math.isinf(low):
-        return ''
-    tip = (f'{100 * certainty:.1f} % confidence interval of the median, from the ranks of {count} runs' if certainty
+    kind = ' '.join(word for word, holds in (('best', best), ('range', not certainty)) if holds)
+    if not math.isfinite(low):
+        return Figure(show(value), value, '', kind)
+    tip = (f'{100 * certainty:.1f} % confidence interval of the median of {count} runs' if certainty
            else f'range of the {count} runs: too few for a 95 % confidence interval')
-    return f' <span class="ci{"" if certainty else " range"}" data-tip="{tip}">{show(low)} – {show(high)}</span>'
+    return Figure(show(value), value, tip, kind, f'{show(low)} – {show(high)}')
 
 
-def share_html(solved, count, interval):
-    low, high = interval
-    tip = f'{solved} of {count} runs; 95 % confidence interval {100 * low:.0f} to {100 * high:.0f} %'
-    share = solved / count if count else 0.0
-    return (f'<td class="share" data-sort="{share:.4f}" data-tip="{tip}"><span class="bar"><i style="width:'
-            f'{100 * share:.1f}%"></i><u style="left:{100 * low:.1f}%;width:{100 * (high - low):.1f}%"></u></span>'
-            f'<span class="of"><b>{solved}</b>/{count}</span></td>')
+def _share_figure(solved, count):
+    low, high = share_interval(solved, count)
+    return Figure(f'{solved}/{count}', solved / max(1, count), f'{solved} of {count} runs; 95 % confidence interval '
+                  f'{100 * low:.0f} to {100 * high:.0f} %', 'share', '', solved / max(1, count), (low, high))
 
 
-def swatch(index):
-    name, dash = style_of(index)
-    return (f'<svg class="swatch" viewBox="0 0 24 10" aria-hidden="true"><path class="curve {name}"{dash} '
-            'd="M1 5H23"/></svg>')
+def _shown_length(value):
+    return shown_in(value, 'm', 4)
 
 
-def sortable(value):
-    return f' data-sort="{value:.9g}"' if math.isfinite(value) else ' data-sort="inf"'
-
-
-# Further columns, shown where the runs have such figures: column, heading, factor, unit. The file is made from the
-# table in benchmarks/comparison/RunColumns.cpp.
-with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
-    EXTRA = [(column['name'], column['heading'], column['factor'], column['unit'], column['share'], column['folded'])
-             for column in json.load(_columns)]
-
-
-def extra_columns(results, folded):
-    """Loading the map matters beside the drive only: otherwise it is the same for all."""
-    there = {name for name, *_ in EXTRA for run in results.runs[:2000] if not math.isnan(run.figure(name))}
-    if 'travel time' not in there:
-        there.discard('map loading time')
-    return [column[:5] for column in EXTRA if column[0] in there and column[5] == folded]
-
-
-def extra_cells(cell, extra):
-    values = [(factor * (cell.share_of_solved(name) if share else cell.of_solved(name)), unit)
-              for name, _, factor, unit, share in extra]
-    return ''.join(f'<td{sortable(value)}>{shown(value)}{f" {unit}" if value == value else ""}</td>'
-                   for value, unit in values)
-
-
-def more_table(results, cells, more):
-    """Further figures of the paths and drives, folded up; empty where no planner has any."""
-    rows = [(index, extra_cells(cell, more)) for index, cell in cells.items() if cell.solved]
-    if not more or not rows:
-        return ''
-    return ('<details><summary>Further figures: medians over the solved runs, goals attained as a share of them</summary><div class="scroll"><table class="figures '
-            'sortable"><thead><tr><th class=name>planner</th>' + ''.join(f'<th>{heading}</th>' for _, heading, *_ in more)
-            + '</tr></thead><tbody>'
-            + ''.join(f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(results.planners[index])}</th>{row}</tr>'
-                      for index, row in rows) + '</tbody></table></div></details>')
-
-
-def problem_table(results, cells, extra):
-    head = ['planner', 'solved', 'first solution, median', 'quartiles', 'length, median', 'cusps', 'clearance']
-    rows = [f'<th{" class=name" if k == 0 else ""}>{name}</th>' for k, name in enumerate(head)]
-    rows += [f'<th>{heading}</th>' for _, heading, *_ in extra]
-    out = [f'<div class="scroll"><table class="figures sortable"><thead><tr>{"".join(rows)}</tr></thead><tbody>']
-    best_time = min((cell.time for cell in cells.values()), default=math.inf)
-    best_length = min((cell.length for cell in cells.values()), default=math.inf)
-    for index, cell in cells.items():
-        name = results.planners[index]
-        marks = ''
-        if cell.invalid:
-            marks = (f' <span class="invalid" data-tip="{cell.invalid} of {cell.count} runs ended with a path that the '
-                     f'planner calls a solution and that is not valid when checked again every 5 mm: failures">'
-                     f'▲ {cell.invalid} invalid</span>')
-        if cell.approximate:
-            marks += (f' <span class="near" data-tip="{cell.approximate} of {cell.count} runs ended with a path that '
-                      f'does not reach the goal">{cell.approximate} approximate</span>')
-        low, high = cell.quartiles
-        time_class = ' class="best"' if cell.time == best_time < math.inf else ''
-        length_class = ' class="best"' if cell.length <= best_length * 1.001 and best_length < math.inf else ''
-        cusps, clearance = cell.of_solved('cusps'), cell.of_solved('least clearance')
-        out.append(
-            f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(name)}{marks}</th>'
-            f'{share_html(cell.solved, cell.count, cell.share)}'
-            f'<td{time_class}{sortable(cell.time)}><b>{shown_time(cell.time)}</b>'
-            f'{interval_html(cell.time_interval, shown_time, cell.count)}</td>'
-            f'<td class="soft"{sortable(low)}>'
-            f'{f"{shown_time(low)} – {shown_time(high)}" if math.isfinite(low) else "–"}</td>'
-            f'<td{length_class}{sortable(cell.length)}><b>{shown(cell.length, 4)}{" m" if math.isfinite(cell.length) else ""}</b>'
-            f'{interval_html(cell.length_interval, lambda v: shown(v, 4), cell.count)}</td>'
-            f'<td{sortable(cusps)}>{f"{cusps:g}" if cusps == cusps else "–"}</td>'
-            f'<td{sortable(clearance)}>{f"{100 * clearance:.1f} cm" if clearance == clearance else "–"}</td>')
-        out.append(extra_cells(cell, extra) + '</tr>')
-    return ''.join(out) + '</tbody></table></div>'
-
-
-def overall_rows(results, table):
-    """(index, problems run on, problems solved in every run, runs solved, runs, share interval, invalid, median time,
-    interval, median of its length over the best known) for each planner."""
-    best_known = {problem: min((cell.best for cell in cells.values()), default=math.inf)
-                  for problem, cells in table.items()}
-    rows = []
-    for index in range(len(results.planners)):
-        cells = [(problem, table[problem][index]) for problem in results.problems if index in table[problem]]
-        solved, count = sum(cell.solved for _, cell in cells), sum(cell.count for _, cell in cells)
-        times = [run.time for _, cell in cells for run in cell.runs]
-        ratios = [cell.length / best_known[problem] for problem, cell in cells if math.isfinite(best_known[problem])]
-        rows.append((index, len(cells), sum(cell.solved == cell.count for _, cell in cells), solved, count,
-                     share_interval(solved, count), sum(cell.invalid for _, cell in cells), median(times),
-                     median_interval(times), median(ratios) if ratios else math.nan, len(ratios)))
-    return rows
+def _table(kind, headings, rows, sortable=True, foot=None):
+    return {'kind': kind, 'headings': headings, 'rows': rows, 'sortable': sortable, 'foot': foot}
 
 
 def overall_table(results, table):
-    out = ['<div class="scroll"><table class="figures sortable"><thead><tr><th class=name>planner</th><th>runs solved'
-           '</th><th>always<br>solved</th><th>invalid</th><th>first solution,<br>median</th>'
-           '<th>length<br>over best</th></tr></thead><tbody>']
-    rows = overall_rows(results, table)
-    # Who was run on fewer problems than others is not to be compared with them.
-    most = max(row[1] for row in rows)
-    best_time = min(row[7] for row in rows if row[1] == most)
-    for index, problems, always, solved, count, interval, invalid, time, time_interval, ratio, compared in rows:
-        share = share_html(solved, count, interval)
-        tip = (f'median over {compared} problems of its median length, divided by the shortest solution that any planner '
-               'found; infinite where it solves fewer than half of its runs')
-        out.append(f'<tr data-p="{index}"><th class="name">{swatch(index)}{text(results.planners[index])}</th>{share}'
-                   f'<td data-sort="{always / max(1, problems):.4f}" data-tip="{always} of {problems} problems solved in '
-                   f'every run">{always}/{problems}</td>'
-                   f'<td data-sort="{invalid}">{f"<span class=invalid>▲ {invalid}</span>" if invalid else "0"}</td>'
-                   f'<td{" class=best" if problems == most and time == best_time < math.inf else ""}'
-                   f'{sortable(time)}><b>{shown_time(time)}</b>'
-                   f'{interval_html(time_interval, shown_time, count)}</td>'
-                   f'<td{sortable(ratio)} data-tip="{tip}">{shown(ratio)}</td></tr>')
-    note = ''
-    if any(row[1] < most for row in rows):
-        note = ('<p class="note">Each planner on the problems that it was run on: compare only those that share them.</p>')
-    return ''.join(out) + '</tbody></table></div>' + note
+    """All planners over all their problems."""
+    shortest = {problem: min((cell.shortest for cell in cells.values()), default=math.inf)
+                for problem, cells in table.items()}
+    cells_of = {index: [(problem, cells[index]) for problem, cells in table.items() if index in cells]
+                for index in range(len(results.planners))}
+    # Planners that were run on fewer problems than others are not to be compared with them.
+    most = max(map(len, cells_of.values()))
+    times = {index: [run.time for _, cell in cells for run in cell.runs] for index, cells in cells_of.items()}
+    best = min(median(times[index]) for index, cells in cells_of.items() if len(cells) == most)
+    rows = []
+    for index, cells in cells_of.items():
+        time, interval = median(times[index]), median_interval(times[index])
+        always = sum(cell.solved == cell.count for _, cell in cells)
+        invalid = sum(cell.invalid for _, cell in cells)
+        ratios = [cell.length / shortest[problem] for problem, cell in cells if math.isfinite(shortest[problem])]
+        ratio = median(ratios)
+        rows.append(Row(results.planners[index], [
+            _share_figure(sum(cell.solved for _, cell in cells), len(times[index])),
+            Figure(f'{always}/{len(cells)}', always / max(1, len(cells)),
+                   f'{always} of {len(cells)} problems solved in every run'),
+            Figure(f'▲ {invalid}' if invalid else '0', invalid, '', 'invalid' if invalid else ''),
+            _median_figure(time, interval, len(times[index]), shown_time, len(cells) == most and time == best < math.inf),
+            Figure(shown(ratio), ratio, f'median over {len(ratios)} problems of its median length, divided by the shortest '
+                   'solution that any planner found; infinite where it solves fewer than half of its runs')], index))
+    uneven = any(len(cells) < most for cells in cells_of.values())
+    return _table('figures', ['planner', 'runs solved', 'always solved', 'invalid', 'first solution, median',
+                              'length over best'], rows), uneven
 
 
-def matrix(results, table, sections):
-    """Problems against planners: share solved as colour, median time as text. sections: problems that have one."""
-    room = Room(MATRIX)
-    head = ''.join(f'<th data-p="{index}"><span>{text(name)}</span></th>'
-                   for index, name in enumerate(results.planners))
-    out = [f'<div class="scroll"><table class="matrix"><thead><tr><th class="name">problem</th>{head}</tr></thead><tbody>']
-    for number, problem in enumerate(results.problems):
-        link = f'<a href="#problem-{number}">{text(problem)}</a>' if number < sections else text(problem)
-        row = [f'<tr><th class="name">{link}</th>']
-        for index, name in enumerate(results.planners):
-            cell = table[problem].get(index)
+def matrix(results, table, count, linked):
+    """The first problems against planners: share solved as colour, median time as text. linked: problems with a section."""
+    rows = []
+    for number, (problem, cells) in enumerate(list(table.items())[:count]):
+        figures = []
+        for index, planner in enumerate(results.planners):
+            cell = cells.get(index)
             if cell is None:
-                row.append(f'<td class="absent" data-p="{index}"></td>')
+                figures.append(Figure('', kind='absent'))
                 continue
-            share = cell.solved / cell.count
-            tip = f'{name} on {problem}: {cell.solved} of {cell.count} runs solved'
-            if cell.invalid:
-                tip += f', {cell.invalid} invalid'
+            tip = f'{planner} on {problem}: {cell.solved} of {cell.count} runs solved'
+            tip += f', {cell.invalid} invalid' if cell.invalid else ''
+            label = f'{cell.solved}/{cell.count}'
             if math.isfinite(cell.time):
-                tip += f'; first solution after {shown_time(cell.time)}, {shown(cell.length, 4)} m (medians)'
-            label = shown_time(cell.time) if math.isfinite(cell.time) else f'{cell.solved}/{cell.count}'
-            mark = '<em>▲</em>' if cell.invalid else ''
-            row.append(f'<td data-p="{index}" class="{"none" if share == 0 else "some"}" style="--share:'
-                       f'{100 * share:.0f}" data-tip="{text(tip)}">{label}{mark}</td>')
-        row = ''.join(row) + '</tr>'
-        if not room.take(row):
-            return ''.join(out) + '</tbody></table></div>' + left_out('rows', number, len(results.problems))
-        out.append(row)
-    return ''.join(out) + '</tbody></table></div>'
+                label = shown_time(cell.time)
+                tip += f'; first solution after {label}, {_shown_length(cell.length)} (medians)'
+            figures.append(Figure(label + (' ▲' if cell.invalid else ''), None, tip, 'some' if cell.solved else 'none', '',
+                                  cell.solved / cell.count))
+        rows.append(Row(problem, figures, None, f'#problem-{number}' if number < linked else ''))
+    return _table('matrix', ['problem', *results.planners], rows, sortable=False)
 
 
-def left_out(what, count, all_of_them):
-    """What is said where the page would become too long."""
-    return (f'<p class="note">To keep this page short, {what} of {all_of_them - count} of the {all_of_them} problems are left '
-            'out here. They count in all figures about several problems; summary.csv has their own.</p>')
+def _further_columns(results, folded):
+    """Columns that any run has. Loading the map matters beside a drive only: otherwise it is the same for all."""
+    there = [column for column in COLUMNS if column['folded'] == folded
+             and any(not math.isnan(run.figure(column['name'])) for run in results.runs[:2000])]
+    driven = any(not math.isnan(run.figure('travel time')) for run in results.runs[:2000])
+    return [column for column in there if driven or column['name'] != 'map loading time']
 
 
-def settings_html(results):
-    out = []
-    for index, name in enumerate(results.planners):
-        settings = results.settings.get(name, {})
-        entries = ''.join(f'<dt>{text(key)}</dt><dd>{text(value)}</dd>' for key, value in sorted(settings.items()))
-        out.append(f'<details><summary>{swatch(index)}{text(name)}</summary><dl class="settings">'
-                   f'{entries or "<dt>no parameters</dt><dd></dd>"}</dl></details>')
-    return ''.join(out)
+def _further_figures(cell, columns):
+    for column in columns:
+        values = cell.values_of_solved(column['name'])
+        value = column['factor'] * (sum(values) / max(1, len(values)) if column['share'] and values else median(values))
+        yield Figure(shown_in(value, column['unit']), value)
 
 
-def cpu_model(text_of_cpu):
-    fields = dict(line.split(':', 1) for line in text_of_cpu.splitlines() if ':' in line)
-    return ' '.join(fields.get('Model name', '').split())
+def problem_table(results, cells, columns):
+    best_time = min((cell.time for cell in cells.values()), default=math.inf)
+    best_length = min((cell.length for cell in cells.values()), default=math.inf)
+    rows = []
+    for index, cell in cells.items():
+        marks = []
+        if cell.invalid:
+            marks.append(('invalid', f'▲ {cell.invalid} invalid', f'{cell.invalid} of {cell.count} runs ended with a path '
+                          'that the planner calls a solution and that fails the second check'))
+        if cell.approximate:
+            marks.append(('near', f'{cell.approximate} approximate', f'{cell.approximate} of {cell.count} runs ended with '
+                          'a path that does not reach the goal'))
+        low, high = cell.quartiles
+        cusps, clearance = cell.of_solved('cusps'), cell.of_solved('least clearance')
+        rows.append(Row(results.planners[index], [
+            _share_figure(cell.solved, cell.count),
+            _median_figure(cell.time, cell.time_interval, cell.count, shown_time, cell.time == best_time < math.inf),
+            Figure(f'{shown_time(low)} – {shown_time(high)}' if math.isfinite(low) else '–', low, '', 'soft'),
+            _median_figure(cell.length, cell.length_interval, cell.count, _shown_length,
+                           cell.length <= 1.001 * best_length and best_length < math.inf),
+            Figure('–' if math.isnan(cusps) else f'{cusps:g}', cusps),
+            Figure(shown_in(100.0 * clearance, 'cm'), clearance), *_further_figures(cell, columns)], index, marks=marks))
+    return _table('figures', ['planner', 'solved', 'first solution, median', 'quartiles', 'length, median', 'cusps',
+                              'clearance', *(column['heading'] for column in columns)], rows)
 
 
-def links(results):
-    """Files beside the report, as (name, what it is)."""
-    kinds = [('benchmark.db', 'all runs, in the schema of OMPL; Planner Arena opens it'),
-             ('summary.csv', 'medians and intervals'), ('summary.md', 'the table of the terminal')]
-    found = [(name, what) for name, what in kinds if os.path.isfile(os.path.join(results.folder, name))]
-    for name in sorted(os.listdir(results.folder)):
-        if name.startswith('runs') and name.endswith('.jsonl'):
-            found.append((name, 'every run with its path, a line of JSON each'))
-    for problem in results.problems:
-        for name, what in ((problem + '.log', f'log of OMPL, {problem}'),
-                           (f'pictures/{problem}.svg', f'best path of each planner, {problem}')):
-            if os.path.isfile(os.path.join(results.folder, name)):
-                found.append((name, what))
-    return found
+def further_table(results, cells, columns):
+    """Further figures of paths and drives; None where no planner has any."""
+    rows = [Row(results.planners[index], list(_further_figures(cell, columns)), index)
+            for index, cell in cells.items() if cell.solved]
+    return _table('figures', ['planner', *(column['heading'] for column in columns)], rows) if columns and rows else None
 
 
-def path_links(results):
-    """(problem, planner, run) -> file of states."""
-    try:
-        names = set(os.listdir(os.path.join(results.folder, 'paths')))
-    except OSError:
-        return {}
-    found = {}
-    for run in results.runs:
-        name = f'{run.problem}-{run.planner}-{run.number}.csv'
-        if name in names:
-            found[run.problem, run.planner] = 'paths/' + name
-    return found
+def field_table(results, field):
+    count = len(field.problems)
+    least = min(row.par10 for row in field.rows)
+    rows = []
+    for row in field.rows:
+        figures = [Figure(f'{row.expected:.2f}', row.expected, f'{row.solved} of {row.runs} runs'),
+                   Figure(shown_time(row.par10), row.par10, '', 'best' if row.par10 == least and row.solved else '')]
+        for measure in WITHIN:
+            figures.append(Figure(f'{row.rank[measure]:.2f}', row.rank[measure]))
+            shares = (row.within[measure, ratio] for ratio in WITHIN[measure])
+            figures += [Figure(percent(share), share, f'{round(share * count)} of {count} problems') for share in shares]
+        rows.append(Row(results.planners[row.index], figures, row.index))
+    headings = ['planner', f'problems solved, expected of {count}', 'PAR-10']
+    for measure, first in (('time', 'best'), ('length', 'shortest')):
+        headings += [f'rank, {measure}', *(f'≤ {ratio:g} ×' if ratio > 1.0 else first for ratio in WITHIN[measure])]
+    foot = Row('virtual best', [Figure(str(field.best_solved)), Figure(shown_time(field.best_par10))]
+               + [Figure('')] * (len(headings) - 3))
+    return _table('figures', headings, rows, foot=foot)
 
 
-def tile(value, what, tip=''):
-    return f'<div class="tile"{f" data-tip={chr(34)}{text(tip)}{chr(34)}" if tip else ""}><b>{value}</b><span>{what}</span></div>'
+def _pair_tip(results, pair):
+    first, second = results.planners[pair.first], results.planners[pair.second]
+    return (f'{first} against {second}: better on {pair.wins}, alike on {pair.ties}, worse on {pair.losses} of '
+            f'{pair.problems} problems; median ratio {shown(pair.ratio)}; Wilcoxon {probability(pair.wilcoxon.p)}, Holm '
+            f'{probability(pair.wilcoxon_holm)}; sign test {probability(pair.sign)}, Holm {probability(pair.sign_holm)}')
 
 
-def problem_section(results, number, problem, cells, extra, more, charts):
-    """Tables and charts of a problem; the section is left open."""
-    runs_of = {index: cell.runs for index, cell in cells.items()}
-    out = [f'<section class="problem" id="problem-{number}"><h2>{text(problem)}</h2>']
-    out += [problem_table(results, cells, extra), more_table(results, cells, more)]
-    out.append('<div class="charts">')
-    made = [(f'success-{number}', 'Success over time', success_chart(f'success-{number}', f'success over time, {problem}',
-                                                                   runs_of, results.time_limit)),
-            (f'cost-{number}', 'Length over time, median', cost_chart(f'cost-{number}', f'length over time, {problem}',
-                                                                    runs_of, results.time_limit))]
-    for identifier, title, chart in made:
-        if chart is None:
-            out.append(f'<figure class="panel"><figcaption>{title}</figcaption><p class="empty">No planner solves half of '
-                       'its runs: the median is infinite throughout.</p></figure>')
-            continue
-        charts[identifier] = chart[1]
-        out.append(f'<figure class="panel"><figcaption>{title}</figcaption>{chart[0]}</figure>')
-    rows = [(index, results.planners[index], cell.runs, cell.time, cell.time_interval) for index, cell in cells.items()
-            if cell.solved]
-    if rows:
-        out.append('<figure class="panel wide"><figcaption>First solution of every run; bar: median with its 95 % '
-                   f'interval</figcaption>{strip_chart(f"strip-{number}", problem, rows, results.time_limit, len(results.runs) <= DOTS)}'
-                   '</figure>')
-    out.append('</div>')
-    return ''.join(out)
+def pair_matrix(results, standings, measure):
+    """Row against column: problems won and lost; coloured where the difference is significant."""
+    found = {(pair.first, pair.second): pair for pair in standings.pairs if pair.measure == measure}
+    there = sorted({index for pair in found for index in pair})
+    rows = []
+    for first in there:
+        figures = []
+        for second in there:
+            pair = found.get((min(first, second), max(first, second)))
+            if pair is None or first == second:
+                figures.append(Figure('', kind='absent'))
+                continue
+            own, other = (pair.wins, pair.losses) if first < second else (pair.losses, pair.wins)
+            ahead = pair.first_is_better == (first < second)
+            figures.append(Figure(f'{own}–{other}', None, _pair_tip(results, pair),
+                                  'pair' + ('' if not pair.differ else ' better' if ahead else ' worse')))
+        rows.append(Row(results.planners[first], figures, first))
+    return _table('matrix', [MEASURES[measure], *(results.planners[index] for index in there)], rows, sortable=False)
 
 
-def gallery(results, number, problem, cells, files):
-    """Paths of all planners on a problem; empty without a picture to draw them on."""
+def class_table(results, standings):
+    rows = []
+    for name, problems in standings.classes.items():
+        figures = [Figure(str(len(problems)), kind='absent')]
+        for index, planner in enumerate(results.planners):
+            if (name, index) not in standings.of_class:
+                figures.append(Figure('', kind='absent'))
+                continue
+            count, runs, solved, share, par10 = standings.of_class[name, index]
+            figures.append(Figure(percent(share), None, f'{planner}, {name}: {solved} of {runs} runs solved on {count} '
+                                  f'problems, {percent(share)} of a problem expected; PAR-10 {shown_time(par10)}',
+                                  'some' if solved else 'none', shown_time(par10), share))
+        rows.append(Row(name, figures, tip=', '.join(problems[:12]) + (' …' if len(problems) > 12 else '')))
+    return _table('matrix', ['class', 'problems', *results.planners], rows, sortable=False)
+
+
+class Charts(dict):
+    """The figures of the page by name; the page draws each when it comes into view."""
+
+    def add(self, name, title, figure, note='', wide=False):
+        """What the template knows of a figure, or of its absence (None)."""
+        if figure is not None:
+            self[name] = figure
+        return {'name': name, 'title': title, 'note': note, 'wide': wide, 'height': figure and figure['layout']['height']}
+
+
+def _field_context(results, field, number, made):
+    """A field of the standings: its table and charts."""
+    names, count = results.planners, len(field.problems)
+    panels = [made.add(f'expected-{number}', 'Problems solved over time, expected for one try each; band: 95 %',
+                       charts.expected_chart(names, field.expected, count, results.time_limit))]
+    for measure, best in BEST.items():
+        panels.append(made.add(f'profile-{measure}-{number}', f'Performance profile: {MEASURES[measure]}, median of '
+                               'each problem', charts.profile_chart(names, field.profiles[measure], best)))
+    if count > 1 and len(field.planners) > 1:
+        for measure, ranking in field.rankings.items():
+            test = ranking.friedman
+            note = ('' if test is None else f'Friedman over {count} problems: χ² = {shown(test.chi_square)}, '
+                    f'{probability(test.p)} (by F of Iman and Davenport). ')
+            note += (f"Bars join neighbours that pairwise Wilcoxon tests with Holm's correction do not tell apart at "
+                     f"{100 * LEVEL:.0f} %. Nemenyi's critical difference, for comparison: {shown(ranking.critical)} ranks.")
+            panels.append(made.add(f'ranks-{measure}-{number}', f'Mean rank by {MEASURES[measure]}',
+                                   charts.rank_chart(names, ranking.ranks, ranking.groups), note))
+    listed = ', '.join(field.problems[:6]) + (' …' if count > 6 else '')
+    return {'title': f'{len(field.planners)} planner{"s"[:len(field.planners) > 1]} on {count} '
+                     f'problem{"s"[:count > 1]}: {listed}', 'table': field_table(results, field), 'panels': panels}
+
+
+def _standings_context(results, standings, made):
+    compared = [field for field in standings.fields if len(field.planners) > 1] or standings.fields[:1]
+    classes = standings.classes
+    return {
+        'fields': [_field_context(results, field, number, made) for number, field in enumerate(compared)],
+        'several': len(standings.fields) > 1,
+        'alone': [results.planners[index] for field in standings.fields if field not in compared
+                  for index in field.planners],
+        'pairs': [pair_matrix(results, standings, measure) for measure in BEST] if standings.pairs else [],
+        'pair_problems': max((pair.problems for pair in standings.pairs), default=0),
+        'classes': class_table(results, standings) if 1 < len(classes) < len(results.problems) else None}
+
+
+def _card(results, index, cell, path, link):
+    """What stands below a planner's path."""
+    best = next((run for run in cell.runs if path and run.number == path.run), None)
+    card = {'index': index, 'name': results.planners[index], 'link': link, 'path': path if best else None, 'kind': '',
+            'count': f'{cell.solved}/{cell.count}', 'text': 'no path'}
+    if best and best.solved:
+        changes, clearance = best.figure('cusps'), best.figure('least clearance')
+        card['text'] = (_shown_length(best.length)
+                        + ('' if math.isnan(changes) else f', {changes:.0f} change{"s"[:changes != 1]} of direction')
+                        + ('' if math.isnan(clearance) else f', clearance {100 * clearance:.1f} cm'))
+    elif best and best.invalid:
+        card.update(kind='bad', text='invalid: fails the second check')
+    elif best:
+        card.update(kind='approximate', text=f'approximate, ends {shown(best.figure("distance to goal"))} m from the goal')
+    return card
+
+
+def _gallery(results, problem, cells):
+    """Paths of all planners on a problem; None without a picture to draw them on."""
     picture = read_picture(results.folder, problem)
-    out = []
-    if picture is not None:
-        out.append(f'<h3>Paths</h3><svg class="symbols" aria-hidden="true"><symbol id="map-{number}" viewBox="0 0 '
-                   f'{picture.width:g} {picture.height:g}">{picture.content}</symbol></svg><p class="key"><span class="forward">forwards</span>, '
-                   '<span class="reverse">in reverse</span>; ○ change of direction; thin: solutions of the other runs. '
-                   'The number is that of solved runs.</p><div class="gallery">')
-        for index, cell in cells.items():
-            name = results.planners[index]
-            out.append(card(problem, f'map-{number}', picture, index, name, cell.runs, files.get((problem, name))))
-        out.append('</div>')
-    return ''.join(out)
+    names = results.planners
+    if picture is None or any(cell.solved and names[index] not in picture.paths for index, cell in cells.items()):
+        return None  # or one of other results
+    cards = []
+    for index, cell in cells.items():
+        path = picture.paths.get(names[index])
+        file = f'paths/{problem}-{names[index]}-{path.run}.csv' if path else ''
+        cards.append(_card(results, index, cell, path, file if os.path.isfile(os.path.join(results.folder, file)) else ''))
+    return {'picture': picture, 'cards': cards}
 
 
-def problem_sections(results, table, charts):
-    """The sections, and how many there are: as many as the page has room for. The data of curves is added to charts."""
-    extra, more, files = extra_columns(results, False), extra_columns(results, True), path_links(results)
-    room, room_for_paths, out = Room(SECTIONS), Room(GALLERIES), []
-    for number, problem in enumerate(results.problems):
-        own = {}
-        section = problem_section(results, number, problem, table[problem], extra, more, own)
-        if not room.take(section + json.dumps(own)):
-            return ''.join(out) + left_out('sections', number, len(results.problems)), number
-        charts.update(own)
-        paths = gallery(results, number, problem, table[problem], files) if room_for_paths.left >= 0 else ''
-        out += [section, paths if room_for_paths.take(paths) else '<p class="note">To keep this page short, the paths are left '
-                'out here; the folder pictures has the best of each planner.</p>', '</section>']
-    return ''.join(out), len(results.problems)
+def _problem_context(results, number, problem, cells, columns, made):
+    names = results.planners
+    runs_of = {index: cell.runs for index, cell in cells.items()}
+    panels = [made.add(f'success-{number}', 'Success over time', charts.success_chart(names, runs_of, results.time_limit)),
+              made.add(f'length-{number}', 'Length over time, median',
+                       charts.length_chart(names, runs_of, results.time_limit))]
+    rows = [(index, cell.runs, cell.time, cell.time_interval) for index, cell in cells.items() if cell.solved]
+    if rows:
+        detailed = len(results.runs) <= MAX_DETAILED_RUNS
+        panels.append(made.add(f'strip-{number}', 'First solution of every run; bar: median with its 95 % interval',
+                               charts.strip_chart(names, rows, results.time_limit, detailed), wide=True))
+    return {'number': number, 'name': problem, 'table': problem_table(results, cells, columns[False]),
+            'further': further_table(results, cells, columns[True]), 'panels': panels,
+            'gallery': _gallery(results, problem, cells) if number < MAX_GALLERIES else None,
+            'is_without_paths': number >= MAX_GALLERIES}
 
 
-def setups_html(results, table):
-    room, out = Room(SETUPS), []
-    for name, setup in results.setups.items():
-        if name in table:
-            fold = f'<details><summary>{text(name)}</summary><pre>{text(setup.strip())}</pre></details>'
-            if not room.take(fold):
-                return ''.join(out) + left_out('setups', len(out), len(table))
-            out.append(fold)
-    return ''.join(out)
+def _links(results):
+    """Files beside the report, as (name, what it is)."""
+    files = [('benchmark.db', 'all runs, in the schema of OMPL; Planner Arena opens it'),
+             ('summary.csv', 'medians and intervals'), ('summary.md', 'the table of the terminal')]
+    for problem in results.problems:
+        files += [(problem + '.log', f'log of OMPL, {problem}'),
+                  (f'pictures/{problem}.svg', f'best path of each planner, {problem}')]
+    return [*FILES.items(), *((name, what) for name, what in files if os.path.isfile(os.path.join(results.folder, name)))]
 
 
-def report_page(results, standing):
-    """The whole page as text; standing: the planners against each other."""
+def _facts(results):
+    """How the runs were made: (what, value)."""
+    facts = results.facts
+    models = [line.split(':', 1)[1] for text in facts.get('cpuinfo', []) for line in text.splitlines()
+              if line.startswith('Model name') and ':' in line]
+    listed = {'started': facts.get('date', [])[:1], 'host': facts.get('hostname', []),
+              'processor': list(dict.fromkeys(' '.join(model.split()) for model in models)),
+              'versions': results.versions[:1] or facts.get('version', []), 'system': results.versions[1:2],
+              'seed': facts.get('seed', []), 'time limit': [shown_time(results.time_limit) + ' per run'],
+              'runs from': results.sources}
+    return {what: ', '.join(values) for what, values in listed.items() if values}
+
+
+def _packed_plotly():
+    """Plotly's script for a page without network, packed: unpacked it has 8 MB in Debian."""
+    return base64.b64encode(gzip.compress(plotly.offline.get_plotlyjs().encode(), compresslevel=6, mtime=0)).decode()
+
+
+def report_page(results, standings):
+    """The whole page as text."""
     table = {problem: {index: Cell(results.of(problem, planner)) for index, planner in enumerate(results.planners)
                        if results.of(problem, planner)} for problem in results.problems}
-    charts = {}
-    everything = {index: [run for cells in table.values() if index in cells for run in cells[index].runs]
-                  for index in range(len(results.planners))}
-    overall, charts['success-all'] = success_chart('success-all', 'success over time, all problems', everything,
-                                                   results.time_limit)
-    sections, shown_sections = problem_sections(results, table, charts)
-    standings = standings_html(results, standing, charts)
-    when = ''
-    if results.started:
-        when = datetime.datetime.fromtimestamp(results.started, datetime.timezone.utc).strftime('%Y-%m-%d %H:%M UTC')
-    invalid = sum(run.invalid for run in results.runs)
-    facts = [('started', when), ('configuration', results.config), ('host', results.host),
-             ('processor', cpu_model(results.cpu)), ('versions', results.machine.split('\n')[0]),
-             ('system', results.machine.split('\n')[1] if '\n' in results.machine else ''), ('seed', results.seed),
-             ('time limit', shown_time(results.time_limit) + ' per run'),
-             ('runs from', ', '.join(os.path.basename(name) for name in results.sources))]
-    values = {
-        'TITLE': text('Parking benchmark' + (f': {os.path.basename(results.config)}' if results.config else '')),
-        'SUBTITLE': text(' · '.join(part for part in (when, results.host, cpu_model(results.cpu)) if part)),
-        'TILES': tile(len(results.problems), 'problems') + tile(len(results.planners), 'planners')
-                 + tile(f'{len(results.runs):,}'.replace(',', ' '), 'runs')
-                 + tile(shown_time(results.time_limit), 'time limit')
-                 + tile(f'{sum(run.solved for run in results.runs) / len(results.runs):.0%}'.replace('%', ' %'),
-                        'of all runs solved')
-                 + tile(invalid, 'invalid solutions', 'exact in the planner\'s view, but not valid when checked again'),
-        'CHIPS': ''.join(f'<button type="button" class="chip" data-p="{index}" aria-pressed="true">{swatch(index)}'
-                         f'{text(name)}</button>' for index, name in enumerate(results.planners)),
-        'OVERALL': overall_table(results, table),
-        'OVERALL_CHART': overall,
-        'MATRIX': matrix(results, table, shown_sections),
-        'STANDINGS': standings,
-        'SECTIONS': sections,
-        'RECHECK': ('Every solution is checked again, at poses at most 5 mm apart and by code of its own; one that is '
-                    'not valid counts as a failure.' if results.rechecked else
-                    'These results come from a database without second checks: solutions are taken at their '
-                    'planners\' word.'),
-        'FACTS': ''.join(f'<dt>{text(key)}</dt><dd>{text(value)}</dd>' for key, value in facts if value),
-        'SETTINGS': settings_html(results),
-        'SETUPS': setups_html(results, table),
-        'FILES': ''.join(f'<li><a href="{text(name)}">{text(name)}</a> {text(what)}</li>'
-                         for name, what in [*FILES.items(), *links(results)]),
-        'DATA': json.dumps({'planners': results.planners, 'charts': charts},
-                           separators=(',', ':')).replace('<', '\\u003c'),
-    }
-    with open(os.path.join(HERE, 'report.html'), encoding='utf-8') as stream:
-        page = stream.read()
-    for name in ('css', 'js'):
-        with open(os.path.join(HERE, 'report.' + name), encoding='utf-8') as stream:
-            page = page.replace(f'/*REPORT.{name.upper()}*/', stream.read())
-    parts = page.split('%%')
-    for k in range(1, len(parts), 2):
-        parts[k] = values[parts[k]]
-    return ''.join(parts)
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.globals.update(inf=math.inf, colour_of=charts.colour_of, dash_of=charts.dash_of)
+    made, problems, planners = Charts(), results.problems, results.planners
+    everything = {index: [run for run in results.runs if run.planner == planner] for index, planner in enumerate(planners)}
+    success = made.add('success-all', 'Success over time, all problems',
+                       charts.success_chart(planners, everything, results.time_limit))
+    columns = {folded: _further_columns(results, folded) for folded in (False, True)}
+    sections = [_problem_context(results, number, problem, table[problem], columns, made)
+                for number, problem in enumerate(problems[:MAX_SECTION_CELLS // len(planners)])]
+    overall, uneven = overall_table(results, table)
+    facts = _facts(results)
+    return environment.get_template('report.html').render(
+        title='Parking benchmark: ' + ', '.join(results.labels),
+        subtitle=' · '.join(facts[what] for what in ('started', 'host', 'processor') if what in facts),
+        tiles=[(len(problems), 'problems'), (len(planners), 'planners'), (f'{len(results.runs):,}'.replace(',', ' '), 'runs'),
+               (shown_time(results.time_limit), 'time limit'), (percent(share_solved(results.runs)), 'of all runs solved'),
+               (sum(run.invalid for run in results.runs), 'invalid solutions')],
+        planners=list(enumerate(planners)), overall=overall, uneven=uneven, success=success,
+        matrix=matrix(results, table, MAX_MATRIX_CELLS // len(planners), len(sections)), problems=len(problems),
+        standings=_standings_context(results, standings, made), sections=sections, rechecked=results.rechecked, facts=facts,
+        settings=results.settings, links=_links(results),
+        setups=[(problem, results.setups[problem].strip()) for problem in problems[:MAX_SETUPS]],
+        charts=json.dumps(made, separators=(',', ':'), allow_nan=False).replace('<', '\\u003c'), plotly=_packed_plotly())

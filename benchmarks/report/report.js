@@ -1,145 +1,94 @@
 'use strict';
 (() => {
-    const data = JSON.parse(document.getElementById('data').textContent);
-    const tip = document.getElementById('tip');
-    const hidden = new Set();
     const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
+    const charts = JSON.parse(document.getElementById('charts').textContent);
+    const hidden = new Set();  // planners
 
-    // ---- the box beside the pointer
-    function place(event) {
-        const box = tip.getBoundingClientRect(), gap = 14;
-        const x = event.clientX + gap + box.width > innerWidth ? event.clientX - gap - box.width : event.clientX + gap;
-        const y = event.clientY + gap + box.height > innerHeight ? event.clientY - gap - box.height : event.clientY + gap;
-        tip.style.left = Math.max(4, x) + 'px';
-        tip.style.top = Math.max(4, y) + 'px';
+    // Plotly's script is packed: it has megabytes.
+    async function loadPlotly() {
+        const packed = Uint8Array.from(atob(document.getElementById('plotly').textContent), each => each.charCodeAt(0));
+        const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+        const script = document.createElement('script');
+        script.textContent = await new Response(stream).text();
+        document.head.append(script);
     }
-    function show(event, content) {
-        tip.replaceChildren(content);
-        tip.hidden = false;
-        place(event);
-    }
-    const hide = () => { tip.hidden = true; };
 
-    function time(seconds) {
-        const digits = value => value.toPrecision(3).includes('e') ? value.toFixed(0) : value.toPrecision(3);
-        return seconds < 1e-3 ? digits(1e6 * seconds) + ' µs' : seconds < 1 ? digits(1e3 * seconds) + ' ms'
-            : digits(seconds) + ' s';
+    const isShown = trace => trace.meta === undefined || !hidden.has(trace.meta);
+    function draw(element) {
+        const style = getComputedStyle(document.documentElement), of = name => style.getPropertyValue(name).trim();
+        const chart = charts[element.id];
+        const axis = {gridcolor: of('--line'), linecolor: of('--line'), tickcolor: of('--line')};
+        const layout = {...chart.layout, paper_bgcolor: 'transparent', plot_bgcolor: 'transparent',
+            font: {family: style.getPropertyValue('--sans'), size: 11, color: of('--soft')},
+            xaxis: {...axis, ...chart.layout.xaxis}, yaxis: {...axis, ...chart.layout.yaxis}};
+        const data = chart.data.map(trace => ({...trace, visible: isShown(trace)}));
+        element.dataset.drawn = 'yes';
+        return Plotly.react(element, data, layout, {responsive: true, displayModeBar: false});
     }
-    const metres = value => value === null ? '∞' : value.toFixed(2);
+    const drawn = () => all('.chart[data-drawn]');
+    const redraw = () => drawn().forEach(draw);
 
-    // ---- curves: the values of all planners at the pointer's time
-    function last(times, at) {
-        let low = 0, high = times.length;
-        while (low < high) {
-            const middle = (low + high) >> 1;
-            if (times[middle] <= at) low = middle + 1; else high = middle;
+    async function begin() {
+        try {
+            await loadPlotly();
+        } catch (error) {
+            all('.chart').forEach(element => { element.textContent = 'This browser is too old to draw charts.'; });
+            return;
         }
-        return low - 1;
-    }
-    function curves(svg, chart) {
-        const cursor = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-        cursor.setAttribute('class', 'cursor');
-        svg.addEventListener('mousemove', event => {
-            const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-            const share = (point.x - chart.begin) / (chart.end - chart.begin);
-            if (share < 0 || share > 1 || point.y < chart.top - 6 || point.y > chart.bottom + 6) {
-                cursor.remove();
-                return hide();
+        // Each chart when it comes near the window: of hundreds few are ever looked at.
+        const observer = new IntersectionObserver(entries => entries.forEach(({isIntersecting, target}) => {
+            if (isIntersecting) {
+                observer.unobserve(target);
+                draw(target);
             }
-            const at = chart.low * Math.pow(chart.high / chart.low, share);
-            cursor.setAttribute('d', `M${point.x} ${chart.top}V${chart.bottom}`);
-            svg.append(cursor);
-            const rows = [];
-            for (const series of chart.series) {
-                if (hidden.has(series.p)) continue;
-                const k = last(series.t, at);
-                if (k >= 0) rows.push({series, k, value: series.y[k]});
-                else if (chart.kind === 'cost') rows.push({series, k, value: Infinity});
-            }
-            rows.sort((a, b) => chart.kind === 'cost' ? a.value - b.value : b.value - a.value);
-            const table = document.createElement('table');
-            const caption = document.createElement('b');
-            caption.textContent = chart.kind === 'profile' ? `at most ${at.toPrecision(3)} times the best` : 'by ' + time(at);
-            for (const {series, k, value} of rows) {
-                const row = table.insertRow();
-                const swatch = document.querySelector(`.chip[data-p="${series.p}"] svg`);
-                const name = row.insertCell();
-                if (swatch) name.append(swatch.cloneNode(true));
-                name.append(data.planners[series.p]);
-                row.insertCell().textContent = chart.kind === 'expected' ? value.toFixed(1)
-                    : chart.kind !== 'cost' ? (100 * value).toFixed(0) + ' %'
-                    : value === Infinity ? '∞' : metres(value) + ' m';
-                row.insertCell().textContent = series.l && k >= 0
-                    ? `${metres(series.l[k])} – ${metres(series.h[k])}` : '';
-            }
-            const content = document.createElement('div');
-            content.append(caption, table);
-            show(event, content);
-        });
-        svg.addEventListener('mouseleave', () => { cursor.remove(); hide(); });
-    }
-    for (const [name, chart] of Object.entries(data.charts)) {
-        const svg = document.getElementById(name);
-        if (svg) curves(svg, chart);
+        }), {rootMargin: '600px'});
+        all('.chart').forEach(element => observer.observe(element));
+        addEventListener('beforeprint', () => all('.chart').forEach(draw));
+        matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
     }
 
-    // ---- everything else that has something to say
-    document.addEventListener('mouseover', event => {
-        const target = event.target.closest && event.target.closest('[data-tip]');
-        if (target) show(event, document.createTextNode(target.dataset.tip));
-    });
-    document.addEventListener('mousemove', event => {
-        if (!tip.hidden && event.target.closest && event.target.closest('[data-tip]')) place(event);
-    });
-    document.addEventListener('mouseout', event => {
-        if (event.target.closest && event.target.closest('[data-tip]')) hide();
-    });
-
-    // ---- planners: point at one to emphasise it, click to show or hide it
-    const byPlanner = new Map();
-    for (const element of all('[data-p]')) {
-        const p = Number(element.dataset.p);
-        if (!byPlanner.has(p)) byPlanner.set(p, []);
-        byPlanner.get(p).push(element);
-    }
-    function emphasise(p) {
-        for (const element of all('.hot')) element.classList.remove('hot');
-        document.body.classList.toggle('emphasis', p !== null);
-        if (p !== null) for (const element of byPlanner.get(p)) element.classList.add('hot');
-    }
+    // Planners: each button shows or hides one in tables, charts and pictures.
     for (const chip of all('.chip')) {
-        const p = Number(chip.dataset.p);
-        chip.addEventListener('mouseenter', () => emphasise(p));
-        chip.addEventListener('mouseleave', () => emphasise(null));
+        const planner = Number(chip.dataset.p);
         chip.addEventListener('click', () => {
-            const off = !hidden.has(p);
-            if (off) hidden.add(p); else hidden.delete(p);
-            chip.setAttribute('aria-pressed', String(!off));
-            for (const element of byPlanner.get(p)) if (element !== chip) element.classList.toggle('off', off);
+            const isHidden = !hidden.delete(planner);
+            if (isHidden) hidden.add(planner);
+            chip.setAttribute('aria-pressed', String(!isHidden));
+            all(`main [data-p="${planner}"]`).forEach(element => { element.hidden = isHidden; });
+            redraw();
         });
     }
 
-    // ---- tables sorted by a click on a heading
-    for (const table of all('table.sortable')) {
-        const headings = all('thead th', table), body = table.tBodies[0], original = Array.from(body.rows);
-        headings.forEach((heading, column) => heading.addEventListener('click', () => {
-            const now = heading.getAttribute('aria-sort');
-            headings.forEach(each => each.removeAttribute('aria-sort'));
-            const next = now === 'ascending' ? 'descending' : now === 'descending' ? null : 'ascending';
+    // Tables sorted by a heading: up, down, as they were.
+    for (const table of all('table')) {
+        const body = table.tBodies[0], original = Array.from(body.rows);
+        all('thead button', table).forEach((button, column) => button.addEventListener('click', () => {
+            const heading = button.parentElement, previous = heading.getAttribute('aria-sort');
+            all('thead th', table).forEach(each => each.removeAttribute('aria-sort'));
+            const next = {ascending: 'descending', descending: null}[previous];
+            const order = next === undefined ? 'ascending' : next;
             const key = row => {
-                const cell = row.cells[column], value = cell.dataset.sort;
-                return value === undefined ? cell.textContent.toLowerCase() : value === 'inf' ? Infinity : Number(value);
+                const {dataset: {sort}, textContent} = row.cells[column];
+                return sort === undefined ? textContent.toLowerCase() : sort === 'inf' ? Infinity : Number(sort);
             };
             const rows = original.slice();
-            if (next) {
-                heading.setAttribute('aria-sort', next);
-                const sign = next === 'ascending' ? 1 : -1;
-                rows.sort((a, b) => {
-                    const x = key(a), y = key(b);
-                    return x === y ? 0 : sign * (x < y ? -1 : 1);
-                });
+            if (order) {
+                heading.setAttribute('aria-sort', order);
+                const sign = order === 'ascending' ? 1 : -1;
+                rows.sort((a, b) => key(a) === key(b) ? 0 : key(a) < key(b) ? -sign : sign);
             }
             body.append(...rows);
         }));
     }
+
+    // What a figure means, at the lower edge: for pointer, finger and keyboard.
+    const tip = document.getElementById('tip');
+    function explain(event) {
+        const target = event.target.closest && event.target.closest('[data-tip]');
+        tip.hidden = !target;
+        tip.textContent = target ? target.dataset.tip : '';
+    }
+    for (const kind of ['mouseover', 'focusin', 'click']) document.addEventListener(kind, explain);
+
+    begin();
 })();

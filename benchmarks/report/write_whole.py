@@ -1,8 +1,28 @@
-"""Files that are written completely or not at all."""
+"""Files that are written completely or not at all, by programs whose errors are one line."""
+import argparse
 import os
+import sys
 import tempfile
 
-from results import ReportError
+from database import ReportError
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise ReportError(f'{message} (see --help)')
+
+
+def run(program, main):
+    """Runs main with the program's arguments. Returns the exit status: 2, and one line on standard error, for errors."""
+    try:
+        main(sys.argv[1:])
+    except ReportError as error:
+        print(f'{program}: ' + ' '.join(str(error).split()), file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f'{program}: {error.filename or "standard output"}: {error.strerror}', file=sys.stderr)
+        return 2
+    return 0
 
 
 def require_no_input(outputs, inputs):

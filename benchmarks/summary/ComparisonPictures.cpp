@@ -65,17 +65,28 @@ namespace parking
             style.strokeWidth = 2.0;
             style.strokeOpacity = 0.9;
             style.dash = record->isSuccess() ? "" : "3 4";
+            const SvgStyle legend = style;
+            style.data = {{"planner", planner}, {"run", std::to_string(record->run)}};
             std::vector<Eigen::Vector2d> line;
-            for (const PathState &state : sampled(*record))
-                line.emplace_back(state.pose.x, state.pose.y);
-            map.drawLine(SvgLayer::Lines, line, style);
+            const SampledPath path = sampled(*record);
+            for (std::size_t k = 1; k < path.size(); ++k)
+            {
+                line.emplace_back(path[k - 1].pose.x, path[k - 1].pose.y);
+                // The last state of a stretch has its direction.
+                if (k + 1 < path.size() && path[k + 1].direction == path[k].direction)
+                    continue;
+                line.emplace_back(path[k].pose.x, path[k].pose.y);
+                style.data["direction"] = path[k].direction < 0 ? "reverse" : "forward";
+                map.drawLine(SvgLayer::Lines, line, style);
+                line.clear();
+            }
             char length[32];
             std::snprintf(length, sizeof length, " %.1f m", record->number("path length"));
             map.addLegend({planner + length +
                                (record->isSuccess() ? ""
                                 : record->exact     ? " (invalid)"
                                                     : " (approximate)"),
-                           style, SvgSample::Line});
+                           legend, SvgSample::Line});
         }
         figure.setMap(map);
         return figure.toString();

@@ -15,6 +15,9 @@ namespace parking
 
     /** \brief One problem with the best path of each planner, as SVG.
 
+        Each stretch between changes of direction is a line with the attributes data-planner, data-run and
+       data-direction (forward or reverse), by which the report finds it.
+
         \param best planners' names and best runs (null: none) */
     std::string comparisonSvg(const Scenario &scenario, const std::string &title,
                               const std::vector<std::pair<std::string, const RunRecord *>> &best);

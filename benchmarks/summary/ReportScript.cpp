@@ -5,6 +5,7 @@
 #include "parking_geometry/text/Text.h"
 
 #include <filesystem>
+#include <iostream>
 #include <system_error>
 
 namespace fs = std::filesystem;
@@ -26,16 +27,23 @@ namespace parking
         }
     }  // namespace
 
-    std::string makeReport(const std::string &folder, const std::vector<std::string> &runs)
+    std::string makeReport(const std::string &folder)
     {
-        const std::string script = findScript();
-        if (script.empty() || !isProgram("python3"))
-            return "";
-        std::vector<std::string> command{"python3", script, folder};
-        for (const std::string &file : runs)
-            command.insert(command.end(), {"--runs", file});
-        const ProcessResult result = runProcess(command);
+        constexpr int PACKAGES_MISSING = 3;
         const std::string report = (fs::path(folder) / "report.html").string();
+        const auto withoutReport = [&report](const std::string &reason)
+        {
+            std::cerr << "parking_benchmark: " << report << ": is not made: " << reason << std::endl;
+            return std::string();
+        };
+        const std::string script = findScript();
+        if (script.empty())
+            return withoutReport("the script make_report is not installed");
+        if (!isProgram("python3"))
+            return withoutReport("python3 is not installed");
+        const ProcessResult result = runProcess({"python3", script, folder});
+        if (result.status == PACKAGES_MISSING)
+            return withoutReport(lastLine(result.errors));
         if (result.status != 0)
             throw Error(report + ": cannot be made: " + lastLine(result.errors));
         return report;

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace parking
 {
-    /** \brief Has the script that comes with the project make FOLDER/report.html of a comparison's results.
+    /** \brief Makes FOLDER/report.html from the database in the folder, by the script that comes with the project.
 
-        \param runs files of runs that the results were made of
-        \return the report's file; empty when there is no such script or no python3. Throws parking::Error with the
-        script's last line when it fails. */
-    std::string makeReport(const std::string &folder, const std::vector<std::string> &runs);
+        \return the report's file; empty, with a line on standard error, where python3 or its packages that the script
+        needs are not installed. Throws parking::Error with the script's last line when it fails. */
+    std::string makeReport(const std::string &folder);
 }  // namespace parking

@@ -26,8 +26,4 @@ namespace parking
         whose certainty is at least \e level; below 6 values there is none for 95 %, and the result is the whole range
         with level 0. Infinite values are welcome: time-outs are values too. */
     ConfidenceInterval medianInterval(std::vector<double> values, double level = 0.95);
-
-    /** \brief A confidence interval for a share, from \e successes of \e trials: exact (C. J. Clopper and E. S.
-        Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial", 1934). */
-    ConfidenceInterval shareInterval(std::size_t successes, std::size_t trials, double level = 0.95);
 }  // namespace parking

@@ -1,5 +1,6 @@
 #include "benchmarks/summary/Summary.h"
 
+#include "benchmarks/summary/Statistics.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
@@ -101,41 +102,14 @@ namespace parking
         {
             const char *name;
             bool hasUnit;
-            double (*value)(const SummaryFigure &);
+            double SummaryFigure::*value;
         };
 
         std::vector<CsvFigure> csvFigures(Statistic statistic)
         {
-            const CsvFigure median{"median", true,
-                                   [](const SummaryFigure &each)
-                                   {
-                                       return each.median;
-                                   }},
-                low{"q1", true,
-                    [](const SummaryFigure &each)
-                    {
-                        return each.low;
-                    }},
-                high{"q3", true,
-                     [](const SummaryFigure &each)
-                     {
-                         return each.high;
-                     }},
-                begin{"ci_low", true,
-                      [](const SummaryFigure &each)
-                      {
-                          return each.interval.low;
-                      }},
-                end{"ci_high", true,
-                    [](const SummaryFigure &each)
-                    {
-                        return each.interval.high;
-                    }},
-                level{"ci_level", false,
-                      [](const SummaryFigure &each)
-                      {
-                          return each.interval.level;
-                      }};
+            const CsvFigure median{"median", true, &SummaryFigure::median}, low{"q1", true, &SummaryFigure::low},
+                high{"q3", true, &SummaryFigure::high}, begin{"ci_low", true, &SummaryFigure::begin},
+                end{"ci_high", true, &SummaryFigure::end}, level{"ci_level", false, &SummaryFigure::level};
             switch (statistic)
             {
                 case Statistic::Distribution:
@@ -143,7 +117,7 @@ namespace parking
                 case Statistic::MedianWithInterval:
                     return {median, begin, end};
                 case Statistic::Share:
-                    return {{"share", false, median.value}};
+                    return {{"share", false, &SummaryFigure::median}};
                 case Statistic::Median:
                     break;
             }
@@ -173,9 +147,11 @@ namespace parking
             {
                 const double share =
                     std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-                return {share, share, share, {}};
+                return {share, share, share, share, share, 0.0};
             }
-            return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), medianInterval(values)};
+            const ConfidenceInterval interval = medianInterval(values);
+            return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75),
+                    interval.low,          interval.high,          interval.level};
         }
 
         /** Of all runs of one planner on one experiment. */
@@ -330,7 +306,7 @@ namespace parking
                     std::to_string(row.approximate);
             for (std::size_t i = 0; i < columns.size(); ++i)
                 for (const CsvFigure &each : csvFigures(columns[i]->summary->statistic))
-                    text += "," + csvNumber(each.value(row.figures[i]));
+                    text += "," + csvNumber(row.figures[i].*each.value);
             text += "\n";
         }
         return text;

@@ -3,7 +3,6 @@
 #include "benchmarks/comparison/Experiment.h"
 #include "benchmarks/comparison/RunColumns.h"
 #include "benchmarks/comparison/RunRecord.h"
-#include "benchmarks/summary/Statistics.h"
 
 #include <string>
 #include <string_view>
@@ -15,10 +14,12 @@ namespace parking
         where no run counts, infinite where too many runs do. */
     struct SummaryFigure
     {
-        double median,                ///< in the column's unit
-            low,                      ///< first quartile
-            high;                     ///< third quartile
-        ConfidenceInterval interval;  ///< of the median
+        double median;  ///< in the column's unit
+        double low;     ///< first quartile
+        double high;    ///< third quartile
+        double begin;   ///< of the confidence interval of the median
+        double end;     ///< of the same interval
+        double level;   ///< of certainty that the interval has; 0 for the range of too few values
     };
 
     /** \brief The columns that the summary has, in its order. */

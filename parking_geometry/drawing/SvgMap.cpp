@@ -241,12 +241,11 @@ namespace parking
         labels += textElement(left, middle, SIZE, FAINT, "middle", upwards.title("y"),
                               " transform=\"rotate(-90 " + px(left) + ' ' + px(middle) + ")\"");
 
-        std::string text = "<svg x=\"" + px(x) + "\" y=\"" + px(y) + "\" width=\"" + px(width_) + "\" height=\"" +
-                           px(height_) + "\" viewBox=\"0 0 " + px(width_) + ' ' + px(height_) +
-                           "\" overflow=\"hidden\" data-left=\"" + formatNumber(view_.min.x()) + "\" data-top=\"" +
-                           formatNumber(view_.max.y()) + "\" data-scale=\"" + formatNumber(scale_) +
-                           "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfcfd\"/>\n<path d=\"" + lines +
-                           "\" fill=\"none\" stroke=\"#e9edf2\"/>\n";
+        std::string text =
+            "<svg x=\"" + px(x) + "\" y=\"" + px(y) + "\" width=\"" + px(width_) + "\" height=\"" + px(height_) +
+            "\" viewBox=\"0 0 " + px(width_) + ' ' + px(height_) +
+            "\" overflow=\"hidden\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfcfd\"/>\n<path d=\"" + lines +
+            "\" fill=\"none\" stroke=\"#e9edf2\"/>\n";
         for (const std::string &layer : layers_)
             if (!layer.empty())
                 text += "<g>\n" + layer + "</g>\n";

@@ -4,6 +4,7 @@
 #include "parking_geometry/Polygon.h"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,13 @@ namespace parking
     /** \brief How a shape is drawn. Widths and dashes in pixels. */
     struct SvgStyle
     {
-        std::string fill{"none"};    ///< colour of the inside as in SVG
-        std::string stroke{"none"};  ///< colour of the outline as in SVG
-        double strokeWidth{1.0};     ///< of the outline
-        double fillOpacity{1.0};     ///< 0 (invisible) to 1
-        double strokeOpacity{1.0};   ///< 0 (invisible) to 1
-        std::string dash;            ///< for example "6 4"; empty: solid
+        std::string fill{"none"};                 ///< colour of the inside as in SVG
+        std::string stroke{"none"};               ///< colour of the outline as in SVG
+        double strokeWidth{1.0};                  ///< of the outline
+        double fillOpacity{1.0};                  ///< 0 (invisible) to 1
+        double strokeOpacity{1.0};                ///< 0 (invisible) to 1
+        std::string dash;                         ///< for example "6 4"; empty: solid
+        std::map<std::string, std::string> data;  ///< attributes data-KEY, for programs that read the picture
     };
 
     /** \brief What lies above what on a map. */
@@ -140,9 +142,7 @@ namespace parking
         }
 
         /** \brief The panel as an svg element whose upper left corner is at \e x, \e y pixels, and its ticks beside it.
-
-            Its attributes data-left, data-top (metres, of the corner) and data-scale (pixels per metre) say where its
-            pixels lie, so that others can draw on it. */
+         */
         std::string toSvg(double x, double y) const;
 
     private:

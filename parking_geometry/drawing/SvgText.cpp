@@ -63,7 +63,10 @@ namespace parking
 
     std::string attributes(const SvgStyle &style)
     {
-        std::string text = " fill=\"" + escaped(style.fill) + '"';
+        std::string text;
+        for (const auto &[key, value] : style.data)
+            text += " data-" + key + "=\"" + escaped(value) + '"';
+        text += " fill=\"" + escaped(style.fill) + '"';
         if (style.fill != "none" && style.fillOpacity < 1.0)
             text += " fill-opacity=\"" + px(style.fillOpacity) + '"';
         if (style.stroke == "none")

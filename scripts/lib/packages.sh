@@ -5,7 +5,8 @@
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
 
-# package | build: for building and comparing; test, docs, package, page, fuzz: only for tests, reference, ... | what for
+# package | build: for building and comparing; report: for the report of a comparison; test, docs, package, page, fuzz: only
+# for tests, reference, ... | what for
 packages()
 {
     cat <<'LIST'
@@ -28,8 +29,10 @@ libsqlite3-dev               | build | SQLite: the database of a comparison
 python3                      | build page | reports from the database; checks of the tests
 python3-dev                  | build | the Python module, on which parking_convert is built
 pybind11-dev                 | build | pybind11: the Python module
-python3-numpy                | build | arrays of the Python module
-python3-scipy                | build | parking_convert: writes MATLAB files, hulls of points
+python3-numpy                | build report test package | arrays of the Python module and of reports
+python3-scipy                | build report test | parking_convert: MATLAB files, hulls of points; statistics of reports
+python3-jinja2               | report test | pages of reports
+python3-plotly               | report test | charts of reports
 libgtest-dev                 | test  | GoogleTest
 ompl-demos                   | test  | ompl_benchmark_statistics, whose database ours is compared with
 pkg-config                   | test  | the consumer that finds the installed package by pkg-config
@@ -39,7 +42,7 @@ shellcheck                   | test  | checks the shell scripts
 doxygen                      | test docs | builds the reference, which must not make it warn
 dpkg-dev                     | test package | finds out what packages a library needs
 file                         | test package | tells programs from other files
-python3-matplotlib           | test  | pictures of the Python module
+python3-matplotlib           | test  | pictures of the Python module; curves for documents
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)

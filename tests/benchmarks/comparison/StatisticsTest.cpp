@@ -92,18 +92,4 @@ namespace
         EXPECT_NEAR(static_cast<double>(covered) / TRIALS, level, 0.005);
         EXPECT_GE(level, 0.95);
     }
-
-    TEST(Statistics, ShareIntervalIsThatOfClopperAndPearson)
-    {
-        const ConfidenceInterval half = shareInterval(5, 10);
-        EXPECT_NEAR(half.low, 0.1871, 1e-4);
-        EXPECT_NEAR(half.high, 0.8129, 1e-4);
-        const ConfidenceInterval none = shareInterval(0, 10);
-        EXPECT_EQ(none.low, 0.0);
-        EXPECT_NEAR(none.high, 0.3085, 1e-4);
-        const ConfidenceInterval all = shareInterval(10, 10);
-        EXPECT_NEAR(all.low, 0.6915, 1e-4);
-        EXPECT_EQ(all.high, 1.0);
-        EXPECT_EQ(shareInterval(0, 0).level, 0.0);
-    }
 }  // namespace

@@ -34,7 +34,7 @@ def main(root, program, update):
         with open(document, 'w', encoding='utf-8') as stream:
             stream.write(text[:table.start(2)] + wanted + text[table.end(2):])
         with open(report, 'w', encoding='utf-8') as stream:
-            stream.write(json.dumps(shown, indent=1, ensure_ascii=False) + '\n')
+            stream.write('[' + ',\n '.join(json.dumps(column, ensure_ascii=False) for column in shown) + ']\n')
         return None
     how = f'is not that of the columns; {os.path.basename(__file__)} --update makes it'
     if table.group(2) != wanted:

@@ -4,16 +4,16 @@ usage: comparison_test.py PARKING_BENCHMARK SCENARIOS
 """
 import csv
 import os
+import re
 import subprocess
 import sys
 import tempfile
 
-from made_results import MAKE_REPORT, REPORT
+from made_results import MAKE_REPORT
 
-sys.path.insert(0, REPORT)
 from gallery import read_picture  # noqa: E402
 from page import Cell  # noqa: E402
-from results import read_results  # noqa: E402
+from database import read_results  # noqa: E402
 
 CONFIG = '''[problem]
 scenario = {scenarios}/perpendicular.yaml
@@ -54,19 +54,15 @@ def main(program, scenarios):
                 if not close(value, row[f'first_solution_{name}_s']):
                     faults.append(f'{row["planner"]}: {name} {value}, not {row[f"first_solution_{name}_s"]}')
         picture = read_picture(output, 'perpendicular')
-        if picture is None:
-            faults.append('the picture of the problem has no map that paths can be drawn on')
+        if picture is None or 'data-planner' in picture.content:
+            faults.append('the picture of the problem has no map without paths')
+        elif not {row['planner'] for row in rows if row['solved'] != '0'} <= set(picture.paths):
+            faults.append(f'there are paths of {list(picture.paths)} in the picture')
         else:
-            # A stored path is drawn where the program itself has drawn it.
-            x, y, _ = next(run.path for run in results.runs if run.path)['start']
-            place = f'{(x - picture.left) * picture.scale:.2f}'.rstrip('0').rstrip('.')
-            height = f'{(picture.top - y) * picture.scale:.2f}'.rstrip('0').rstrip('.')
-            with open(os.path.join(output, 'pictures', 'perpendicular.svg'), encoding='utf-8') as stream:
-                drawing = stream.read()
-            if f'<polyline points="{place},{height} ' not in drawing:
-                faults.append(f'no path begins at {place},{height} in the picture')
-            if '<polyline points="' + place in picture.content:
-                faults.append('the map still has paths on it')
+            path = picture.paths['improved_astar']
+            best = next(run for run in results.of('perpendicular', 'improved_astar') if run.number == path.run)
+            if len(path.cusps) != best.figure('cusps'):
+                faults.append(f'{len(path.cusps)} changes of direction are drawn, {best.figure("cusps")} are in the database')
         # Parts of a comparison that are put together elsewhere have a report with all runs and their paths.
         parts = []
         for part in ('1/2', '2/2'):
@@ -78,8 +74,21 @@ def main(program, scenarios):
                        stdout=subprocess.DEVNULL)
         with open(os.path.join(whole, 'report.html'), encoding='utf-8') as stream:
             report = stream.read()
-        if 'class="forward"' not in report or '<b>6</b><span>runs</span>' not in report:
+        if not re.search('<polyline class="(forward|reverse) "', report) or '<b>6</b><span>runs</span>' not in report:
             faults.append('the report of merged parts lacks runs or paths')
+        # Where Python lacks the packages of the report, one line says so, and all else is there.
+        os.mkdir(os.path.join(folder, 'bin'))
+        with open(os.path.join(folder, 'bin', 'python3'), 'w', encoding='utf-8') as stream:
+            stream.write('#!/bin/sh\necho "make_report: Python packages are missing" >&2\nexit 3\n')
+        os.chmod(stream.name, 0o755)
+        poor = os.path.join(folder, 'poor')
+        done = subprocess.run([program, config, '--output', poor, '--runs', '1', '--quiet'], capture_output=True, text=True,
+                              env={**os.environ, 'PATH': os.path.dirname(stream.name) + ':' + os.environ['PATH']}, check=False)
+        if (done.returncode, done.stderr) != (0, f'parking_benchmark: {poor}/report.html: is not made: make_report: Python '
+                                              'packages are missing\n'):
+            faults.append(f'without the packages: status {done.returncode}, {done.stderr}')
+        if 'report.html' in os.listdir(poor) or not {'benchmark.db', 'summary.csv', 'pictures'} <= set(os.listdir(poor)):
+            faults.append(f'without the packages there are {os.listdir(poor)}')
     for fault in faults:
         print(fault)
     return 1 if faults else 0

@@ -1,26 +1,30 @@
 """Results of comparisons that never took place, for tests of the report.
 
-usage: made_results.py FOLDER [--runs N] [--problems N] [--planners N]   writes runs.jsonl and OMPL logs there
+usage: made_results.py FOLDER [--runs N] [--problems N] [--planners N]   writes a database and OMPL logs there
 """
 import argparse
 import json
 import os
 import random
 import shutil
+import sqlite3
 import sys
 import tempfile
 import unittest
 
 REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', '..', 'benchmarks', 'report')
 MAKE_REPORT = os.path.join(REPORT, 'make_report')
+sys.path.insert(0, REPORT)
+import needs  # noqa: E402
 
-HEADER = {'parking_benchmark': 2, 'fingerprint': '0123', 'config': 'made.cfg', 'host': 'somewhere',
-          'cpu': 'Model name:  Some Processor\nCPU(s): 2\n', 'machine': 'ompl_improved_astar 0.1.0, OMPL 1.5.2\nLinux',
-          'parameters': {'cores INTEGER': '2'}, 'seed': 1, 'time_limit': 2.0, 'started': 1.7e9, 'setups': {}}
+needs.require_packages('tests of the report')
+
+TIME_LIMIT = 2.0
+TYPES = {bool: 'BOOLEAN', int: 'INTEGER', float: 'REAL'}
 
 
 def record(problem, planner, run, outcome, first=None, length=None, progress=None, **more):
-    """A run as parking_benchmark writes it. outcome: solved, invalid, approximate or none; first:
+    """A run, by the names of the columns with blanks. outcome: solved, invalid, approximate or none; first:
     seconds until the first solution."""
     figures = {'run': run, 'seed': 1000 + run, 'success': outcome == 'solved', 'time': 2.0, 'planning time': 2.0}
     if outcome in ('solved', 'invalid'):
@@ -31,12 +35,7 @@ def record(problem, planner, run, outcome, first=None, length=None, progress=Non
     figures.update(more)
     if progress is None:
         progress = [[first, length]] if outcome in ('solved', 'invalid') else []
-    made = {'experiment': problem, 'planner': planner, 'figures': figures, 'reported': {}, 'parameters': {'range': '1'},
-            'progress': progress}
-    if outcome != 'none':
-        made['path'] = {'exact': outcome != 'approximate', 'start': [0.0, 0.0, 0.0],
-                        'pieces': [[0.0, 2.0], [0.2, -3.0], [0.1], [0.0, -0.5, 0.2]]}
-    return made
+    return {'experiment': problem, 'planner': planner, 'figures': figures, 'progress': progress}
 
 
 class FolderTest(unittest.TestCase):
@@ -50,11 +49,47 @@ class FolderTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
 
-def write(folder, records, header=None, name='runs.jsonl'):
+SCHEMA = '''
+CREATE TABLE experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512), totaltime REAL, timelimit REAL,
+    memorylimit REAL, runcount INTEGER, version VARCHAR(128), hostname VARCHAR(1024), cpuinfo TEXT, date DATETIME,
+    seed VARCHAR(24), setup TEXT);
+CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512) NOT NULL, settings TEXT);
+CREATE TABLE runs (id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER);
+CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, PRIMARY KEY (runid, time));
+'''
+
+
+def columns_of(records):
+    """name in the database -> type"""
+    return {name.replace(' ', '_'): TYPES[type(value)] for each in records for name, value in each['figures'].items()}
+
+
+def write(folder, records, time_limit=TIME_LIMIT):
+    """benchmark.db, as parking_benchmark writes it."""
     os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, name), 'w', encoding='utf-8') as stream:
-        for line in [header or HEADER] + records:
-            stream.write(json.dumps(line) + '\n')
+    file = os.path.join(folder, 'benchmark.db')
+    if os.path.exists(file):
+        os.remove(file)
+    connection = sqlite3.connect(file)
+    connection.executescript('PRAGMA synchronous = OFF;' + SCHEMA)
+    columns = columns_of(records)
+    for name, kind in columns.items():
+        connection.execute(f'ALTER TABLE runs ADD "{name}" {kind}')
+    problems = {name: k for k, name in enumerate(dict.fromkeys(each['experiment'] for each in records), 1)}
+    planners = {name: k for k, name in enumerate(dict.fromkeys(each['planner'] for each in records), 1)}
+    connection.executemany('INSERT INTO experiments VALUES (?, ?, 1.0, ?, 4096, 10, ?, ?, ?, ?, ?, ?)', (
+        (k, name, time_limit, 'OMPL 1.5.2', 'somewhere', 'Model name:  Some Processor\nCPU(s): 2\n', '2024-01-01 00:00:00', '1',
+         'ompl_improved_astar 0.1.0, OMPL 1.5.2\nLinux\n') for name, k in problems.items()))
+    connection.executemany('INSERT INTO plannerConfigs VALUES (?, ?, ?)',
+                           ((k, f'geometric_{name}', 'range = 1\n;depth = 2\n;') for name, k in planners.items()))
+    connection.executemany(
+        f'INSERT INTO runs VALUES (?, ?, ?{", ?" * len(columns)})',
+        ([k, problems[each['experiment']], planners[each['planner']],
+          *(each['figures'].get(name.replace('_', ' ')) for name in columns)] for k, each in enumerate(records, 1)))
+    connection.executemany('INSERT INTO progress VALUES (?, ?, ?)', (
+        (k, time, cost) for k, each in enumerate(records, 1) for time, cost in each['progress']))
+    connection.commit()
+    connection.close()
 
 
 with open(os.path.join(REPORT, 'columns.json'), encoding='utf-8') as _columns:
@@ -78,20 +113,17 @@ def random_records(problems, planners, runs, seed=1):
     return made
 
 
-TYPES = {bool: 'BOOLEAN', int: 'INTEGER', float: 'REAL'}
-
-
 def shown(value):
     return str(int(value) if isinstance(value, bool) else value)
 
 
-def log_text(problem, records, header):
+def log_text(problem, records):
     """The log that OMPL's benchmark would have written."""
     planners = list(dict.fromkeys(each['planner'] for each in records))
     runs = max(each['figures']['run'] for each in records) + 1
     lines = ['OMPL version 1.5.2', f'Experiment {problem}', 'Running on somewhere',
              'Starting at 2024-01-01 00:00:00.000000', '<<<|', 'made', '|>>>', '<<<|', 'Some Processor', '|>>>',
-             '1 is the random seed', f'{header["time_limit"]} seconds per run', '4096 MB per run', f'{runs} runs per planner',
+             '1 is the random seed', f'{TIME_LIMIT} seconds per run', '4096 MB per run', f'{runs} runs per planner',
              '1 seconds spent to collect the data', '0 enum types', f'{len(planners)} planners']
     for planner in planners:
         own = [each for each in records if each['planner'] == planner]
@@ -106,7 +138,7 @@ def log_text(problem, records, header):
 
 
 def main():
-    parser = argparse.ArgumentParser(description='Writes runs.jsonl and OMPL logs of made-up results.')
+    parser = argparse.ArgumentParser(description='Writes a database and OMPL logs of made-up results.')
     parser.add_argument('folder')
     parser.add_argument('--problems', type=int, default=20)
     parser.add_argument('--planners', type=int, default=10)
@@ -116,7 +148,7 @@ def main():
     write(options.folder, records)
     for problem in dict.fromkeys(each['experiment'] for each in records):
         with open(os.path.join(options.folder, problem + '.log'), 'w', encoding='utf-8') as stream:
-            stream.write(log_text(problem, [each for each in records if each['experiment'] == problem], HEADER))
+            stream.write(log_text(problem, [each for each in records if each['experiment'] == problem]))
     print(f'{len(records)} runs')
 
 
