@@ -14,7 +14,7 @@ import sys
 PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_queries', 'paper_run', 'tracking_evaluation',
             'troubled_drives', 'soak', 'map_size_study']
 # Of other programs than these (cmake, pip, Slurm, ...) a document may say what it likes.
-SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/make_scenarios', 'scripts/package',
+SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
            'scripts/performance-table', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test',
            'scripts/try-in-bare-root', 'benchmarks/report/make_report', 'benchmarks/report/general_page',
            'benchmarks/report/results_page', 'benchmarks/paper/page/paper_page', 'benchmarks/paper/page/word_page',
