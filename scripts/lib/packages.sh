@@ -36,6 +36,7 @@ clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
 doxygen                      | test docs | builds the reference, which must not make it warn
 dpkg-dev                     | test package | finds out what packages a library needs
+help2man                     | package | writes the manual pages of the programs
 file                         | test package | tells programs from other files
 python3-dev                  | test package | the Python module
 pybind11-dev                 | test package | pybind11: the Python module
