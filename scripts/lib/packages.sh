@@ -45,6 +45,7 @@ python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)
+node-js-yaml                 | page  | js-yaml: reads scenarios in the page
 clang                        | fuzz  | builds what scripts/fuzz runs, instrumented
 libclang-rt-dev              | fuzz  | libFuzzer and clang's sanitizers
 LIST
