@@ -165,7 +165,7 @@ TEST(SlotQuestions, OneSweepIsLeftAlone)
 
 TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
 {
-    for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
+    for (const char *name : {"tpcap", "toyota_yaris"})
         for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
             for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
                 for (const bool tight : {false, true})
