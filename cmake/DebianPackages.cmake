@@ -131,14 +131,16 @@ if(PARKING_REFERENCE)
 endif()
 
 # The manual pages say what the programs say of themselves.
-parking_require(python3 Python3 COMPONENTS Interpreter)
+set(parking_plan_summary "plan how a car parks")
+set(parking_benchmark_summary "compare planners on parking problems")
 foreach(program IN ITEMS parking_plan parking_benchmark)
   if(TARGET ${program})
+    find_program(PARKING_HELP2MAN help2man REQUIRED)
     add_custom_command(OUTPUT ${made}/${program}.1.gz
-      COMMAND Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/scripts/lib/man_page.py $<TARGET_FILE:${program}>
-        ${PROJECT_VERSION} ${made}/${program}.1
+      COMMAND ${PARKING_HELP2MAN} --no-info --name ${${program}_summary} --version-string ${PROJECT_VERSION}
+        --output ${made}/${program}.1 $<TARGET_FILE:${program}>
       COMMAND ${PARKING_GZIP} -9nf ${made}/${program}.1
-      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/scripts/lib/man_page.py VERBATIM)
+      DEPENDS ${program} VERBATIM)
     list(APPEND parking_man_pages ${made}/${program}.1.gz)
   endif()
 endforeach()

@@ -1,6 +1,6 @@
 """Makes the playground's one file from its parts.
 
-usage: make_page.py ROOT VERSION CORE.js PAGE.html
+usage: make_page.py ROOT VERSION CORE.js JS-YAML.js PAGE.html
 """
 import base64
 import hashlib
@@ -53,13 +53,13 @@ def in_script(content):
     return content.replace('</script', '<\\/script').replace('<!--', '<\\!--')
 
 
-def main(root, version, core, page):
+def main(root, version, core, js_yaml, page):
     folder = os.path.join(root, 'playground', 'page')
     marks = {
         '/*@STYLE@*/': text(folder, 'style.css'),
         '/*@SCENES@*/': in_script(json.dumps(scenes(root))),
         '/*@WORKER@*/': in_script(text(core) + '\n' + text(folder, 'worker.js')),
-        '/*@SCRIPT@*/': in_script('\n'.join(text(folder, name) for name in SCRIPTS)),
+        '/*@SCRIPT@*/': in_script('\n'.join([text(js_yaml)] + [text(folder, name) for name in SCRIPTS])),
         '@VERSION@': version,
         '@SOURCES@': sources(root),
     }

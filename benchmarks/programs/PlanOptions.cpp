@@ -110,7 +110,7 @@ namespace parking
                 "parking_convert makes scenarios of other formats (docs/formats.md).\n\n"
              << describe() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
-            text << "  " << each.name << std::string(each.name.size() < 18 ? 18 - each.name.size() : 1, ' ')
+            text << "  " << each.name << std::string(each.name.size() < 20 ? 22 - each.name.size() : 2, ' ')
                  << each.summary << "\n";
         text << "\nVehicles:";
         for (const std::string &each : vehicleNames())

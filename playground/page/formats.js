@@ -4,117 +4,12 @@ const Formats = (() => {
   const short = text => { const line = String(text).replace(/\s+/g, ' ').trim(); return line.length > 60 ? line.slice(0, 60) + '...' : line; };
   const fail = (file, line, what) => { throw new Error(`${file}${line ? ':' + line : ''}: ${what}`); };
 
-  // The YAML that scenarios are written in: mappings, lists, flow collections, comments, plain and quoted scalars.
-  function parseYaml(file, text) {
-    const lines = [];
-    let open = 0;
-    text.replace(/^\uFEFF/, '').split(/\r?\n/).forEach((raw, index) => {
-      if (raw.includes('\t') && /^\s*\t/.test(raw)) fail(file, index + 1, 'a tab indents this line; YAML wants blanks');
-      let clean = '', quote = '';
-      for (let i = 0; i < raw.length; ++i) {
-        const c = raw[i];
-        if (quote) { if (c === quote) quote = ''; }
-        else if ((c === '"' || c === "'") && (!clean.trim() || /[\s[{,:]$/.test(clean))) quote = c;
-        else if (c === '#' && (i === 0 || /\s/.test(raw[i - 1]))) break;
-        clean += c;
-      }
-      if (!clean.trim() || /^(---|\.\.\.)\s*$/.test(clean)) return;
-      if (open > 0) lines[lines.length - 1].text += ' ' + clean.trim();
-      else lines.push({ indent: clean.match(/^ */)[0].length, text: clean.trim(), line: index + 1 });
-      for (const c of clean.replace(/"[^"]*"|'[^']*'/g, '')) open += c === '[' || c === '{' ? 1 : c === ']' || c === '}' ? -1 : 0;
-      if (open < 0) fail(file, index + 1, 'a bracket is closed that was not opened');
-    });
-    if (open > 0) fail(file, lines[lines.length - 1].line, 'a bracket is not closed');
-    if (!lines.length) fail(file, 0, 'holds nothing but blanks');
-
-    function scalar(value, line) {
-      if (/^".*"$|^'.*'$/.test(value)) return value.slice(1, -1);
-      if (/^[&*!|>]/.test(value)) fail(file, line, `${short(value)} is YAML that is not read here`);
-      if (value === '' || value === '~' || value === 'null') return null;
-      if (/^(true|True|yes)$/.test(value)) return true;
-      if (/^(false|False|no)$/.test(value)) return false;
-      return /^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$/.test(value) ? Number(value) : value;
-    }
-    function flow(source, line) {
-      let at = 0;
-      const blank = () => { while (at < source.length && /\s/.test(source[at])) ++at; };
-      function word(ends) {
-        blank();
-        if (source[at] === '"' || source[at] === "'") {
-          const end = source.indexOf(source[at], at + 1);
-          if (end < 0) fail(file, line, 'a quote is not closed');
-          const found = source.slice(at, end + 1);
-          at = end + 1;
-          return found;
-        }
-        let found = '';
-        while (at < source.length && !ends.includes(source[at])) found += source[at++];
-        return found.trim();
-      }
-      function value(ends) {
-        blank();
-        if (source[at] === '[') {
-          const list = [];
-          for (++at, blank(); source[at] !== ']';) {
-            list.push(value(',]'));
-            blank();
-            if (source[at] === ',') { ++at; blank(); } else if (source[at] !== ']') fail(file, line, `expected , or ] before ${short(source.slice(at))}`);
-          }
-          ++at;
-          return list;
-        }
-        if (source[at] === '{') {
-          const map = {};
-          for (++at, blank(); source[at] !== '}';) {
-            const key = String(scalar(word(':}'), line));
-            if (source[at] !== ':') fail(file, line, `expected : after ${short(key)}`);
-            ++at;
-            map[key] = value(',}');
-            blank();
-            if (source[at] === ',') { ++at; blank(); } else if (source[at] !== '}') fail(file, line, `expected , or } before ${short(source.slice(at))}`);
-          }
-          ++at;
-          return map;
-        }
-        return scalar(word(ends), line);
-      }
-      const found = value('');
-      blank();
-      if (at < source.length) fail(file, line, `expected nothing more before ${short(source.slice(at))}`);
-      return found;
-    }
-    const read = (value, line) => /^[[{]/.test(value) ? flow(value, line) : scalar(value, line);
-    let next = 0;
-    function block(indent) {
-      const isList = lines[next].text.startsWith('- ') || lines[next].text === '-';
-      const found = isList ? [] : {};
-      while (next < lines.length && lines[next].indent === indent) {
-        const entry = lines[next];
-        if (isList) {
-          if (!entry.text.startsWith('-')) fail(file, entry.line, `expected - before ${short(entry.text)}`);
-          const rest = entry.text.slice(1).trim();
-          if (!rest) { ++next; found.push(next < lines.length && lines[next].indent > indent ? block(lines[next].indent) : null); continue; }
-          if (/^- /.test(rest) || (/^[\w.]+:(\s|$)/.test(rest))) {
-            entry.indent = indent + entry.text.indexOf(rest);
-            entry.text = rest;
-            found.push(block(entry.indent));
-          } else { ++next; found.push(read(rest, entry.line)); }
-          continue;
-        }
-        const pair = /^("[^"]*"|'[^']*'|[^:[\]{}]+):(?:\s+(.*))?$/.exec(entry.text);
-        if (!pair) fail(file, entry.line, `${short(entry.text)} is no 'key: value'`);
-        const key = String(scalar(pair[1].trim(), entry.line));
-        if (Object.prototype.hasOwnProperty.call(found, key)) fail(file, entry.line, `the key '${short(key)}' is given twice`);
-        ++next;
-        if (pair[2] !== undefined && pair[2] !== '') found[key] = read(pair[2], entry.line);
-        else if (next < lines.length && (lines[next].indent > indent || (lines[next].indent === indent && lines[next].text.startsWith('-')))) found[key] = block(lines[next].indent);
-        else found[key] = null;
-      }
-      if (next < lines.length && lines[next].indent > indent) fail(file, lines[next].line, 'is indented more than what it belongs to');
-      return found;
-    }
-    const found = block(lines[0].indent);
-    if (next < lines.length) fail(file, lines[next].line, 'is indented less than the first line');
+  // A mapping in YAML. js-yaml reads it, and says in which line the text is none.
+  function readYaml(file, text) {
+    let found;
+    try { found = jsyaml.load(text, { schema: jsyaml.CORE_SCHEMA }); } catch (error) { fail(file, error.mark && error.mark.line + 1, error.reason || error.message); }
+    if (found === undefined || found === null) fail(file, 0, 'holds nothing but blanks');
+    if (typeof found !== 'object' || Array.isArray(found)) fail(file, 0, "must be a mapping with lines such as 'key: value'");
     return found;
   }
 
@@ -176,8 +71,7 @@ const Formats = (() => {
 
   // A scene from a scenario's text. `other(name)` gives another file's text or bytes, or undefined.
   async function readScenario(file, text, known, other) {
-    const yaml = parseYaml(file, text);
-    if (Array.isArray(yaml)) fail(file, 0, "must be a mapping with lines such as 'key: value'");
+    const yaml = readYaml(file, text);
     if (yaml.image !== undefined) return mapScene(await readMap(file, text, other), nameOf(file), known);
     const keys = ['name', 'map', 'polygons', 'vehicle', 'start', 'goal', 'slot', 'unknown_is_occupied'];
     for (const key of Object.keys(yaml)) if (!keys.includes(key)) fail(file, 0, `unknown key '${short(key)}'; known: ${keys.join(', ')}`);
@@ -193,7 +87,7 @@ const Formats = (() => {
       const mapText = await other(String(yaml.map));
       if (typeof mapText !== 'string') fail(file, 0, `its map '${short(yaml.map)}' is not here: drop it together with this file`);
       scene.map = await readMap(String(yaml.map), mapText, other);
-      scene.map.unknownIsOccupied = yaml.unknown_is_occupied !== false;
+      scene.map.unknownIsOccupied = !['false', 'no', 'off', 'n'].includes(String(yaml.unknown_is_occupied).toLowerCase());
     }
     return scene;
   }
@@ -263,7 +157,7 @@ const Formats = (() => {
   const isPng = bytes => bytes[0] === 137 && bytes[1] === 80 && bytes[2] === 78;
 
   async function readMap(file, text, other) {
-    const yaml = parseYaml(file, text), image = String(yaml.image || '');
+    const yaml = readYaml(file, text), image = String(yaml.image || '');
     if (!isNumber(yaml.resolution) || yaml.resolution <= 0) fail(file, 0, 'resolution must be a positive number of metres per cell');
     const origin = numbers(file, 'origin', yaml.origin, 3);
     const bytes = await other(image);
@@ -373,5 +267,5 @@ const Formats = (() => {
 
   const table = (names, rows) => names.join(',') + '\n' + rows.map(row => row.join(',')).join('\n') + '\n';
 
-  return { parseYaml, readScenario, readTpcap, open, toYaml, mapFiles, table, VEHICLE_FIELDS, KINDS, ENTRIES, SIDES };
+  return { readScenario, readTpcap, open, toYaml, mapFiles, table, VEHICLE_FIELDS, KINDS, ENTRIES, SIDES };
 })();

@@ -50,8 +50,8 @@ namespace parking::python
             return question;
         }
 
-        PlanPointer plan(const py::object &problem, const py::object &timeLimit, const py::object &anytime,
-                         const py::object &maxExpansions, const py::kwargs &parameters)
+        PlanPointer planScenario(const py::object &problem, const py::object &timeLimit, const py::object &anytime,
+                                 const py::object &maxExpansions, const py::kwargs &parameters)
         {
             const auto scenario = scenarioFrom(problem, "scenario");
             Question question = questionFrom(timeLimit, anytime, maxExpansions, parameters);
@@ -188,7 +188,7 @@ namespace parking::python
             return batch.results();
         }
 
-        py::dict statisticsOf(const PlanHandle &self)
+        py::dict searchStatistics(const PlanHandle &self)
         {
             const ScenarioPlan &plan = self.plan();
             py::dict result;
@@ -262,7 +262,7 @@ True when the path reaches a goal exactly. Arrays are made when they are first a
                     return toPython(scenario.toWorld(scenario.goals.at(self.plan().goal)));
                 },
                 "The goal that is reached, or was aimed at; None without a path.")
-            .def_property_readonly("statistics", &statisticsOf,
+            .def_property_readonly("statistics", &searchStatistics,
                                    "A dict: expanded, generated, connections, heuristic_cells, open_list_operations, "
                                    "open_list_comparisons, state_checks, exact_checks, "
                                    "planning_time and map_loading_time in seconds.")
@@ -286,7 +286,7 @@ True when the path reaches a goal exactly. Arrays are made when they are first a
             "max_expansions : ends the search after so many, which depends on no clock; 0: no limit\n\n"
             "Other Python threads run meanwhile, and Ctrl-C ends it. Parameters:\n\n" +
             parameterLines() + "\nReturns a Result. Raises Error for a value that is not allowed.";
-        module.def("plan", &plan, py::arg("scenario"), py::arg("time_limit") = 1.0, py::arg("anytime") = false,
+        module.def("plan", &planScenario, py::arg("scenario"), py::arg("time_limit") = 1.0, py::arg("anytime") = false,
                    py::arg("max_expansions") = 0, ABOUT_PLAN.c_str());
         module.def(
             "plan_batch", &planBatch, py::arg("scenarios"), py::arg("threads") = 0, py::arg("time_limit") = 1.0,

@@ -1,8 +1,8 @@
 # shellcheck shell=bash
 # Sourced by the scripts: configures and builds a preset in build/<preset>.
 
-# shellcheck source=common.sh
-source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"
+# shellcheck source=packages.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
 
 # require_cmake MAJOR.MINOR: the presets need this version.
 require_cmake()

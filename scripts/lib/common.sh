@@ -16,6 +16,22 @@ die()
     exit 2
 }
 
+# answer_help ARGUMENT...: prints the help, which it reads, and ends the script, if --help is among the arguments before --.
+answer_help()
+{
+    local argument help
+    help=$(cat)
+    for argument in "$@"; do
+        case $argument in
+            --) return ;;
+            -h | --help)
+                printf '%s\n' "$help"
+                exit 0
+                ;;
+        esac
+    done
+}
+
 # 754 -> "12 min 34 s"
 duration()
 {

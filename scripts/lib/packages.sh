@@ -41,11 +41,13 @@ clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
 doxygen                      | test docs | builds the reference, which must not make it warn
 dpkg-dev                     | test package | finds out what packages a library needs
+help2man                     | package | writes the manual pages of the programs
 file                         | test package | tells programs from other files
 python3-matplotlib           | test  | pictures of the Python module; curves for documents
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)
+node-js-yaml                 | page  | js-yaml: reads scenarios in the page
 clang                        | fuzz  | builds what scripts/fuzz runs, instrumented
 libclang-rt-dev              | fuzz  | libFuzzer and clang's sanitizers
 LIST

@@ -152,7 +152,7 @@ TEST(SlotQuestions, NoBodyTurnsWhereTheBoundSaysSo)
 
 TEST(SlotQuestions, TheWholeWayIsDrivableAndFree)
 {
-    for (const char *name : {"tpcap", "vw_golf8", "toyota_yaris"})
+    for (const char *name : {"tpcap", "toyota_yaris"})
         for (const SlotKind kind : {SlotKind::Perpendicular, SlotKind::Parallel})
             for (const SlotSide side : {SlotSide::Right, SlotSide::Left})
                 for (const bool tight : {false, true})

@@ -102,7 +102,7 @@ TEST(FreeLength, IsFreeAndStopsAtContactAmongPolygons)
 {
     Tally tally;
     for (std::uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed)
-        tryMotions(randomPolygonWorld(seed), {}, 3000, seed, tally);
+        tryMotions(randomPolygonWorld(seed), {}, 1000, seed, tally);
     expectVaried(tally);
 }
 
@@ -110,7 +110,7 @@ TEST(FreeLength, IsFreeAndStopsAtContactOnGrids)
 {
     Tally tally;
     for (std::uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed)
-        tryMotions(randomGridWorld(seed), {}, 2000, seed, tally);
+        tryMotions(randomGridWorld(seed), {}, 500, seed, tally);
     expectVaried(tally);
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Each style check is run on a small project without a fault, then with one fault at a time: it must find them all."""
+import json
 import os
 import shutil
 import subprocess
@@ -37,12 +38,12 @@ class ChecksTest(unittest.TestCase):
         with open(path, 'w', encoding='utf-8') as file:
             file.write(text)
 
-    def run_check(self, check):
-        return subprocess.run([sys.executable, '-B', os.path.join(HERE, f'check_{check}.py'), self.root],
+    def run_check(self, check, *arguments):
+        return subprocess.run([sys.executable, '-B', os.path.join(HERE, f'check_{check}.py'), self.root, *arguments],
                               capture_output=True, text=True, check=False)
 
-    def expect_found(self, check, name):
-        done = self.run_check(check)
+    def expect_found(self, check, name, *arguments):
+        done = self.run_check(check, *arguments)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn(name, done.stdout + done.stderr)
 
@@ -99,6 +100,19 @@ class ChecksTest(unittest.TestCase):
                 self.write(name, f'#pragma once\n#include {included}\n')
                 self.expect_found('dependencies', f'{name}:2')
                 os.remove(os.path.join(self.root, name))
+
+    def test_header_that_lacks_an_include(self):
+        source = os.path.join(self.root, 'parking_geometry', 'Pose.cpp')
+        commands = os.path.join(self.root, 'compile_commands.json')
+        self.write('compile_commands.json', json.dumps([
+            {'directory': self.root, 'file': source, 'command': f'c++ -I{self.root} -std=c++17 -o Pose.o -c {source}'}]))
+        self.write('parking_geometry/Pose.cpp', '#include "parking_geometry/Pose.h"\n')
+        self.assertEqual(self.run_check('headers', commands).returncode, 0)
+        self.write('parking_geometry/Path.h', '#pragma once\nstd::vector<int> lengths();\n')
+        self.expect_found('headers', 'parking_geometry/Path.h', commands)
+        # A source that includes it first is compiled by the build, which then says what is wrong.
+        self.write('parking_geometry/Pose.cpp', '#include "parking_geometry/Path.h"\n')
+        self.assertEqual(self.run_check('headers', commands).returncode, 0)
 
     def test_shell_script_with_unquoted_variable(self):
         self.write('scripts/run', '#!/usr/bin/env bash\nrm $1\n')

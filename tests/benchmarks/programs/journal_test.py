@@ -14,7 +14,7 @@ from contextlib import closing
 from programs import BENCHMARK, ProgramTest, bundled, main
 
 FULL_DISK = os.environ['PARKING_FULL_DISK']
-KILLS = int(os.environ.get('PARKING_KILLS', '200'))
+KILLS = int(os.environ.get('PARKING_KILLS', '80'))
 EACH, STRIDE = 30, 14  # of the writes to a full disk: those that are tried one by one, and the step for the many after them
 CONFIG = '''
 [problem]

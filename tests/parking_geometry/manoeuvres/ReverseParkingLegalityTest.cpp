@@ -132,7 +132,7 @@ namespace
 TEST(ReverseParkingLegality, TheNarrowestAisleAgreesWithBruteForceOnFootprints)
 {
     RandomParking random(24);
-    for (int i = 0; i < 16; ++i)
+    for (int i = 0; i < 8; ++i)
     {
         const Vehicle car = random.vehicle();
         ParkingSlot slot = random.slot(car);
