@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -222,34 +223,31 @@ namespace parking_test
         Pose pose = path.start;
         if (!isFree(pose, vehicle, margin))
             return false;
+        const double reach = reachOf(vehicle, std::max(margin, 0.0));
         for (const PathPiece &piece : path.pieces)
         {
+            const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
+            // Both from the whole piece: how the body moves, and how far looks lie apart.
+            const double moved = piece.driven() + (steepest * piece.driven() + std::abs(piece.turn)) * reach;
+            const double apart = piece.driven() + std::abs(piece.turn) * reach;
+            // Every pose is computed from where the piece begins, so that rounding does not add up.
+            const std::function<bool(double, double)> isPartFree = [&](double begin, double end)
+            {
+                const double half = 0.5 * (end - begin), middle = begin + half;
+                PathPiece part(piece.curvature, middle * piece.length, piece.sharpness);
+                part.turn = middle * piece.turn;
+                const Pose at = advance(pose, part);
+                if (isFree(at, vehicle, margin + half * moved))
+                    return true;
+                return isFree(at, vehicle, margin) &&
+                       (2.0 * half * apart <= step || (isPartFree(begin, middle) && isPartFree(middle, end)));
+            };
             const Pose end = advance(pose, piece);
-            if (!isFree(end, vehicle, margin) || !isPieceFree(pose, piece, vehicle, step, margin))
+            if (!isFree(end, vehicle, margin) || !isPartFree(0.0, 1.0))
                 return false;
             pose = end;
         }
         return true;
-    }
-
-    bool PolygonOracle::isPieceFree(const Pose &from, const PathPiece &piece, const Vehicle &vehicle, double step,
-                                    double margin) const
-    {
-        const double driven = 0.5 * piece.driven(), turn = 0.5 * piece.turn;
-        const double reach = reachOf(vehicle, std::max(margin, 0.0));
-        const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
-        PathPiece first(piece.curvature, 0.5 * piece.length, piece.sharpness);
-        first.turn = turn;
-        const Pose middle = advance(from, first);
-        if (isFree(middle, vehicle, margin + driven + (steepest * driven + std::abs(turn)) * reach))
-            return true;
-        if (!isFree(middle, vehicle, margin))
-            return false;
-        if (driven + std::abs(turn) * reach <= 0.5 * step)
-            return true;
-        PathPiece second(piece.curvatureAt(driven), 0.5 * piece.length, piece.sharpness);
-        second.turn = turn;
-        return isPieceFree(from, first, vehicle, step, margin) && isPieceFree(middle, second, vehicle, step, margin);
     }
 
     bool PolygonOracle::isFreeOfCells(const Body &world) const

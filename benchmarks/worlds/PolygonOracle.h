@@ -53,8 +53,6 @@ namespace parking_test
         struct Body;
 
         bool isFreeOfCells(const Body &world) const;
-        bool isPieceFree(const parking::Pose &from, const parking::PathPiece &piece, const parking::Vehicle &vehicle,
-                         double step, double margin) const;
 
         std::vector<parking::Polygon> obstacles_;
         std::vector<parking::Box> boxes_;  ///< round each obstacle
