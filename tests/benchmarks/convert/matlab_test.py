@@ -160,7 +160,7 @@ class MatlabTest(unittest.TestCase):
         stream = io.BytesIO()
         scipy.io.savemat(stream, scipy.io.loadmat(os.path.join(FOLDER, 'case.mat')))
         plain, random = stream.getvalue(), random_numbers(1)
-        for _ in range(20000):
+        for _ in range(5000):
             changed = bytearray(plain)
             for _ in range(random.randint(1, 3)):
                 changed[random.randrange(matlab.HEADER, len(plain))] = random.choice([0, 1, 0x80, 0xff])
