@@ -53,7 +53,7 @@ namespace parking
 
             double roomAt(double /*x*/, double /*y*/) override
             {
-                return INFINITE;
+                return HUGE_VAL;
             }
 
             bool knowsClearance() const override

@@ -4,10 +4,7 @@ Parked cars have the sizes of real cars. Everything random comes from the genera
 same bytes are written everywhere. Lengths in metres, poses are of the middle of the rear axle, yaw in radians
 counter-clockwise from +x.
 """
-import argparse
 import math
-import os
-import sys
 
 # length, width, wheelbase; sources in parking_geometry/VehicleCatalogue.cpp, whose rule for overhangs is used here too.
 CARS = {
@@ -89,11 +86,6 @@ def scenario_text(about, vehicle, start, map_file, goal=None, slot=None):
     return ('\n'.join(lines) + '\n').encode()
 
 
-def map_text(image, resolution, origin):
-    return (f'image: {image}\nmode: trinary\nresolution: {number(resolution)}\norigin: {numbers(origin)}\nnegate: 0\n'
-            'occupied_thresh: 0.65\nfree_thresh: 0.196\n').encode()
-
-
 FREE, OCCUPIED, UNKNOWN = 254, 0, 205  # as map_saver writes them
 
 
@@ -159,29 +151,3 @@ def close_gaps(seen, passes=3):
                     near = [before[row + i][column + j] for i in (-1, 0, 1) for j in (-1, 0, 1)]
                     if near.count(FREE) >= 5:
                         seen.rows[row][column] = FREE
-
-
-def main(make, folder, program, about):
-    """Writes the files that make() returns into a folder, or checks that they are there."""
-    parser = argparse.ArgumentParser(description=about)
-    parser.add_argument('--output', default=folder, help='folder to write to')
-    parser.add_argument('--check', action='store_true', help='write nothing; exit 1 when a file differs')
-    options = parser.parse_args()
-    differing = []
-    for name, content in make().items():
-        path = os.path.join(options.output, name)
-        if options.check:
-            try:
-                with open(path, 'rb') as stream:
-                    same = stream.read() == content
-            except OSError:
-                same = False
-            if not same:
-                differing.append(name)
-            continue
-        os.makedirs(options.output, exist_ok=True)
-        with open(path + '.tmp', 'wb') as stream:
-            stream.write(content)
-        os.replace(path + '.tmp', path)
-    if differing:
-        sys.exit(f'not what {program} writes: ' + ', '.join(differing))
