@@ -124,7 +124,6 @@ namespace parking
             const std::vector<Run> runs = addNodes(nodes_.empty() ? path_.start : nodes_.back().pose, stretch);
             addLegs(runs, first, stretch.direction, parameters);
         }
-        legs_.back().end = LegEnd::Goal;
         for (Node &node : nodes_)
             node.pose.yaw = wrapAngle(node.pose.yaw);
     }
@@ -178,9 +177,8 @@ namespace parking
                 if (leg.steering.empty() || knot.s > leg.steering.back().s + SAME_PLACE)
                     leg.steering.push_back(knot);
         };
-        const auto close = [&](std::size_t lastNode, LegEnd end)
+        const auto close = [&](std::size_t lastNode)
         {
-            leg.end = end;
             leg.endLength = leg.steering.back().s;
             legs_.push_back(leg);
             legNodes_.push_back({firstNode, lastNode});
@@ -214,11 +212,11 @@ namespace parking
             }
             addKnots(current);
             if (stops)
-                close(current.endNode, LegEnd::Steering);
+                close(current.endNode);
             current = std::move(next);
         }
         addKnots(current);
-        close(current.endNode, LegEnd::Cusp);
+        close(current.endNode);
     }
 
     Pose ReferencePath::pose(std::size_t leg, double s) const

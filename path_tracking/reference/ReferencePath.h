@@ -33,19 +33,10 @@ namespace parking
         void validate() const;
     };
 
-    /** \brief Why a leg ends. */
-    enum class LegEnd
-    {
-        Cusp,      ///< the direction changes
-        Steering,  ///< the curvature jumps by more than can be steered in motion
-        Goal       ///< the path ends
-    };
-
     /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
     struct ReferenceLeg
     {
         int direction{1};                    ///< 1 forwards, -1 in reverse
-        LegEnd end{LegEnd::Goal};            ///< why the car stands at its end
         double beginLength{0.0};             ///< metres since the begin of the path
         double endLength{0.0};               ///< metres since the begin of the path
         std::vector<SteeringKnot> steering;  ///< at least two, first at beginLength, last at endLength

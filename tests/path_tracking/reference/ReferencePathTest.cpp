@@ -49,10 +49,8 @@ namespace parking::test
             // Straight, full lock left, full lock right, then a cusp with the wheels as they are.
             const ReferencePath reference(arcs({}, {{0.0, 2.0}, {1.0, 2.0}, {-1.0, 2.0}, {-1.0, -2.0}}), Vehicle());
             ASSERT_EQ(reference.legs().size(), 4u);
-            EXPECT_EQ(reference.legs()[0].end, LegEnd::Steering);
-            EXPECT_EQ(reference.legs()[1].end, LegEnd::Steering);
-            EXPECT_EQ(reference.legs()[2].end, LegEnd::Cusp);
-            EXPECT_EQ(reference.legs()[3].end, LegEnd::Goal);
+            EXPECT_EQ(reference.legs()[2].direction, 1);
+            EXPECT_EQ(reference.legs()[3].direction, -1);
             const double lock = Vehicle().maxSteeringAngle;
             EXPECT_NEAR(reference.legs()[0].steering.back().angle, 0.0, 1e-12);
             EXPECT_NEAR(reference.legs()[1].steering.front().angle, lock, 1e-12);

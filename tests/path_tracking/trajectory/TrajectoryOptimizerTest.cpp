@@ -62,18 +62,18 @@ namespace parking
 
         TEST(TrajectoryOptimizer, OfPathsThatAreAlikeOneIsSolvedAndOfOthersEach)
         {
-            // Round an obstacle that is not there, on two sides.
+            // Round a box, on two sides.
             const auto swing = [](double side, double aside)
             {
                 return Path{{0.0, aside, 0.0}, {{0.2 * side, 3.0}, {-0.2 * side, 6.0}, {0.2 * side, 3.0}}};
             };
             TrajectoryOptions options;
             options.sharpest = false;
-            const FootprintChecker checker = checkerOf({});
+            const FootprintChecker checker = checkerOf({box(6.8, 0.0, 0.8, 0.8, 0.0)});
             const TrajectoryOptimizer optimizer(checker, options);
             const std::size_t alone = optimizer.optimize(swing(1.0, 0.0)).rounds;
             EXPECT_EQ(optimizer.optimizeBest({swing(1.0, 0.0), swing(1.0, 1e-3)}).rounds, alone);
-            EXPECT_GT(optimizer.optimizeBest({swing(1.0, 0.0), swing(-1.0, 0.0)}).rounds, alone);
+            EXPECT_EQ(optimizer.optimizeBest({swing(1.0, 0.0), swing(-1.0, 0.0)}).rounds, alone + 1);
         }
 
         TEST(TrajectoryOptimizer, HoldsEveryLimitTouchesNothingAndIsNeverSlower)
