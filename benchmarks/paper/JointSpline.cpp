@@ -45,21 +45,28 @@ namespace parking
         for (Eigen::Index i = 0; i < knots.size(); ++i)
             knots[i] = static_cast<double>(std::clamp<Eigen::Index>(i - order, 0, spans));
         const Spline spline(knots, columns);
-        // As many parts in each span, so that the corners of a polyline are among the points.
-        auto parts = static_cast<Eigen::Index>(std::ceil(lengthOf(controls) / step)) / spans + 1;
-        for (;; parts += parts / 2 + 1)
+        // Span by span, so that the corners of a polyline are among the points.
+        Points curve{controls.front()};
+        for (Eigen::Index span = 0; span < spans; ++span)
         {
-            Points curve{controls.front()};
-            double longest = 0.0;
-            for (Eigen::Index i = 1; i <= parts * spans; ++i)
+            const std::size_t begun = curve.size();
+            const auto first = controls.begin() + span;
+            const double reach = lengthOf({first, first + order + 1}) / static_cast<double>(order);
+            auto parts = static_cast<Eigen::Index>(std::ceil(reach / step)) + 1;
+            for (double longest = 2.0 * step; longest > step; parts += parts / 2 + 1)
             {
-                curve.emplace_back(spline(static_cast<double>(i) / static_cast<double>(parts)));
-                longest = std::max(longest, (curve.back() - curve[curve.size() - 2]).norm());
+                curve.resize(begun);
+                longest = 0.0;
+                for (Eigen::Index i = 1; i <= parts; ++i)
+                {
+                    const double share = static_cast<double>(i) / static_cast<double>(parts);
+                    curve.emplace_back(spline(static_cast<double>(span) + share));
+                    longest = std::max(longest, (curve.back() - curve[curve.size() - 2]).norm());
+                }
             }
-            curve.back() = controls.back();
-            if (longest <= step)
-                return curve;
         }
+        curve.back() = controls.back();
+        return curve;
     }
 
     double lengthOf(const Points &points)

@@ -66,7 +66,7 @@ namespace parking
             style.strokeOpacity = 0.9;
             style.dash = record->isSuccess() ? "" : "3 4";
             const SvgStyle legend = style;
-            style.data = {{"planner", planner}, {"run", std::to_string(record->run)}};
+            style.data = {{"planner", planner}, {"run", std::to_string(record->run())}};
             std::vector<Eigen::Vector2d> line;
             const SampledPath path = sampled(*record);
             for (std::size_t k = 1; k < path.size(); ++k)

@@ -112,6 +112,18 @@ namespace parking
         return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), most)) : std::nullopt;
     }
 
+    std::optional<double> CommandLine::between(const std::string &option, double least, double most,
+                                               const std::string &unit) const
+    {
+        if (!given(option))
+            return std::nullopt;
+        double value = 0.0;
+        if (!parseNumber(*text(option), value) || value < least || value > most)
+            throw Error("--" + option + " must be a number from " + formatNumber(least) + " to " + formatNumber(most) +
+                        " " + unit + ", not " + inQuotes(*text(option)));
+        return value;
+    }
+
     std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const
     {
         return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), least, most))

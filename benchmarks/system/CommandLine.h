@@ -53,6 +53,10 @@ namespace parking
         std::optional<double> positive(const std::string &option,
                                        double most = std::numeric_limits<double>::infinity()) const;
 
+        /** \brief A number from \e least to \e most; \e unit is for the message. */
+        std::optional<double> between(const std::string &option, double least, double most,
+                                      const std::string &unit) const;
+
         /** \brief See wholeNumber(). */
         std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -222,7 +223,7 @@ namespace
             problem.from({{-9.0, 0.0, 0.0}}).to({{9.0, 0.0, 0.0}});
             ASSERT_EQ(problem.solveWithPolls(20000), Status::EXACT_SOLUTION);
             const PolygonOracle oracle(each.scene.obstacles, each.scene.bounds);
-            double closest = INFINITE;
+            double closest = HUGE_VAL;
             for (const parking::PathState &state : problem.planner->solutionPath()->sample(0.02))
                 closest = std::min(closest, oracle.clearance(state.pose, problem.vehicle));
             EXPECT_GE(closest, each.least - 1e-9);

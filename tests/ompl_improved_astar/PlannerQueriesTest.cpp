@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <tuple>
 
@@ -24,7 +25,7 @@ namespace
                 PlanningProblem problem(space, GAPS, parameters);
                 problem.set(anytime);
                 problem.from({LEFT}).to({RIGHT});
-                double cost = INFINITE, bound = INFINITE;
+                double cost = HUGE_VAL, bound = HUGE_VAL;
                 for (const unsigned int polls : {20000u, 1500u, 1u, 1500u, 0u})
                 {
                     ASSERT_EQ(problem.solveWithPolls(polls), Status::EXACT_SOLUTION);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <set>
 #include <string>
@@ -84,8 +85,8 @@ namespace
                 PlanningProblem problem(space, isExact ? GAPS : CLOSED, parameters);
                 problem.set("clearance_cost=0");
                 const auto iterations = problem.planner->getPlannerProgressProperties().at("iterations INTEGER");
-                EXPECT_EQ(problem.bestCost(), INFINITE);
-                EXPECT_EQ(problem.planner->suboptimalityBound(), INFINITE);
+                EXPECT_EQ(problem.bestCost(), HUGE_VAL);
+                EXPECT_EQ(problem.planner->suboptimalityBound(), HUGE_VAL);
                 EXPECT_EQ(iterations(), "0");
                 problem.from({LEFT}).to({RIGHT}).solve();
                 ASSERT_EQ(problem.pdef->getSolutionCount(), 1u);
@@ -94,8 +95,8 @@ namespace
                 EXPECT_EQ(iterations(), std::to_string(problem.planner->statistics().expanded));
                 EXPECT_EQ(problem.planner->suboptimalityBound() < 5.0, isExact);
                 problem.planner->clearQuery();
-                EXPECT_EQ(problem.bestCost(), INFINITE);
-                EXPECT_EQ(problem.planner->suboptimalityBound(), INFINITE);
+                EXPECT_EQ(problem.bestCost(), HUGE_VAL);
+                EXPECT_EQ(problem.planner->suboptimalityBound(), HUGE_VAL);
             }
     }
 
@@ -105,7 +106,7 @@ namespace
         {
             PlanningProblem problem(Space::ReedsShepp, GAPS, "anytime=1");
             problem.set(clearance);
-            std::vector<double> costs{INFINITE};
+            std::vector<double> costs{HUGE_VAL};
             problem.pdef->setIntermediateSolutionCallback(
                 [&](const ob::Planner *planner, const std::vector<const ob::State *> &states, const ob::Cost cost)
                 {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace
@@ -55,7 +56,7 @@ namespace
     /** The clearance of a car of three discs on a plain with posts in its way. */
     double amongPosts(const Pose &pose)
     {
-        double least = INFINITE;
+        double least = HUGE_VAL;
         for (const double ahead : {0.0, 1.3, 2.6})
             for (int post = -4; post <= 4; ++post)
                 least = std::min(
