@@ -80,8 +80,9 @@ namespace parking
         int cause = sqlite3_system_errno(handle_);
         if (cause == 0 && code == SQLITE_IOERR)  // a file knows what happened to it (quota, limit of its size)
             sqlite3_file_control(handle_, "main", SQLITE_FCNTL_LAST_ERRNO, &cause);
+        // Where it cannot make a file, SQLite looks for it once more, and does not find it.
         throw Error(file_ + ": SQLite: " + oneLine(text) +
-                    (cause != 0 ? std::string(" (") + std::strerror(cause) + ")" : "") +
+                    (cause != 0 && cause != ENOENT ? std::string(" (") + std::strerror(cause) + ")" : "") +
                     (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ? "; move it away, or name another file" : ""));
     }
 

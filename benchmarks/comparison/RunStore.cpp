@@ -37,7 +37,8 @@ namespace parking
                 experimentid INTEGER REFERENCES all_experiments(id) ON DELETE CASCADE,
                 plannerid INTEGER REFERENCES all_plannerConfigs(id) ON DELETE CASCADE,
                 run INTEGER, seed INTEGER, time REAL);
-            CREATE INDEX runs_of_planners ON all_runs (experimentid, plannerid);
+            CREATE INDEX runs_of_experiments ON all_runs (experimentid, plannerid);
+            CREATE INDEX runs_of_planners ON all_runs (plannerid);
             CREATE TABLE progress (runid INTEGER REFERENCES all_runs(id) ON DELETE CASCADE, time REAL, best_cost REAL,
                 PRIMARY KEY (runid, time));
             CREATE TABLE details (runid INTEGER PRIMARY KEY REFERENCES all_runs(id) ON DELETE CASCADE,
@@ -45,8 +46,10 @@ namespace parking
             CREATE TABLE selection (fingerprint TEXT PRIMARY KEY, count INTEGER);
             CREATE VIEW runs AS SELECT all_runs.* FROM all_runs JOIN details ON runid = all_runs.id
                 JOIN selection ON selection.fingerprint = details.fingerprint WHERE all_runs.run < count;
-            CREATE VIEW experiments AS SELECT * FROM all_experiments WHERE id IN (SELECT experimentid FROM runs);
-            CREATE VIEW plannerConfigs AS SELECT * FROM all_plannerConfigs WHERE id IN (SELECT plannerid FROM runs);)";
+            CREATE VIEW experiments AS SELECT * FROM all_experiments
+                WHERE EXISTS (SELECT 1 FROM runs WHERE experimentid = all_experiments.id);
+            CREATE VIEW plannerConfigs AS SELECT * FROM all_plannerConfigs
+                WHERE EXISTS (SELECT 1 FROM runs WHERE plannerid = all_plannerConfigs.id);)";
 
         std::int64_t numberOf(const SqlValue &cell)
         {
