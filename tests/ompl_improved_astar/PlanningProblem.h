@@ -284,7 +284,7 @@ namespace parking_test
         void expectDrivable(const Pose &from, const Pose &to) const
         {
             // Metres and radians: rounding of coordinates in the billions, and chords instead of arcs on a plain space.
-            constexpr double ROUNDING = 1e-5, CHORD = 0.01;
+            constexpr double ROUNDING = 2e-5, CHORD = 0.01;
             const Pose step = relativeTo(from, to);
             const double length = std::hypot(step.x, step.y);
             const bool mayReverse = kind_ == Space::SE2 || kind_ == Space::ReedsShepp;

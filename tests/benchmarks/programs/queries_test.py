@@ -54,7 +54,7 @@ class QueriesTest(ProgramTest):
         done = self.run_program(sys.executable, '-B', script, 'results', '--svg', 'solved.svg')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertRegex(done.stdout, r'\| improved_astar \| [0-2] of 2 \| 0 \|')
-        self.assertRegex(done.stdout, r'\| shapes \| [0-2] of 2, ')
+        self.assertRegex(done.stdout, r'\| shapes_1_1 \| [01] of 1 \|')
         xml.etree.ElementTree.parse(self.path('solved.svg'))
 
     def test_general_cfg_alone_says_what_is_missing(self):

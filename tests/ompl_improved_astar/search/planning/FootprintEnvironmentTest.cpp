@@ -171,7 +171,7 @@ TEST(FootprintEnvironment, aMotionIsFreeWhereItsPosesAre)
         }
     }
     EXPECT_GT(free, 200);
-    EXPECT_GT(blocked, 200);
+    EXPECT_GT(blocked, 150);
 }
 
 TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)
