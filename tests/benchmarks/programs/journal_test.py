@@ -9,12 +9,12 @@ import signal
 import sqlite3
 import subprocess
 import time
-from contextlib import closing
+from contextlib import closing, suppress
 
 from programs import BENCHMARK, ProgramTest, bundled, main
 
 FULL_DISK = os.environ['PARKING_FULL_DISK']
-KILLS = int(os.environ.get('PARKING_KILLS', '80'))
+KILLS = int(os.environ.get('PARKING_KILLS', '200'))
 EACH, STRIDE = 30, 14  # of the writes to a full disk: those that are tried one by one, and the step for the many after them
 CONFIG = '''
 [problem]
@@ -42,7 +42,7 @@ class JournalTest(ProgramTest):
         shutil.rmtree(self.path('copy'), ignore_errors=True)
         os.mkdir(self.path('copy'))
         for suffix in ('', '-journal'):
-            if os.path.exists(self.path(name + suffix)):
+            with suppress(FileNotFoundError):
                 shutil.copy(self.path(name + suffix), self.path('copy/runs.db' + suffix))
         try:
             return self.records('copy/runs.db', clock=True)
@@ -62,12 +62,14 @@ class Killed(JournalTest):
     def test_killed_at_random_instants(self):
         runs = 8
         command = [BENCHMARK, 'set.cfg', '--output', 'out', '--quiet', '--runs', str(runs)]
-        begin = time.monotonic()
-        self.benchmark(*command[1:3], 'whole', *command[4:])
-        total = time.monotonic() - begin
-        begin = time.monotonic()
-        self.benchmark(*command[1:3], 'whole', *command[4:])
-        rewriting = time.monotonic() - begin
+        quick = command + ['--no-report']
+
+        def seconds(arguments):
+            begin = time.monotonic()
+            self.assertEqual(self.run_program(*arguments[:3], 'whole', *arguments[4:]).returncode, 0)
+            return time.monotonic() - begin
+
+        planning, rewriting, reporting = seconds(quick), seconds(quick), seconds(command)
         wanted = self.records('whole/benchmark.db')
         self.assertEqual(len(wanted), 2 * runs)
         rng = random.Random(1)
@@ -77,14 +79,15 @@ class Killed(JournalTest):
             shutil.rmtree(self.path('out'), ignore_errors=True)
             kept, done, planned, rounds = [], False, False, rounds + 1
             # The report is made last and takes longest: most rounds do without, so that there can be many kills.
-            reported = rounds % 6 == 1
-            arguments = command if reported else command + ['--no-report']
+            reported = rounds % 12 == 1
+            arguments = command if reported else quick
             # At least one process of a round finds all runs finished, and is hit while it writes the results again.
             while not (done and planned):
                 planned = len(kept) == 2 * runs
                 process = subprocess.Popen(arguments, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                 try:
-                    process.wait(rng.uniform(0.0, 1.2 * rewriting if planned and not reported else 0.7 * total))
+                    whole = reporting if planned and reported else rewriting if planned else planning
+                    process.wait(rng.uniform(0.0, 1.2 * whole))
                 except subprocess.TimeoutExpired:
                     process.send_signal(signal.SIGKILL)
                 _, errors = process.communicate()
