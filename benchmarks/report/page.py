@@ -24,7 +24,7 @@ MAX_GALLERIES, MAX_SETUPS = 25, 100  # problems
 BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
 
 # Further columns, shown where the runs have such figures. The file is made from the table in
-# benchmarks/comparison/RunColumns.cpp.
+# benchmarks/store/RunColumns.cpp.
 with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
     COLUMNS = json.load(_columns)
 

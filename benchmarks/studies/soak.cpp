@@ -1,9 +1,9 @@
 // Plans in random worlds for hours, on several threads: does memory grow, does anything take long, is anything wrong?
 
+#include "benchmarks/plan/PlanRun.h"
+#include "benchmarks/plan/Problem.h"
 #include "benchmarks/planners/PlannerRegistry.h"
-#include "benchmarks/problems/PlanRun.h"
-#include "benchmarks/problems/Problem.h"
-#include "benchmarks/programs/Queries.h"
+#include "benchmarks/queries/Queries.h"
 #include "benchmarks/system/CommandLine.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "benchmarks/worlds/MadeWorlds.h"

@@ -1,6 +1,6 @@
 #include "benchmarks/summary/ComparisonPictures.h"
 
-#include "benchmarks/problems/PlannedPath.h"
+#include "benchmarks/plan/PlannedPath.h"
 #include "parking_geometry/drawing/Svg.h"
 
 #include <array>

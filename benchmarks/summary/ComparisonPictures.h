@@ -1,8 +1,8 @@
 #pragma once
 
-#include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/plan/Problem.h"
 #include "benchmarks/planners/SolveRecord.h"
-#include "benchmarks/problems/Problem.h"
+#include "benchmarks/store/RunRecord.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "benchmarks/comparison/Experiment.h"
-#include "benchmarks/comparison/RunColumns.h"
-#include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/config/Experiment.h"
+#include "benchmarks/store/RunColumns.h"
+#include "benchmarks/store/RunRecord.h"
 
 #include <string>
 #include <string_view>

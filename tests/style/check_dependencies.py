@@ -33,8 +33,8 @@ MAY_INCLUDE = {
     'tests': LIBRARIES + ['benchmarks', 'examples', 'playground', 'integrations'],
 }
 # The rooms of the comparison, each of which may use those before it. The studies beside them use what they like.
-ROOMS = [f'benchmarks/{room}' for room in ('worlds', 'system', 'planners', 'metrics', 'problems', 'comparison',
-                                           'summary', 'programs')]
+ROOMS = [f'benchmarks/{room}' for room in ('worlds', 'system', 'planners', 'metrics', 'plan', 'config', 'queries', 'store',
+                                           'summary', 'compare')]
 MAY_INCLUDE.update({room: LIBRARIES + ROOMS[:k] for k, room in enumerate(ROOMS)})
 
 # What the core does without: other libraries than Eigen, and the folders that are there to know them.

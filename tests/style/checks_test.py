@@ -92,8 +92,8 @@ class ChecksTest(unittest.TestCase):
                 ('ompl_improved_astar/search/Bad.h', '<ompl/base/Planner.h>'),
                 ('ompl_improved_astar/search/Bad.h', '<fcl/fcl.h>'),
                 ('automatic_parking/Bad.cpp', '"benchmarks/Table.h"'),
-                ('benchmarks/comparison/Bad.cpp', '"benchmarks/programs/Options.h"'),
-                ('benchmarks/planners/Bad.cpp', '"benchmarks/problems/Problem.h"'),
+                ('benchmarks/config/Bad.cpp', '"benchmarks/compare/Options.h"'),
+                ('benchmarks/planners/Bad.cpp', '"benchmarks/plan/Problem.h"'),
                 ('benchmarks/studies/Bad.cpp', '"tests/RandomWorlds.h"'),
                 ('benchmarks/Bad.cpp', '"../state_validity/Checker.h"')):
             with self.subTest(f'{name} includes {included}'):

@@ -1,6 +1,6 @@
 // Random queries: free by the oracle, with their margin, the same for the same seed.
 
-#include "benchmarks/programs/Queries.h"
+#include "benchmarks/queries/Queries.h"
 
 #include "benchmarks/worlds/MadeWorlds.h"
 #include "benchmarks/worlds/PolygonOracle.h"

@@ -1,7 +1,7 @@
 // What planners from elsewhere may answer: any states, any status. Nothing that is wrong is taken for a solution.
 
-#include "benchmarks/problems/PlanRun.h"
-#include "benchmarks/programs/PlanReport.h"
+#include "benchmarks/plan/PlanReport.h"
+#include "benchmarks/plan/PlanRun.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/fuzz/plans/SmallWorld.h"
 

@@ -1,6 +1,6 @@
 // The command line of parking_plan, an argument per line, and what its --set does to the planner.
 
-#include "benchmarks/programs/PlanOptions.h"
+#include "benchmarks/plan/PlanOptions.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/fuzz/Fuzz.h"

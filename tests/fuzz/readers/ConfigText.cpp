@@ -1,6 +1,6 @@
 // The .cfg files of comparisons.
 
-#include "benchmarks/comparison/BenchmarkConfig.h"
+#include "benchmarks/config/BenchmarkConfig.h"
 #include "tests/fuzz/Fuzz.h"
 
 namespace parking_test::fuzz

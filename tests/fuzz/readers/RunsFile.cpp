@@ -1,6 +1,6 @@
 // Runs as a process hands them to another, one a line: what is read is written and read again as what it is.
 
-#include "benchmarks/comparison/RunRecord.h"
+#include "benchmarks/store/RunRecord.h"
 #include "tests/fuzz/Fuzz.h"
 
 #include <sstream>

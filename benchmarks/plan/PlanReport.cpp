@@ -1,0 +1,438 @@
+#include "benchmarks/plan/PlanReport.h"
+
+#include "automatic_parking/ParkingWorld.h"
+#include "automatic_parking/drawing/DriveAnimation.h"
+#include "automatic_parking/drawing/DriveFigure.h"
+#include "benchmarks/plan/PathDrive.h"
+#include "benchmarks/system/Counted.h"
+#include "benchmarks/system/ProcessorTime.h"
+#include "parking_geometry/Error.h"
+#include "parking_geometry/drawing/Svg.h"
+#include "parking_geometry/text/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+using nlohmann::json;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double MS = 1e3;                // milliseconds in a second
+        constexpr double TRAJECTORY_STEP = 0.05;  // seconds between samples
+        constexpr double DEGREES = 180.0 / PI;    // in a radian
+
+        /** Are the wheels ever turned? */
+        bool steers(const TimedMotion &motion)
+        {
+            return std::any_of(motion.knots.begin(), motion.knots.end(),
+                               [](const MotionKnot &knot) { return knot.steering != 0.0; });
+        }
+
+        json vehicleJson(const Vehicle &vehicle)
+        {
+            return {{"name", vehicle.name},
+                    {"wheelbase", vehicle.wheelbase},
+                    {"front_overhang", vehicle.frontOverhang},
+                    {"rear_overhang", vehicle.rearOverhang},
+                    {"width", vehicle.width},
+                    {"max_steering_angle", vehicle.maxSteeringAngle},
+                    {"max_speed", vehicle.maxSpeed},
+                    {"max_acceleration", vehicle.maxAcceleration},
+                    {"max_steering_rate", vehicle.maxSteeringRate},
+                    {"min_turning_radius", vehicle.minTurningRadius()}};
+        }
+
+        json poseJson(const Scenario &scenario, const Pose &local)
+        {
+            const Pose pose = scenario.toWorld(local);
+            return {{"x", pose.x}, {"y", pose.y}, {"yaw", pose.yaw}};
+        }
+
+        /** JSON knows no infinity: what is not finite is null. */
+        json number(double value)
+        {
+            return std::isfinite(value) ? json(value) : json(nullptr);
+        }
+
+        json whole(const std::optional<std::uint64_t> &count)
+        {
+            return count ? json(*count) : json(nullptr);
+        }
+
+        json trackingJson(const PlanReport &result)
+        {
+            if (!result.drive)
+                return {{"arrived", false}, {"message", result.driveError}};
+            const Evaluation &figures = result.drive->evaluation;
+            return {{"arrived", result.drive->arrived},
+                    {"message", result.drive->message},
+                    {"travel_time_s", figures.travelTime},
+                    {"driven_length_m", figures.drivenLength},
+                    {"mean_abs_acceleration", figures.meanAbsAcceleration},
+                    {"mean_abs_steering_deg", figures.meanAbsSteering * DEGREES},
+                    {"max_position_error_m", figures.maxPositionError},
+                    {"final_position_error_m", figures.finalPositionError},
+                    {"final_yaw_error_rad", figures.finalYawError},
+                    {"corner_deviation_m", figures.cornerDeviation},
+                    {"min_clearance_m", number(figures.minClearance)},
+                    {"mpc_solve_ms",
+                     {{"median", MS * figures.solveTime.median},
+                      {"p99", MS * figures.solveTime.p99},
+                      {"max", MS * figures.solveTime.max}}},
+                    {"collisions", figures.collisions}};
+        }
+
+        json trajectoryJson(const Scenario &scenario, const Trajectory &trajectory, bool withSteeringRate)
+        {
+            json samples = json::array();
+            for (const TrajectoryPoint &point : trajectory)
+            {
+                json each = poseJson(scenario, {point.x, point.y, point.yaw});
+                each["t"] = point.t;
+                each["v"] = point.v;
+                each["steering"] = point.steering;
+                each["acceleration"] = point.acceleration;
+                if (withSteeringRate)
+                    each["steering_rate"] = point.steeringRate;
+                samples.push_back(std::move(each));
+            }
+            return samples;
+        }
+
+        void addTrajectoryTo(json &text, const Scenario &scenario, const PlanReport &result)
+        {
+            text["planned_trajectory"] = json::array();
+            if (!result.trajectory)
+            {
+                text["trajectory_optimization"] = {{"message", result.trajectoryError}};
+                return;
+            }
+            const OptimizedTrajectory &optimized = result.trajectory->trajectory;
+            const TpcapCost cost = tpcapCost(optimized.motion);
+            text["planned_trajectory"] =
+                trajectoryJson(scenario, sample(optimized.motion, scenario.vehicle, TRAJECTORY_STEP), true);
+            text["trajectory_optimization"] = {{"duration_s", optimized.motion.duration()},
+                                               {"time_ms", MS * result.trajectoryTime},
+                                               {"fallback", optimized.fallback},
+                                               {"message", optimized.reason},
+                                               {"rounds", optimized.rounds},
+                                               {"iterations", optimized.iterations},
+                                               {"paths", result.trajectory->paths},
+                                               {"path", optimized.path},
+                                               {"tpcap_cost",
+                                                {{"J", cost.total()},
+                                                 {"time_s", cost.time},
+                                                 {"control_effort", cost.controlEffort},
+                                                 {"steering_integral", cost.steeringIntegral},
+                                                 {"gear_changes", cost.gearChanges}}}};
+        }
+
+        /** What a planner says of a path that the referee does not accept is worth nothing. */
+        std::string statusOf(const PlanRun &run)
+        {
+            return run.path && !run.hasValidPath() ? "invalid_path" : toString(run.status);
+        }
+
+        json runJson(const PlanRun &run)
+        {
+            json each{{"status", statusOf(run)},
+                      {"planning_time_ms", MS * run.planningTime},
+                      {"first_solution_ms", run.isSolved() ? json(MS * run.firstSolutionTime) : json(nullptr)}};
+            each["length_m"] = run.path ? json(run.path->length) : json(nullptr);
+            each["cusps"] = run.path ? json(run.path->cusps) : json(nullptr);
+            each["valid"] = run.path ? json(run.hasValidPath()) : json(nullptr);
+            return each;
+        }
+
+        /** The optimizer's messages begin with what they are about, which is said anyway where they are shown. */
+        std::string withoutSubject(const std::string &message)
+        {
+            const std::string subject = "trajectory: ";
+            return message.compare(0, subject.size(), subject) == 0 ? message.substr(subject.size()) : message;
+        }
+
+        std::string driveSummary(const DriveResult &drive)
+        {
+            const Evaluation &figures = drive.evaluation;
+            std::string text = drive.message + " after " + formatNumber(figures.travelTime, 1) + " s, " +
+                               formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path, " +
+                               counted(figures.collisions, "collision");
+            if (figures.cornerDeviation > 0.0)
+                text += " (no car can drive the path's corners; it leaves the path there by up to " +
+                        formatNumber(figures.cornerDeviation, 2) + " m)";
+            return text;
+        }
+
+        /** The planned trajectory in the scenario's coordinates; empty without one. */
+        Trajectory plannedSamples(const Scenario &scenario, const PlanReport &result)
+        {
+            return result.trajectory ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
+                                     : Trajectory();
+        }
+    }  // namespace
+
+    json parametersJson(const ompl::base::Planner &planner)
+    {
+        std::map<std::string, std::string> parameters;
+        planner.params().getParams(parameters);
+        json result = json::object();
+        for (const auto &[name, value] : parameters)
+        {
+            double parsed = 0.0;
+            const auto &parameter = planner.params().getParam(name);
+            if (dynamic_cast<const ompl::base::SpecificParam<bool> *>(parameter.get()) != nullptr)
+                result[name] = value != "0";
+            else if (parseNumber(value, parsed))
+                result[name] = parsed == std::trunc(parsed) && std::abs(parsed) < 1e15
+                                   ? json(static_cast<std::int64_t>(parsed))
+                                   : json(parsed);
+            else
+                result[name] = value;
+        }
+        return result;
+    }
+
+    json pathJson(const Scenario &scenario, const SampledPath &path)
+    {
+        json states = json::array();
+        for (const PathState &state : path)
+        {
+            json each = poseJson(scenario, state.pose);
+            each["direction"] = state.direction;
+            each["curvature"] = state.curvature;
+            states.push_back(std::move(each));
+        }
+        return states;
+    }
+
+    int exitStatus(const PlanRun &run, bool isAllWritten)
+    {
+        constexpr int EXACT = 0, APPROXIMATE = 3, NOTHING = 4;
+        if (!isAllWritten)
+            return NOTHING;
+        if (run.isSolved())
+            return EXACT;
+        return run.status == PlanStatus::Approximate && run.hasValidPath() ? APPROXIMATE : NOTHING;
+    }
+
+    std::vector<std::string> missingFiles(const PlanOptions &options, const PlanReport &result)
+    {
+        std::vector<std::string> missing;
+        if (!result.first().path)
+            return missing;
+        if (!options.csv.empty() && !result.trajectory)
+            missing.push_back(options.csv + " is not written: no trajectory: " + result.trajectoryError);
+        if (!options.html.empty() && !result.drive)
+            missing.push_back(options.html + " is not written: not driven: " + result.driveError);
+        return missing;
+    }
+
+    json resultJson(const Problem &problem, const PlanOptions &options, const PlanReport &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        const PlanRun &run = result.first();
+        json times = json::array(), runs = json::array(), goals = json::array();
+        for (const PlanRun &each : result.runs)
+        {
+            times.push_back(MS * each.planningTime);
+            runs.push_back(runJson(each));
+        }
+        for (const Pose &goal : scenario.goals)
+            goals.push_back(poseJson(scenario, goal));
+        json text{{"format", 1},
+                  {"scenario", scenario.name},
+                  {"scenario_file", options.scenario},
+                  {"planner", result.planner},
+                  {"parameters", result.parameters},
+                  {"space", toString(problem.settings().space)},
+                  {"footprint", toString(problem.settings().footprint)},
+                  {"circle_radius_m", problem.circleRadius() > 0.0 ? json(problem.circleRadius()) : json(nullptr)},
+                  {"seed", options.seed},
+                  {"time_limit_s", options.timeLimit},
+                  {"vehicle", vehicleJson(scenario.vehicle)},
+                  {"start", poseJson(scenario, scenario.start)},
+                  {"goals", std::move(goals)},
+                  {"status", statusOf(run)},
+                  {"reason", run.reason},
+                  {"map_loading_time_ms", MS * (problem.loadingTime() + run.mapLoadingTime)},
+                  {"planning_time_ms", std::move(times)},
+                  {"runs", std::move(runs)},
+                  {"path", run.path ? pathJson(scenario, run.path->states()) : json::array()},
+                  {"length_m", run.path ? json(run.path->length) : json(nullptr)},
+                  {"cusps", run.path ? json(run.path->cusps) : json(nullptr)},
+                  {"min_clearance_m", run.path ? number(run.path->clearance) : json(nullptr)},
+                  {"goal_distance_m", run.path ? json(run.goalDistance) : json(nullptr)},
+                  {"search",
+                   {{"expanded", run.search.expanded},
+                    {"generated", run.search.generated},
+                    {"state_checks", run.search.stateChecks},
+                    {"exact_checks", run.search.exactChecks},
+                    {"open_list_operations", whole(run.search.openListOperations)},
+                    {"open_list_comparisons", whole(run.search.openListComparisons)},
+                    {"suboptimality_bound", number(run.suboptimalityBound)}}}};
+        if (run.path)
+            text["recheck"] = {{"valid", run.hasValidPath()},
+                               {"states", run.path->recheck.states},
+                               {"collisions", run.path->recheck.collisions},
+                               {"fault", toString(run.path->recheck.fault)},
+                               {"reason", run.path->recheck.reason}};
+        if (options.trajectory)
+            addTrajectoryTo(text, scenario, result);
+        if (!options.track)
+            return text;
+        if (run.path)
+            text["tracking"] = trackingJson(result);
+        text["trajectory"] = result.drive ? trajectoryJson(scenario, result.drive->trajectory, false) : json::array();
+        return text;
+    }
+
+    std::string resultSummary(const Problem &problem, const PlanReport &result)
+    {
+        const PlanRun &run = result.first();
+        std::string text = problem.scenario().name + ": " + statusOf(run) + " (" + result.planner + ", " +
+                           formatNumber(MS * run.planningTime, 1) + " ms; loading the map " +
+                           formatNumber(MS * (problem.loadingTime() + run.mapLoadingTime), 1) + " ms)\n";
+        if (!run.reason.empty())
+            text += "  " + run.reason + "\n";
+        if (result.runs.size() > 1)
+        {
+            std::size_t solved = 0;
+            for (const PlanRun &each : result.runs)
+                solved += each.isSolved() ? 1 : 0;
+            text += "  solved " + std::to_string(solved) + " of " + counted(result.runs.size(), "run") + "\n";
+        }
+        if (run.path)
+        {
+            text += "  " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                    " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
+            if (run.status == PlanStatus::Approximate)
+                text += ", ends " + formatNumber(run.goalDistance, 2) + " m from the goal";
+            text += run.hasValidPath()
+                        ? "\n  checked again at " + std::to_string(run.path->recheck.states) + " poses: valid\n"
+                        : "\n  checked again: NOT VALID, " + run.path->recheck.reason + "\n";
+        }
+        if (result.trajectory)
+            text += "  trajectory: " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) +
+                    " s, found in " + formatNumber(MS * result.trajectoryTime, 1) + " ms" +
+                    (result.trajectory->trajectory.fallback && steers(result.trajectory->trajectory.motion)
+                         ? " (stops to steer: " + result.trajectory->trajectory.reason + ")"
+                         : "") +
+                    "\n";
+        else if (!result.trajectoryError.empty())
+            text += "  no trajectory: " + result.trajectoryError + "\n";
+        if (result.drive)
+            text += "  driven: " + driveSummary(*result.drive) + "\n";
+        else if (!result.driveError.empty())
+            text += "  not driven: " + result.driveError + "\n";
+        return text;
+    }
+
+    std::string resultSvg(const Problem &problem, const PlanReport &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        const PlanRun &run = result.first();
+        const SampledPath path = run.path ? run.path->states() : SampledPath{};
+        std::string subtitle =
+            result.planner + ", " + statusOf(run) + ", " + formatNumber(MS * run.planningTime, 1) + " ms";
+        if (run.path)
+            subtitle += ", path of " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
+                        " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
+        if (result.trajectory)
+            subtitle += ", trajectory of " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) + " s";
+        if (result.drive)
+            subtitle += ", driven in " + formatNumber(result.drive->evaluation.travelTime, 1) + " s";
+        SvgFigure figure(scenario.name, subtitle);
+        const Trajectory planned = plannedSamples(scenario, result);
+        const Trajectory driven = result.drive ? result.drive->trajectory : Trajectory();
+        figure.setMap(driveMap(scenario, path, planned, driven));
+        if (path.size() > 1)
+            figure.addPlot(curvaturePlot(path, scenario.vehicle));
+        if (!driven.empty() || !planned.empty())
+            for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle, planned))
+                figure.addPlot(plot);
+        return figure.toString();
+    }
+
+    void addTrajectory(const Problem &problem, PlanReport &result, bool isDriven)
+    {
+        constexpr double ERROR_OF_TRACKING = 0.02;  // metres, without disturbances
+        const PlanRun &run = result.first();
+        if (!run.path)
+            return;
+        const double begin = processorTime();
+        try
+        {
+            QuickestTrajectoryOptions options;
+            options.alternatives = run.status == PlanStatus::Exact && problem.isDrivable();
+            options.forwardOnly = problem.settings().space == SpaceKind::Dubins;
+            if (isDriven)
+            {
+                options.trajectory.margin =
+                    std::max(options.trajectory.margin,
+                             std::min(ERROR_OF_TRACKING, 0.5 * leastClearance(problem.footprint(), run.path->path)));
+                options.trajectory.sharpest = false;
+            }
+            result.trajectory =
+                quickestTrajectory(problem.footprint(), problem.scenario().bounds, run.path->path, options);
+        }
+        catch (const Error &error)
+        {
+            result.trajectoryError = withoutSubject(error.what());
+        }
+        result.trajectoryTime = processorTime() - begin;
+    }
+
+    Trajectory resultTrajectory(const Problem &problem, const PlanReport &result)
+    {
+        if (!result.trajectory)
+            return {};
+        const Scenario &scenario = problem.scenario();
+        Trajectory trajectory = sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP);
+        for (TrajectoryPoint &point : trajectory)
+        {
+            const Pose pose = scenario.toWorld({point.x, point.y, point.yaw});
+            point.x = pose.x;
+            point.y = pose.y;
+        }
+        return trajectory;
+    }
+
+    void addDrive(const Problem &problem, PlanReport &result)
+    {
+        const PlanRun &run = result.first();
+        if (!run.path)
+            return;
+        if (!result.trajectoryError.empty())
+        {
+            // Along the path would be another drive than was asked for, and often one that no car can drive.
+            result.driveError = "there is no trajectory to drive: " + result.trajectoryError;
+            return;
+        }
+        try
+        {
+            result.drive = result.trajectory ? driveMotion(problem, result.trajectory->trajectory.motion)
+                                             : drivePath(problem, *run.path);
+        }
+        catch (const Error &error)
+        {
+            result.driveError = error.what();
+        }
+    }
+
+    std::string resultHtml(const Problem &problem, const PlanReport &result)
+    {
+        const Scenario &scenario = problem.scenario();
+        if (!result.drive)
+            throw Error("there is no drive to show: " + (result.driveError.empty() ? "no path" : result.driveError));
+        const Evaluation &figures = result.drive->evaluation;
+        return driveAnimation(scenario, result.first().path->path, result.drive->trajectory, scenario.name,
+                              result.planner + ", " + formatNumber(figures.drivenLength, 1) + " m in " +
+                                  formatNumber(figures.travelTime, 1) + " s, ends " +
+                                  formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
+                              plannedSamples(scenario, result));
+    }
+}  // namespace parking

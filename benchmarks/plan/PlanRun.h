@@ -1,0 +1,95 @@
+#pragma once
+
+#include "benchmarks/plan/PlannedPath.h"
+#include "benchmarks/plan/Problem.h"
+
+#include <ompl/base/PlannerStatus.h>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace parking
+{
+    /** \brief What a planner did in one run, whatever it is. */
+    struct SearchFigures
+    {
+        std::uint64_t expanded{0};     ///< nodes expanded; for OMPL's planners, vertices of their graph
+        std::uint64_t generated{0};    ///< motions tried; for OMPL's planners, edges of their graph
+        std::uint64_t stateChecks{0};  ///< poses checked, those along motions included
+        std::uint64_t exactChecks{0};  ///< of those, decided by FCL
+        std::optional<std::uint64_t> openListOperations;   ///< entries pushed and popped; of improved A* only
+        std::optional<std::uint64_t> openListComparisons;  ///< of entries with each other; of improved A* only
+    };
+
+    /** \brief How a run ended. */
+    enum class PlanStatus
+    {
+        Exact,         ///< a path to a goal
+        Approximate,   ///< a path that ends short of the goals
+        Timeout,       ///< nothing found until the time was up
+        InvalidStart,  ///< no start is free
+        InvalidGoal,   ///< no goal is free
+        Infeasible,    ///< the planner came to an end without having been stopped: there is nothing that it could still
+                       ///< try
+        Exception,     ///< the planner threw
+        Crash,         ///< a signal ended it, or it ended its process
+        Hang,          ///< it did not come back
+        Memory,        ///< it took too much memory
+        Nonsense       ///< its answer is none: no path, or states that are nowhere
+    };
+
+    /** \brief Number of values that a PlanStatus has. */
+    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
+
+    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception,
+       crash, hang, memory, nonsense. */
+    std::string toString(PlanStatus status);
+
+    /** \brief Did the planner itself fail, whatever the problem? */
+    bool isFailure(PlanStatus status);
+
+    /** \brief How a run ended in which the planner failed so; Timeout where it did not. */
+    PlanStatus statusOf(PlannerFailure::Kind failure);
+
+    /** \brief One run of a planner. */
+    struct PlanRun
+    {
+        PlanStatus status{PlanStatus::Timeout};  ///< what the planner says; isSolved() is what is true
+        std::string reason;             ///< one line on why there is no exact solution, from planners that tell
+        double planningTime{0.0};       ///< seconds of wall clock, map loading not included
+        double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
+        double firstSolutionTime{0.0};  ///< seconds; only with an exact solution
+        double mapLoadingTime{0.0};     ///< seconds that the planner itself spent on finding out which cells are free
+        SearchFigures search;           ///< what the search took
+        /** Cost of the solution over a lower bound of it in the discretised problem: of the improved A* with both
+            heuristic weights at 1; infinite otherwise. */
+        double suboptimalityBound{std::numeric_limits<double>::infinity()};
+        std::optional<PlannedPath> path;  ///< with an exact or approximate solution
+        double goalDistance{0.0};         ///< metres that the path ends from the nearest goal
+
+        /** \brief Is there a path that the referee accepts? Planners may be wrong about theirs. */
+        bool hasValidPath() const
+        {
+            return path && path->recheck.valid;
+        }
+
+        /** \brief An exact solution that the referee accepts. */
+        bool isSolved() const
+        {
+            return status == PlanStatus::Exact && hasValidPath();
+        }
+    };
+
+    /** \brief Status, figures and path of a planner that has just been run. \param timeLimit seconds */
+    PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ompl::base::PlannerStatus status,
+                        double timeLimit);
+
+    /** \brief Runs a new instance of a planner once, from seed \e seed.
+
+        Throws what Problem::prepare throws. */
+    PlanRun planOnce(const Problem &problem, const PlannerEntry &entry, const PlannerSettings &settings,
+                     double timeLimit, std::uint_fast32_t seed);
+}  // namespace parking

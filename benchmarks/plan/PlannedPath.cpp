@@ -1,0 +1,195 @@
+#include "benchmarks/plan/PlannedPath.h"
+
+#include "parking_geometry/curves/Biarc.h"
+#include "parking_geometry/curves/Kinematics.h"
+#include "state_validity/ompl/OmplPose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace og = ompl::geometric;
+
+namespace parking
+{
+    namespace
+    {
+        constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
+        constexpr double ROUNDING_TURN = 1e-9;  // radians; anything less is rounding of headings
+        constexpr double SHORTEST_PIECE = 1e-7;  // metres; anything shorter is rounding of a curve's formula
+        constexpr double SAME = 1e-6;            // metres and radians between a pose and the goal that it is
+
+        std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
+        {
+            std::vector<const ompl::base::State *> states(path.getStateCount());
+            for (std::size_t i = 0; i < states.size(); ++i)
+                states[i] = path.getState(static_cast<unsigned int>(i));
+            return states;
+        }
+
+        Path curvePath(const Problem &problem, const og::PathGeometric &path)
+        {
+            Path arcs;
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            arcs.start = poseOf(states.front());
+            ReedsSheppCurve curve;
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                problem.curveSpace().curve(states[i - 1], states[i], curve);
+                for (std::size_t k = 0; k < curve.count; ++k)
+                    if (std::abs(curve.pieces[k].length) >= SHORTEST_PIECE)
+                        arcs.append(curve.pieces[k]);
+            }
+            return arcs;
+        }
+
+        /** The two arcs in the place of a straight line along which the heading turns, if the car can drive them and
+            they keep to the line as well as arcs can. */
+        std::optional<Path> gentleTurn(const Pose &from, const Pose &to, double askew, int direction,
+                                       const Vehicle &vehicle)
+        {
+            if (std::abs(askew) > MOST_ASKEW)
+                return std::nullopt;
+            std::optional<Path> arcs = biarc(from, to, direction);
+            if (arcs)
+                for (const PathPiece &piece : arcs->pieces)
+                    if (std::abs(piece.curvature) > 1.0 / vehicle.minTurningRadius())
+                        return std::nullopt;
+            return arcs;
+        }
+
+        /** The motions of a plain SE2 space as a car could make them. */
+        Path linePath(const og::PathGeometric &path, const Vehicle &vehicle)
+        {
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            Path result{poseOf(states.front()), {}};
+            const auto turnTo = [&result](double from, double to)
+            {
+                double turn = wrapAngle(to - from);
+                if (!result.pieces.empty() && result.pieces.back().turn != 0.0)
+                {
+                    turn = wrapAngle(turn + result.pieces.back().turn);
+                    result.pieces.pop_back();
+                }
+                if (std::abs(turn) > ROUNDING_TURN)
+                    result.append(PathPiece::turnOnTheSpot(turn));
+            };
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
+                const double length = positionDistance(to, from);
+                if (length < SHORTEST_PIECE)
+                {
+                    turnTo(from.yaw, to.yaw);
+                    continue;
+                }
+                const double mean = from.yaw + 0.5 * wrapAngle(to.yaw - from.yaw);
+                double askew = wrapAngle(std::atan2(to.y - from.y, to.x - from.x) - mean);
+                const int direction = std::abs(askew) <= 0.5 * PI ? 1 : -1;
+                if (direction < 0)
+                    askew = wrapAngle(askew + PI);
+                if (const auto arcs = gentleTurn(from, to, askew, direction, vehicle))
+                {
+                    result.extend(*arcs);
+                    continue;
+                }
+                turnTo(from.yaw, mean + askew);
+                result.append({0.0, direction * length});
+                turnTo(mean + askew, to.yaw);
+            }
+            return result;
+        }
+
+        /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
+        SampledPath chordPath(const og::PathGeometric &path, double sampling)
+        {
+            const std::vector<const ompl::base::State *> states = statesOf(path);
+            SampledPath result;
+            PathState state;
+            state.pose = poseOf(states.front());
+            result.push_back(state);
+            for (std::size_t i = 1; i < states.size(); ++i)
+            {
+                const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
+                const double length = positionDistance(to, from);
+                const double turn = wrapAngle(to.yaw - from.yaw);
+                if (length < SHORTEST_PIECE && std::abs(turn) < SHORTEST_PIECE)
+                    continue;
+                const Arc arc = arcBetween(from, to);
+                const double begin = result.back().arcLength;
+                const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / sampling)));
+                for (std::size_t k = 1; k <= steps; ++k)
+                {
+                    const double share = static_cast<double>(k) / static_cast<double>(steps);
+                    state.pose = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                                  wrapAngle(from.yaw + share * turn)};
+                    state.arcLength = begin + share * length;
+                    // Turning on the spot has no curvature that a number could tell.
+                    state.curvature = length < SHORTEST_PIECE ? 0.0 : arc.curvature;
+                    state.direction = arc.length < 0.0 ? -1 : 1;
+                    result.push_back(state);
+                }
+            }
+            if (result.size() > 1)
+            {
+                result.front().curvature = result[1].curvature;
+                result.front().direction = result[1].direction;
+            }
+            return result;
+        }
+    }  // namespace
+
+    double samplingOf(double length, bool valid)
+    {
+        constexpr double MOST_STATES = 1e4;
+        return valid ? PlannedPath::SAMPLING : std::max(PlannedPath::SAMPLING, length / MOST_STATES);
+    }
+
+    SampledPath PlannedPath::states() const
+    {
+        SampledPath states = path.sample(samplingOf(path.length(), recheck.valid));
+        states.back().pose = end;
+        return states;
+    }
+
+    PlannedPath readPath(const Problem &problem, const og::PathGeometric &path, bool exact)
+    {
+        PlannedPath result;
+        if (path.getStateCount() == 0)
+            return result;
+        const Scenario &scenario = problem.scenario();
+        const Referee &referee = problem.referee();
+        std::vector<Pose> poses;
+        for (const ompl::base::State *state : statesOf(path))
+            poses.push_back(poseOf(state));
+        if (!std::all_of(poses.begin(), poses.end(), [&](const Pose &pose) { return referee.isPlace(pose); }))
+        {
+            result.recheck = referee.checkLines(poses, exact);
+            result.path.start = result.end = scenario.start;
+            return result;
+        }
+        const bool straight = problem.curveSpace().kind() == SpaceKind::SE2;
+        result.path = straight ? linePath(path, scenario.vehicle) : curvePath(problem, path);
+        // Before start and end are rounded to what was asked for.
+        result.recheck = straight ? referee.checkLines(poses, exact) : referee.check(result.path, exact);
+        result.path.start = {scenario.start.x, scenario.start.y, wrapAngle(scenario.start.yaw)};
+        result.end = result.path.end();
+        if (exact)
+            for (const Pose &goal : scenario.goals)
+                if (isSamePose(goal, result.end, SAME))
+                    result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
+        const double sampling = samplingOf(result.path.length(), result.recheck.valid);
+        // What the planner means, which on a plain SE2 space is not what a car does.
+        SampledPath meant = straight ? chordPath(path, sampling) : result.path.sample(sampling);
+        meant.front().pose = result.path.start;
+        meant.back().pose = result.end;
+        result.length = pathLength(meant);
+        result.cusps = result.path.cusps();
+        if (straight)
+            poses.front() = result.path.start, poses.back() = result.end;
+        result.clearance = straight ? referee.leastClearance(poses) : referee.leastClearance(result.path);
+        return result;
+    }
+}  // namespace parking

@@ -1,0 +1,226 @@
+#include "benchmarks/store/RunColumns.h"
+
+#include "parking_geometry/Error.h"
+#include "parking_geometry/text/Text.h"
+
+#include <map>
+
+namespace parking
+{
+    namespace
+    {
+        constexpr ColumnType Boolean = ColumnType::Boolean, Integer = ColumnType::Integer, Real = ColumnType::Real,
+                             Enum = ColumnType::Enum;
+        constexpr Statistic Median = Statistic::Median, Share = Statistic::Share;
+        constexpr std::nullopt_t None = std::nullopt;
+
+        const std::vector<RunColumn> COLUMNS{
+            {"run", Integer, "", "number of the run, from 0"},
+            {"seed", Integer, "", "of the run's random numbers"},
+
+            {"outcome", Enum, "",
+             "0 exact, 1 approximate, 2 time is up, 3 invalid start, 4 invalid goal, 5 gave up: nothing left to "
+             "try; of the planner itself: 6 exception, 7 crash, 8 hang, 9 too much memory, 10 an answer that is "
+             "none; "
+             "the table `enums` has the names"},
+            {"success", Boolean, "", "exact, valid in the second check, and in time"},
+            {"late", Boolean, "",
+             "the first solution came more than 0.05 s after the limit (some planners of OMPL look at the clock too "
+             "seldom)"},
+
+            {"first solution time", Real, "s",
+             "until the first exact solution, map loading of the planner not included",
+             InSummary{"first solution", Statistic::Distribution, 0}},
+            {"planning time", Real, "s", "of the planner, its map loading not included"},
+            {"cpu time", Real, "s", "processor time of all threads, map loading of the planner included"},
+            {"map loading time", Real, "s",
+             "building obstacles and distance field, and finding out which cells are free where that is done first",
+             None, InReport{"map loading", 1e3, "ms"}},
+            {"peak memory", Real, "MB",
+             "by which the process grew at most while the planner worked; of its own only with `--isolate`",
+             InSummary{"peak memory", Median, 1, false}, InReport{"peak memory", 1.0, "MB", true}},
+            {"nodes expanded", Integer, "", "for OMPL's planners the vertices of their graph"},
+            {"motions generated", Integer, "", "for OMPL's planners the edges of their graph"},
+            {"states checked", Integer, "", "poses, those along motions included; not counted for discs"},
+            {"exact checks", Integer, "", "of these poses, those that took the exact test"},
+            {"open list operations", Integer, "",
+             "entries pushed to, and popped from, the open lists of the improved A*"},
+            {"open list comparisons", Integer, "", "of their entries with each other, for that"},
+
+            {"path length", Real, "m", "of the path as it is driven",
+             InSummary{"length", Statistic::MedianWithInterval, 2}},
+            {"cusps", Integer, "", "changes of direction", InSummary{"cusps", Median, 0}},
+            {"least clearance", Real, "m", "between the body (or disc) and obstacles along the path",
+             InSummary{"clearance", Median, 3}},
+            {"distance to goal", Real, "m", "from the end of the path to the nearest goal"},
+            {"densely valid", Boolean, "", "what the second check says"},
+            {"dense collisions", Integer, "", "poses that collide in the second check"},
+
+            {"attains goal", Boolean, "", "ends within 1 cm (in x and in y) and 1 degree of a goal",
+             InSummary{"attains goal", Share, 3, false}, InReport{"attains goal", 100.0, "%", true}},
+            {"angle over length", Real, "rad/m",
+             "turns of the direction of travel over the length; a cusp is half a turn",
+             InSummary{"angle over length", Median, 3, false}, InReport{"angle over length", 1.0, "rad/m", true}},
+            {"max curvature", Real, "1/m", "largest absolute value", InSummary{"max curvature", Median, 3, false},
+             InReport{"max curvature", 1.0, "1/m", true}},
+            {"normalized curvature", Real, "rad", "absolute curvature, integrated over the length",
+             InSummary{"normalized curvature", Median, 3, false}, InReport{"normalized curvature", 1.0, "rad", true}},
+            {"smoothness", Real, "1/m^2", "OMPL's measure, every 0.1 m; 0 for a straight line",
+             InSummary{"smoothness", Median, 3, false}, InReport{"smoothness", 1.0, "1/m²", true}},
+            {"reverse share", Real, "", "of the length, driven in reverse",
+             InSummary{"reverse share", Median, 3, false}, InReport{"in reverse", 100.0, "%", true}},
+            {"mean clearance", Real, "m", "along the path; more than 5 m count as 5 m",
+             InSummary{"mean clearance", Median, 3, false}, InReport{"mean clearance", 1.0, "m", true}},
+            {"median clearance", Real, "m", "likewise", InSummary{"median clearance", Median, 3, false},
+             InReport{"median clearance", 1.0, "m", true}},
+            {"cusp to cusp time", Real, "s",
+             "of the fastest drive that stops at cusps only, as if the wheels turned at once",
+             InSummary{"cusp to cusp time", Median, 0, false}, InReport{"cusp to cusp", 1.0, "s", true}},
+            {"cusp to cusp cost", Real, "", "TPCAP's J of that drive", InSummary{"cusp to cusp cost", Median, 0, false},
+             InReport{"J, cusp to cusp", 1.0, "", true}},
+            {"cusp to cusp jerk", Real, "m/s^3", "of that drive: mean of the absolute value",
+             InSummary{"cusp to cusp jerk", Median, 3, false}, InReport{"jerk, cusp to cusp", 1.0, "m/s³", true}},
+            {"steering at standstill time", Real, "s",
+             "in which the wheels of that drive turn where the curvature jumps; not in the time above",
+             InSummary{"steering at standstill", Median, 0, false}, InReport{"steering at standstill", 1.0, "s", true}},
+            {"steerings at standstill", Integer, "", "places where the curvature jumps",
+             InSummary{"steerings at standstill", Median, 0, false}},
+
+            {"simplification time", Real, "s", "of OMPL, with `simplify`"},
+            {"simplified path length", Real, "m", "after that", None, InReport{"simplified", 1.0, "m"}},
+            {"simplified cusps", Integer, "", "after that"},
+            {"simplified least clearance", Real, "m", "after that"},
+            {"simplified densely valid", Boolean, "", "after that"},
+            {"simplified dense collisions", Integer, "", "after that"},
+
+            {"driven to the end", Boolean, "", "with `track`: the controller got there"},
+            {"travel time", Real, "s", "of the drive", InSummary{"travel time", Median, 0, false},
+             InReport{"travel time", 1.0, "s"}},
+            {"driven length", Real, "m", "of the drive"},
+            {"mean acceleration", Real, "m/s^2", "of the drive: mean of the absolute value", None,
+             InReport{"mean acceleration", 1.0, "m/s²"}},
+            {"mean steering angle", Real, "degrees", "of the drive: mean of the absolute value", None,
+             InReport{"mean steering", 1.0, "°"}},
+            {"greatest position error", Real, "m", "of the drive, from the path"},
+            {"final position error", Real, "m", "between the ends of drive and path"},
+            {"final yaw error", Real, "rad", "between the ends of drive and path"},
+            {"collisions while driving", Integer, "", "poses of the drive that collide"},
+            {"median MPC time", Real, "s", "of a step of the controller"},
+
+            {"drive attains goal", Boolean, "", "of the drive: as `attains_goal`",
+             InSummary{"drive attains goal", Share, 3, false}, InReport{"drive attains goal", 100.0, "%", true}},
+            {"drive colliding frames", Real, "", "of the drive: share of its frames of 1 ms",
+             InSummary{"drive colliding frames", Median, 4, false},
+             InReport{"colliding frames, driven", 100.0, "%", true}},
+            {"drive standing time", Real, "s", "of the drive, at less than 1 mm/s",
+             InSummary{"drive standing time", Median, 0, false}, InReport{"standing", 1.0, "s", true}},
+            {"drive jerk", Real, "m/s^3", "of the drive: mean of the absolute value",
+             InSummary{"drive jerk", Median, 3, false}, InReport{"jerk", 1.0, "m/s³", true}},
+
+            {"trajectory duration", Real, "s", "with `trajectory`: of the quickest trajectory near the path",
+             InSummary{"trajectory duration", Median, 0, false}, InReport{"trajectory", 1.0, "s"}},
+            {"trajectory cost", Real, "",
+             "its cost in the competition of TPCAP: J = 100 T + 10 (control effort + steering integral) + 5 gear "
+             "changes",
+             InSummary{"trajectory cost", Median, 0, false}, InReport{"J", 1.0, ""}},
+            {"trajectory control effort", Real, "", "integral of a^2 + (v w)^2, in SI units",
+             InSummary{"trajectory control effort", Median, 3, false}, InReport{"control effort", 1.0, "", true}},
+            {"trajectory steering integral", Real, "rad^2 s", "of the squared steering angle",
+             InSummary{"trajectory steering integral", Median, 3, false},
+             InReport{"steering integral", 1.0, "rad² s", true}},
+            {"trajectory gear changes", Integer, "", "between forwards and reverse",
+             InSummary{"trajectory gear changes", Median, 0, false}, InReport{"gear changes", 1.0, "", true}},
+            {"trajectory stops to steer", Boolean, "",
+             "nothing better was found than the path itself with standstills"},
+            {"trajectory attains goal", Boolean, "", "as `attains_goal`",
+             InSummary{"trajectory attains goal", Share, 3, false},
+             InReport{"trajectory attains goal", 100.0, "%", true}},
+            {"trajectory colliding frames", Real, "", "share of its frames of 1 ms",
+             InSummary{"trajectory colliding frames", Median, 4, false},
+             InReport{"colliding frames", 100.0, "%", true}},
+            {"trajectory standing time", Real, "s", "at less than 1 mm/s",
+             InSummary{"trajectory standing time", Median, 0, false}, InReport{"trajectory standing", 1.0, "s", true}},
+            {"trajectory jerk", Real, "m/s^3", "mean of the absolute value",
+             InSummary{"trajectory jerk", Median, 3, false}, InReport{"trajectory jerk", 1.0, "m/s³", true}},
+            {"trajectory time", Real, "s", "processor time of optimising it"},
+
+            {"time", Real, "s", "of `solve()`"},
+            {"memory", Real, "MB", "OMPL: of the process"},
+            {"status", Enum, "", "OMPL: what `solve()` returned; the table `enums` has the names"},
+            {"solved", Boolean, "", "OMPL: the planner calls its solution exact"},
+            {"approximate solution", Boolean, "", "OMPL: the planner calls its solution approximate"},
+            {"correct solution", Boolean, "", "OMPL: the path passes its check"},
+            {"correct solution strict", Boolean, "", "OMPL: the path passes its stricter check"},
+            {"solution length", Real, "m", "OMPL: by the space's distances"},
+            {"solution difference", Real, "", "OMPL: what an approximate solution lacks"},
+            {"solution clearance", Real, "m", "OMPL: mean over the path's states"},
+            {"solution smoothness", Real, "", "OMPL: of the path's states"},
+            {"solution segments", Integer, "", "OMPL: motions of the path"},
+            {"graph states", Integer, "", "OMPL: vertices of the planner's graph"},
+            {"graph motions", Integer, "", "OMPL: edges of the planner's graph"},
+            {"valid segment fraction", Real, "", "OMPL: share of the motions found free"},
+        };
+
+        std::string textOf(const FigureValue &value)
+        {
+            return std::visit([](auto each) { return formatNumber(static_cast<double>(each)); }, value);
+        }
+    }  // namespace
+
+    std::string toString(ColumnType type)
+    {
+        switch (type)
+        {
+            case ColumnType::Boolean:
+                return "BOOLEAN";
+            case ColumnType::Integer:
+                return "INTEGER";
+            case ColumnType::Real:
+                return "REAL";
+            case ColumnType::Enum:
+                break;
+        }
+        return "ENUM";
+    }
+
+    FigureValue RunColumn::checked(const FigureValue &value) const
+    {
+        const auto *whole = std::get_if<std::int64_t>(&value);
+        if (type == ColumnType::Real && whole != nullptr)
+            return static_cast<double>(*whole);
+        const bool fits = type == ColumnType::Boolean ? std::holds_alternative<bool>(value)
+                          : type == ColumnType::Real  ? std::holds_alternative<double>(value)
+                                                      : whole != nullptr && *whole >= 0;
+        const bool isNamed = name != std::string("outcome") || (fits && *whole < static_cast<int>(PLAN_STATUSES));
+        if (!fits || !isNamed)
+            throw Error("the column " + inQuotes(name) + " of type " + toString(type) + " cannot hold " +
+                        textOf(value));
+        return value;
+    }
+
+    const std::vector<RunColumn> &runColumns()
+    {
+        return COLUMNS;
+    }
+
+    const RunColumn *findRunColumn(const std::string &name)
+    {
+        static const std::map<std::string, const RunColumn *> BY_NAME = []
+        {
+            std::map<std::string, const RunColumn *> columns;
+            for (const RunColumn &column : COLUMNS)
+                columns.emplace(column.name, &column);
+            return columns;
+        }();
+        const auto found = BY_NAME.find(name);
+        return found == BY_NAME.end() ? nullptr : found->second;
+    }
+
+    const RunColumn &runColumn(const std::string &name)
+    {
+        const RunColumn *column = findRunColumn(name);
+        if (column == nullptr)
+            throw Error("there is no column " + inQuotes(name));
+        return *column;
+    }
+}  // namespace parking

@@ -1,0 +1,250 @@
+// Reading .cfg files: what they set, and where they say that something is wrong.
+
+#include "benchmarks/compare/BenchmarkOptions.h"
+#include "benchmarks/config/BenchmarkConfig.h"
+#include "tests/parking_geometry/ExpectError.h"
+#include "tests/parking_geometry/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+    using namespace parking;
+    using parking_test::errorOf;
+    using parking_test::expectError;
+
+    class BenchmarkConfigTest : public ::testing::Test
+    {
+    protected:
+        BenchmarkConfig read(const std::string &text)
+        {
+            return readBenchmarkConfig(folder_.write("set.cfg", text), registry_);
+        }
+
+        parking_test::TemporaryFolder folder_;
+        const PlannerRegistry registry_ = PlannerRegistry::builtIn();
+    };
+
+    TEST_F(BenchmarkConfigTest, ReadsAllSections)
+    {
+        const BenchmarkConfig config = read(R"(# a comment
+[problem]
+scenario = a.yaml   # another
+scenario = sub/b.csv
+vehicle = tpcap
+threshold = 3.5
+start.x = 1
+start.y = 2
+start.theta = 0.5
+volume.min.x = -7
+sampler = gaussian
+
+[benchmark]
+time_limit = 2.5
+mem_limit = 100
+run_count = 7
+output = out
+save_paths = all
+seed = 42
+simplify = yes
+clock = processor
+track = 1
+
+[planner]
+rrt=
+rrt.range=50
+rrt=
+rrt.name=short
+rrt.range=0.5
+rrt.goal_bias=0.1
+rrt.problem.space=se2
+rrt.only=a, b*
+rrt=
+)");
+        ASSERT_EQ(config.scenarios.size(), 2U);
+        EXPECT_EQ(config.scenarios[0], folder_.path("a.yaml"));
+        EXPECT_EQ(config.scenarios[1], folder_.path("sub/b.csv"));
+        EXPECT_EQ(config.timeLimit, 2.5);
+        EXPECT_EQ(config.memoryLimit, 100.0);
+        EXPECT_EQ(config.runCount, 7U);
+        EXPECT_EQ(config.output, "out");
+        EXPECT_EQ(config.savePaths, SavePaths::All);
+        EXPECT_EQ(config.seed, 42U);
+        EXPECT_TRUE(config.simplify);
+        EXPECT_TRUE(config.processorTime);
+        EXPECT_TRUE(config.track);
+        ASSERT_EQ(config.planners.size(), 3U);
+        EXPECT_EQ(config.planners[0].name, "RRT");
+        EXPECT_EQ(config.planners[0].planner, "RRT");
+        EXPECT_EQ(config.planners[0].settings, (PlannerSettings{{"range", "50"}}));
+        EXPECT_TRUE(config.planners[0].only.empty());
+        EXPECT_EQ(config.planners[1].name, "short");
+        EXPECT_EQ(config.planners[1].settings, (PlannerSettings{{"range", "0.5"}, {"goal_bias", "0.1"}}));
+        EXPECT_EQ(config.planners[1].problem.settings.space, SpaceKind::SE2);
+        EXPECT_EQ(config.planners[1].only, (std::vector<std::string>{"a", "b*"}));
+        EXPECT_EQ(config.planners[2].name, "RRT_2");
+        const ProblemOptions &common = config.planners[2].problem;
+        EXPECT_EQ(common.settings.space, SpaceKind::ReedsShepp);
+        EXPECT_EQ(common.vehicle, "tpcap");
+        EXPECT_EQ(common.settings.threshold, 3.5);
+        EXPECT_EQ(common.sampler, "gaussian");
+        ASSERT_TRUE(common.start.has_value());
+        EXPECT_EQ(common.start->yaw, 0.5);
+        EXPECT_FALSE(common.goal.has_value());
+        EXPECT_EQ(common.minX.value_or(0.0), -7.0);
+        EXPECT_FALSE(common.maxX.has_value());
+    }
+
+    TEST_F(BenchmarkConfigTest, PlannersStartFromTheProblemWhateverTheOrderOfTheSections)
+    {
+        const BenchmarkConfig config = read("[planner]\nprm=\n[problem]\nspace = dubins\nscenario = a.yaml\n");
+        EXPECT_EQ(config.planners.front().problem.settings.space, SpaceKind::Dubins);
+    }
+
+    TEST_F(BenchmarkConfigTest, DefaultsAreThoseOfTheDocumentation)
+    {
+        const BenchmarkConfig config = read("[problem]\nscenario = a.yaml\n[planner]\nprm=\n");
+        EXPECT_EQ(config.timeLimit, 5.0);
+        EXPECT_EQ(config.runCount, 10U);
+        EXPECT_EQ(config.savePaths, SavePaths::None);
+        EXPECT_FALSE(config.simplify);
+        EXPECT_FALSE(config.processorTime);
+        EXPECT_FALSE(config.track);
+    }
+
+    TEST_F(BenchmarkConfigTest, ErrorsNameFileAndLine)
+    {
+        expectError([&] { read("[problem]\n\n# x\nscenarios = a\n[planner]\nprm=\n"); },
+                    {"set.cfg:4:", "did you mean 'scenario'"});
+        expectError([&] { read("[planner]\nprm=\n[benchmark]\nrun_count = 0\n"); }, {"set.cfg:4:", "run_count"});
+        expectError([&] { read("[planner]\nprm=\nrrt.range=3\n"); }, {"set.cfg:3:", "rrt="});
+        expectError([&] { read("[planner]\nrrt=\nrrt.=3\n"); }, {"set.cfg:3:", "names no parameter"});
+        expectError([&] { read("[problem]\nscenario = a\nvehicle = x\n[planner]\nprm=\n"); }, {"set.cfg:3:", "'x'"});
+        expectError([&] { read("[problem]\nscenario =\n[planner]\nprm=\n"); }, {"set.cfg:2:", "empty"});
+        expectError([&] { read("scenario = a\n"); }, {"set.cfg:1:", "no section"});
+        expectError([&] { read("[problem]\nscenario = a.yaml\n"); }, {"set.cfg", "no planner"});
+    }
+
+    TEST_F(BenchmarkConfigTest, AKeyIsGivenOnce)
+    {
+        const auto expectTwice = [&](const std::string &text, const std::string &key, int first, int second)
+        {
+            SCOPED_TRACE(text);
+            const std::string file = folder_.path("set.cfg") + ":";
+            EXPECT_EQ(errorOf([&] { read(text); }), file + std::to_string(second) + ": '" + key +
+                                                        "' is given twice, first at " + file + std::to_string(first) +
+                                                        "; leave one of them out");
+        };
+        const std::string problem = "[problem]\nscenario = a\n", planner = "[planner]\nrrt=\n";
+        expectTwice(problem + "space = se2\n# x\nspace = se2\n" + planner, "space", 3, 5);
+        expectTwice(problem + "[benchmark]\nrun_count = 1\n" + planner + "[benchmark]\nrun_count = 2\n", "run_count", 4,
+                    8);
+        expectTwice("[benchmark]\ntime_limit = 1\ntime_limit = 1\n" + problem + planner, "time_limit", 2, 3);
+        expectTwice(problem + planner + "rrt.range=1\nRRT.range=2\n", "RRT.range", 5, 6);
+        expectTwice(problem + planner + "rrt.name=a\nrrt.name=b\n", "rrt.name", 5, 6);
+        expectTwice(problem + planner + "rrt.only=a\nrrt.only=b\n", "rrt.only", 5, 6);
+        expectTwice(problem + planner + "rrt.problem.space=se2\nrrt.problem.space=se2\n", "rrt.problem.space", 5, 6);
+        // Scenarios are many, planners have keys of their own, and what is said to all may be said anew to one.
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\nscenario = a\nspace = se2\n[planner]\n"
+            "rrt=\nrrt.range=1\nrrt.problem.space=dubins\nrrt=\nrrt.range=1\n");
+        EXPECT_EQ(config.scenarios.size(), 2U);
+        EXPECT_EQ(config.planners[1].settings, config.planners[0].settings);
+    }
+
+    TEST_F(BenchmarkConfigTest, KnowsTheLinesOfSettings)
+    {
+        const BenchmarkConfig config = read(
+            "[problem]\nscenario = a\nspace = se2\nfootprint = circle\n[planner]\nrrt=\n"
+            "rrt.range=1\nrrt.problem.footprint=rectangle\nprm=\n");
+        const std::string file = folder_.path("set.cfg") + ":";
+        const PlannerSpec &rrt = config.planners[0], &prm = config.planners[1];
+        EXPECT_EQ(config.lineOf(rrt, {"range"}), file + "7: ");
+        EXPECT_EQ(config.lineOf(rrt, {"problem.space", "problem.footprint"}), file + "8: ");  // its own before others'
+        EXPECT_EQ(config.lineOf(prm, {"problem.footprint", "problem.space"}), file + "4: ");
+        EXPECT_EQ(config.lineOf(rrt, {"goal_bias"}), file + "6: ");
+        EXPECT_EQ(config.lineOf(prm, {}), file + "9: ");
+        EXPECT_EQ(config.lineOf(PlannerSpec{}, {"range"}), folder_.path("set.cfg") + ": ");
+    }
+
+    TEST_F(BenchmarkConfigTest, WhatIsSaidOfAProblemGoesTogether)
+    {
+        const auto refuse =
+            [&](const std::string &problem, const std::string &planner, const std::vector<std::string> &parts)
+        {
+            SCOPED_TRACE(problem + planner);
+            expectError([&] { read("[problem]\nscenario = a\n" + problem + "[planner]\nrrt=\n" + planner); }, parts);
+        };
+        refuse("start.x = 1\nstart.theta = 1\n", "", {"set.cfg:3: start ", "x, y and theta", "start.y is missing"});
+        refuse("goal.x = 1\n", "rrt.problem.goal.y=1\n", {"set.cfg:6: goal ", "goal.theta is missing"});
+        refuse("volume.min.y = 3\nvolume.max.y = 3\n", "",
+               {"set.cfg:4: volume.max.y must be greater than volume.min.y, 3"});
+        refuse("volume.max.x = 3\n", "rrt.problem.volume.min.x=4\n", {"set.cfg:6: volume.max.x must be", "4, not 3"});
+        refuse("footprint = circle\n", "", {"set.cfg:3: footprint circle", "space se2"});
+        refuse("", "rrt.problem.footprint=circle\n", {"set.cfg:5: footprint circle", "not with reeds_shepp"});
+        refuse("space = se2\nfootprint = circle\n", "rrt.problem.space=dubins\n", {"set.cfg:7: footprint", "dubins"});
+        const std::vector<std::string> ignored{"circle_radius is the circle's", "rectangle", "footprint = circle"};
+        for (const std::string &each : ignored)
+        {
+            refuse("circle_radius = 1\n", "", {"set.cfg:3: ", each});
+            refuse("space = se2\n", "rrt.problem.circle_radius=1\n", {"set.cfg:6: ", each});
+            refuse("space = se2\nfootprint = circle\n",
+                   "rrt.problem.footprint=rectangle\nrrt.problem.circle_radius=1\n", {"set.cfg:8: ", each});
+        }
+        // Of use to one planner at least.
+        read(
+            "[problem]\nscenario = a\ncircle_radius = 1\nspace = "
+            "se2\n[planner]\nprm=\nrrt=\nrrt.problem.footprint=circle\n");
+        read(
+            "[problem]\nscenario = a\ncircle_radius = 1\nspace = se2\nfootprint = circle\n[planner]\nprm=\nrrt=\n"
+            "rrt.problem.footprint=rectangle\n");
+    }
+
+    TEST_F(BenchmarkConfigTest, FoldersAndPatternsStandForTheirScenariosInNaturalOrder)
+    {
+        folder_.write("cases/case10.csv", "1");
+        folder_.write("cases/case9.csv", "1");
+        folder_.write("cases/b.yaml", "name: b\nstart: [0, 0, 0]\n");
+        folder_.write("cases/map.yaml", "image: x.pgm\n");
+        folder_.write("cases/readme.md", "start: [0, 0, 0]\n");
+        const auto names = [&](const std::string &pattern)
+        {
+            std::string text;
+            for (const std::string &file : findScenarios(pattern, folder_.path("")))
+                text += file.substr(file.rfind('/') + 1) + " ";
+            return text;
+        };
+        EXPECT_EQ(names("cases"), "b.yaml case9.csv case10.csv ");
+        EXPECT_EQ(names("cases/*.csv"), "case9.csv case10.csv ");
+        EXPECT_EQ(names("cases/missing.yaml"), "missing.yaml ");  // reading it will say so
+        expectError([&] { names("cases/*.txt"); }, {"no scenario"});
+    }
+
+    TEST_F(BenchmarkConfigTest, SelectsPlannersByTheirNamesInResults)
+    {
+        BenchmarkConfig config = read("[problem]\nscenario = a.yaml\n[planner]\nprm=\nrrt=\nrrt.name=mine\nsbl=\n");
+        selectPlanners(config, {"mine", "PRM"});
+        ASSERT_EQ(config.planners.size(), 2U);
+        EXPECT_EQ(config.planners[0].name, "PRM");
+        EXPECT_EQ(config.planners[1].name, "mine");
+        expectError([&] { selectPlanners(config, {"mien"}); }, {"did you mean 'mine'"});
+    }
+
+    TEST(BenchmarkOptions, ReadsACommandLine)
+    {
+        const BenchmarkOptions options =
+            readBenchmarkOptions({"--shard", "2/8", "set.cfg", "--runs", "3", "--time=0.5", "--plugin", "a.so",
+                                  "--plugin", "b.so", "--output", "out", "--no-report"});
+        EXPECT_EQ(options.config, "set.cfg");
+        EXPECT_EQ(options.shard, 1U);
+        EXPECT_EQ(options.shards, 8U);
+        EXPECT_EQ(options.runCount.value_or(0), 3U);
+        EXPECT_EQ(options.timeLimit.value_or(0.0), 0.5);
+        EXPECT_EQ(options.plugins, (std::vector<std::string>{"a.so", "b.so"}));
+        EXPECT_FALSE(options.report);
+        EXPECT_TRUE(readBenchmarkOptions({"set.cfg"}).report);
+        expectError([] { readBenchmarkOptions({"set.cfg", "--shard", "9/8"}); }, {"--shard", "I from 1 to N"});
+        // Boost's message about this one never ends.
+        expectError([] { readBenchmarkOptions({"set.cfg", "--%original_token%="}); }, {"no option", "original_token"});
+    }
+}  // namespace

@@ -1,0 +1,125 @@
+// Planners that lie about their paths: what the programs make of them.
+
+#include "benchmarks/plan/PlanReport.h"
+#include "benchmarks/plan/PlanRun.h"
+#include "state_validity/ompl/OmplPose.h"
+#include "tests/automatic_parking/ParkingProblems.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace
+{
+    using namespace parking;
+
+    /** Calls a list of poses an exact solution, whatever they are. */
+    class Liar : public ompl::base::Planner
+    {
+    public:
+        Liar(const ompl::base::SpaceInformationPtr &si, std::vector<Pose> poses)
+          : ompl::base::Planner(si, "liar"),
+            poses_(std::move(poses))
+        {
+        }
+        using ompl::base::Planner::solve;
+        ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &) override
+        {
+            const auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
+            ompl::base::ScopedState<> state(si_);
+            for (const Pose &pose : poses_)
+            {
+                setPose(state.get(), pose);
+                path->append(state.get());
+            }
+            pdef_->addSolutionPath(path);
+            return ompl::base::PlannerStatus::EXACT_SOLUTION;
+        }
+
+    private:
+        std::vector<Pose> poses_;
+    };
+
+    PlanReport planned(const Problem &problem, const std::vector<Pose> &poses)
+    {
+        const PlannerEntry entry{"liar",
+                                 "",
+                                 false,
+                                 [&poses](const ompl::base::SpaceInformationPtr &si)
+                                 { return std::make_shared<Liar>(si, poses); },
+                                 {}};
+        PlanReport result;
+        result.planner = entry.name;
+        result.runs.push_back(planOnce(problem, entry, {}, 1.0, 1));
+        return result;
+    }
+
+    TEST(RefereedRun, LiesAreNoSolutions)
+    {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        Scenario scenario = parking_test::openGround(20.0);
+        scenario.polygons = {parking_test::box(9.0, -8.0, 10.0, 8.0)};
+        const Pose start = scenario.start, goal = scenario.goals.front();
+        const Pose aside{5.0, 12.0, 0.0}, behind{15.0, 12.0, 0.0};
+        const std::vector<std::pair<Fault, std::vector<Pose>>> lies{
+            {Fault::MissesGoal, {start}},
+            {Fault::NotFinite, {start, {5.0, nan, 0.0}, goal}},
+            {Fault::NotFinite, {start, {1e300, 0.0, 0.0}, goal}},
+            {Fault::Collision, {start, goal}},
+            {Fault::MissesGoal, {start, aside, behind}},
+            {Fault::WrongStart, {aside, behind, goal}},
+        };
+        for (const SpaceKind space : {SpaceKind::ReedsShepp, SpaceKind::SE2})
+        {
+            ProblemSettings settings;
+            settings.space = space;
+            const Problem problem(scenario, settings);
+            for (const auto &[fault, poses] : lies)
+            {
+                // OMPL asserts that it can measure a path given to it, which it cannot at 1e300 m.
+                if (space == SpaceKind::ReedsShepp && poses.size() > 1 && poses[1].x > 1e100)
+                    continue;
+                SCOPED_TRACE(toString(space) + " " + toString(fault));
+                const PlanReport result = planned(problem, poses);
+                const PlanRun &run = result.first();
+                ASSERT_TRUE(run.path.has_value());
+                EXPECT_EQ(toString(run.path->recheck.fault), toString(fault)) << run.path->recheck.reason;
+                EXPECT_FALSE(run.isSolved());
+                EXPECT_EQ(exitStatus(run), 4);
+                const nlohmann::json text = resultJson(problem, PlanOptions{}, result);
+                EXPECT_EQ(text["status"], "invalid_path");
+                EXPECT_EQ(text["recheck"]["fault"], toString(fault));
+                EXPECT_NE(text["reason"].get<std::string>().find("not valid"), std::string::npos);
+                EXPECT_NE(resultSummary(problem, result).find("NOT VALID"), std::string::npos);
+                EXPECT_FALSE(resultSvg(problem, result).empty());
+            }
+            const PlanReport honest = planned(problem, {start, aside, behind, goal});
+            EXPECT_TRUE(honest.first().isSolved()) << honest.first().reason;
+            EXPECT_EQ(exitStatus(honest.first()), 0);
+        }
+    }
+
+    TEST(RefereedRun, OfALongWayToNowhereNotEveryMetreIsKept)
+    {
+        const Problem problem(parking_test::openGround(20.0), {});
+        const Scenario &scenario = problem.scenario();
+        const PlanReport far = planned(problem, {scenario.start, {3e5, 0.0, 0.0}, scenario.goals.front()});
+        ASSERT_TRUE(far.first().path.has_value());
+        EXPECT_FALSE(far.first().isSolved());
+        EXPECT_GT(far.first().path->length, 5.9e5);
+        EXPECT_LT(far.first().path->states().size(), 10100u);
+        const PlanReport near = planned(problem, {scenario.start, scenario.goals.front()});
+        EXPECT_TRUE(near.first().isSolved());
+        EXPECT_GE(near.first().path->states().size(), 201u);
+    }
+
+    TEST(RefereedRun, AnExactSolutionWithoutStatesIsNone)
+    {
+        const Problem problem(parking_test::openGround(20.0), {});
+        const PlanReport result = planned(problem, {});
+        EXPECT_FALSE(result.first().path.has_value());
+        EXPECT_NE(result.first().status, PlanStatus::Exact);
+        EXPECT_NE(result.first().reason.find("no path"), std::string::npos);
+    }
+}  // namespace
