@@ -637,7 +637,9 @@ namespace parking::search
     bool Search::mayImprove(Side side, const Node &node)
     {
         // An estimate that counts to an aim is no bound: the path to a root may be shorter.
-        return node.g + (isAdmissible() && traits_.aims ? admissible(side, node.pose) : node.h) < costBound_;
+        // Towards a target there is no root on the other side.
+        return node.g + (isAdmissible() && traits_.aims && !target_ ? admissible(side, node.pose) : node.h) <
+               costBound_;
     }
 
     double Search::priority(const Frontier &own, const Node &node)

@@ -76,6 +76,22 @@ namespace
                 expectStatus(each, SLOT_SCENE, model);
     }
 
+    TEST(PlannerStatus, ComesAsNearToABadGoalAtAnyWeights)
+    {
+        for (const char *model : {"car", "grid8"})
+        {
+            const auto distanceAt = [&](const char *weight)
+            {
+                PlanningProblem problem(Space::SE2, SLOT_SCENE,
+                                        std::string("tie_break=0 heuristic_weight_far=") + weight +
+                                            " heuristic_weight_near=" + weight + " motion_model=" + model);
+                problem.from({AISLE}).to({IN_OBSTACLE}).solveWithPolls(NO_LIMIT);
+                return problem.pdef->getSolutionDifference();
+            };
+            EXPECT_NEAR(distanceAt("1"), distanceAt("1.5"), 0.5) << model;
+        }
+    }
+
     TEST(PlannerStatus, NamesWhyThereIsNoPath)
     {
         const std::vector<Pose> before{BEFORE_WALL}, behind{BEHIND_WALL};
