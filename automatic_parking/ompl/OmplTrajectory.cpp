@@ -100,13 +100,7 @@ namespace parking
     {
         vehicle.validate();
         auto poses = std::make_shared<ob::SE2StateSpace>();
-        ob::RealVectorBounds positions(2);
-        for (unsigned int i = 0; i < 2; ++i)
-        {
-            positions.setLow(i, bounds.min[i]);
-            positions.setHigh(i, bounds.max[i]);
-        }
-        poses->setBounds(positions);
+        poses->setBounds(positionBounds(bounds));
         auto pair = std::make_shared<ob::RealVectorStateSpace>(2);
         pair->setBounds(symmetric(vehicle.maxSpeed, vehicle.maxSteeringAngle));
         auto states = std::make_shared<ob::CompoundStateSpace>();

@@ -44,13 +44,7 @@ namespace parking
                 space = std::make_shared<ob::DubinsStateSpace>(radius);
             else
                 space = std::make_shared<ob::SE2StateSpace>();
-            ob::RealVectorBounds bounds(2);
-            for (unsigned int axis = 0; axis < 2; ++axis)
-            {
-                bounds.setLow(axis, scenario.bounds.min[axis]);
-                bounds.setHigh(axis, scenario.bounds.max[axis]);
-            }
-            space->setBounds(bounds);
+            space->setBounds(positionBounds(scenario.bounds));
             return space;
         }
 

@@ -97,13 +97,7 @@ namespace
     std::vector<Pose> posesOfSearch(const Scenario &scenario, const FootprintChecker &checker, bool fromSlot)
     {
         const auto space = std::make_shared<ob::ReedsSheppStateSpace>(scenario.vehicle.minTurningRadius());
-        ob::RealVectorBounds bounds(2);
-        for (unsigned int axis = 0; axis < 2; ++axis)
-        {
-            bounds.setLow(axis, scenario.bounds.min[axis]);
-            bounds.setHigh(axis, scenario.bounds.max[axis]);
-        }
-        space->setBounds(bounds);
+        space->setBounds(positionBounds(scenario.bounds));
         const auto si = std::make_shared<ob::SpaceInformation>(space);
         std::vector<Pose> poses;
         si->setStateValidityChecker(
@@ -225,13 +219,7 @@ namespace
           : world(parking_test::randomPolygonWorld(seed)),
             space(std::make_shared<EvenlyCheckedSpace>(vehicle.minTurningRadius()))
         {
-            ob::RealVectorBounds bounds(2);
-            for (unsigned int axis = 0; axis < 2; ++axis)
-            {
-                bounds.setLow(axis, world.bounds.min[axis]);
-                bounds.setHigh(axis, world.bounds.max[axis]);
-            }
-            space->setBounds(bounds);
+            space->setBounds(positionBounds(world.bounds));
             si = std::make_shared<ob::SpaceInformation>(space);
             const auto checker = std::make_shared<FclFootprintChecker>(si, world.obstacles, vehicle);
             si->setStateValidityChecker(checker);

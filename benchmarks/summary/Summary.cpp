@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -17,7 +16,6 @@ namespace parking
     namespace
     {
         constexpr double MS = 1e3;
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
         using Cells = std::vector<std::string>;
 
@@ -139,7 +137,7 @@ namespace parking
                 if (record->isSuccess())
                     values.push_back(record->number(column.name));
                 else if (column.summary->statistic == Statistic::Distribution)
-                    values.push_back(INFINITE);
+                    values.push_back(HUGE_VAL);
             // Of those that have the figure: a path without a trajectory has none of its figures.
             values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                          values.end());

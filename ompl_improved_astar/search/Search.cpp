@@ -11,7 +11,6 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr double ROUNDING = 1e-9;      // metres of cost: nodes and entries that differ by less are equal
         constexpr double MIN_APPROACH = 1e-3;  // metres: nearer to a target by less is no progress
 
@@ -56,7 +55,7 @@ namespace parking::search
         memory_ = {std::size_t{parameters.maxMemoryMb} << 20};
         target_.reset();
         best_ = {};
-        costBound_ = INFINITE;
+        costBound_ = HUGE_VAL;
         isImproved_ = false;
         turns_ = 0;
         statistics_ = {};
@@ -105,7 +104,7 @@ namespace parking::search
             return false;
         confined_ = confinedSide();
         if (target_)
-            progress_ = {INFINITE, expanded()};
+            progress_ = {HUGE_VAL, expanded()};
         for (const Side side : {Side::Start, Side::Goal})
         {
             Guide &own = guide(side);
@@ -149,7 +148,7 @@ namespace parking::search
                                                                                                     : Side::Start;
         if (!traits_.drivesCurves)
             return Side::Start;
-        double ofStarts = INFINITE;
+        double ofStarts = HUGE_VAL;
         for (const Pose &start : frontier(Side::Start).rootPoses())
             ofStarts = std::min(ofStarts, model_->mobility(start));
         for (const Pose &goal : frontier(Side::Goal).rootPoses())
@@ -254,7 +253,7 @@ namespace parking::search
             const std::uint64_t limit = isNear ? tuning::STALL_LIMIT_NEAR : tuning::STALL_LIMIT + progress_.since / 2;
             return progress_.nearest <= MIN_APPROACH || (!traits_.isComplete && expanded() > progress_.since + limit);
         }
-        if (best_.cost < INFINITE || !query_->parameters.bidirectional || traits_.isComplete)
+        if (best_.cost < HUGE_VAL || !query_->parameters.bidirectional || traits_.isComplete)
             return false;
         // With one side seen completely, the other gets as many expansions again: its joins may still reach a root that
         // this lattice cannot leave.
@@ -463,7 +462,7 @@ namespace parking::search
     {
         const bool isFarthest = index == (queue == 0 ? own.bestClosed : detours_[queue - 1]->best);
         if (!query_->parameters.detours || own.side() != confined_ || !guide(confined_).hasRoute || target_ ||
-            best_.cost < INFINITE || isAdmissible() || !isFarthest)
+            best_.cost < HUGE_VAL || isAdmissible() || !isFarthest)
             return;
         RouteHeuristic &route = queue == 0 ? guide(confined_).route : detours_[queue - 1]->route;
         while (index != NO_NODE && !isStopped() && !query_->environment.wasInterrupted())
@@ -571,7 +570,7 @@ namespace parking::search
 
     double Search::shortestMotion() const
     {
-        double shortest = INFINITE;
+        double shortest = HUGE_VAL;
         for (const Pose &start : frontier(Side::Start).rootPoses())
             for (const Pose &goal : frontier(Side::Goal).rootPoses())
                 shortest = std::min(shortest, model_->distance(start, goal));
@@ -610,7 +609,7 @@ namespace parking::search
         {
             const double straight = positionDistance(pose, target_->pose);
             const double route = own.hasRoute ? own.route.distance(pose.x, pose.y) : 0.0;
-            return route < INFINITE ? std::max(straight, route) : straight;
+            return route < HUGE_VAL ? std::max(straight, route) : straight;
         }
         if (own.targets.empty())
             return 0.0;
@@ -649,7 +648,7 @@ namespace parking::search
         double distance = node.h;
         if (!target_ && traits_.drivesCurves && weights_.far != weights_.near)
         {
-            distance = INFINITE;
+            distance = HUGE_VAL;
             for (const Pose &target : guide(own.side()).targets)
                 distance = std::min(distance, positionDistance(node.pose, target));
         }
@@ -659,7 +658,7 @@ namespace parking::search
     float Search::densityPenalty(const Frontier &own, const Node &node) const
     {
         // Until there is a solution; models that aim go by the least f of all that was closed.
-        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || isAdmissible() || best_.cost < INFINITE)
+        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || isAdmissible() || best_.cost < HUGE_VAL)
             return node.densityPenalty;
         return static_cast<float>(tuning::DENSITY_PENALTY * query_->car.turningRadius *
                                   std::min(own.density.at(node.pose), tuning::MAX_DENSITY));
@@ -715,7 +714,7 @@ namespace parking::search
 
     double Search::expectedCost() const
     {
-        double least = INFINITE;
+        double least = HUGE_VAL;
         for (const NodeIndex root : frontier(confined_).roots())
             least = std::min<double>(least, frontier(confined_).node(root).h);
         return std::max(shortestMotion(), least);
@@ -724,11 +723,11 @@ namespace parking::search
     double Search::lowerBound()
     {
         double bound = shortestMotion();
-        if (!(bound < INFINITE))
+        if (!(bound < HUGE_VAL))
             return 0.0;
         for (Frontier &each : frontiers_)
         {
-            double least = isPrepared_ ? INFINITE : 0.0;
+            double least = isPrepared_ ? HUGE_VAL : 0.0;
             for (const NodeIndex root : each.roots())
                 least = std::min(least, isPrepared_ ? admissible(each.side(), each.node(root).pose) : 0.0);
             bound = std::max(bound, least);
@@ -748,7 +747,7 @@ namespace parking::search
     bool Search::needsDetour() const
     {
         const Guide &own = guides_[static_cast<std::size_t>(confined_)];
-        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || best_.cost < INFINITE ||
+        if (!query_->parameters.detours || !traits_.drivesCurves || target_ || best_.cost < HUGE_VAL ||
             own.targets.empty() || detourCount() == std::size(tuning::DETOURS))
             return false;
         if (const std::size_t count = detourCount(); count > 0)
@@ -756,7 +755,7 @@ namespace parking::search
             // Where nothing is known of the room, all discs take the same route.
             const Pose &root = frontier(confined_).node(frontier(confined_).roots().front()).pose;
             return expanded() >= detoursSince_ + count * tuning::DETOUR_EXPANSIONS &&
-                   query_->environment.roomAt(root.x, root.y) < INFINITE;
+                   query_->environment.roomAt(root.x, root.y) < HUGE_VAL;
         }
         // A side that has run dry comes no nearer, and gets no turns any more.
         const Frontier &stuck = frontier(confined_);
@@ -774,7 +773,7 @@ namespace parking::search
             length = route.distance(node.pose.x, node.pose.y);
         else if (const std::optional<double> known = route.knownDistance(node.pose.x, node.pose.y))
             length = *known;
-        return length < INFINITE ? std::max<double>(node.h, length) : node.h;
+        return length < HUGE_VAL ? std::max<double>(node.h, length) : node.h;
     }
 
     void Search::addDetour()
@@ -801,7 +800,7 @@ namespace parking::search
         for (const Pose &target : targets)
             detour.route.addTarget(target.x, target.y);
         detour.best = NO_NODE;
-        detour.nearest = INFINITE;
+        detour.nearest = HUGE_VAL;
         detour.fromRoot = detour.route.distance(root.x, root.y);
         stuck.setQueues(number + 2);
         for (NodeIndex i = 0; i < stuck.nodes().size(); ++i)
@@ -824,7 +823,7 @@ namespace parking::search
         for (Frontier &each : frontiers_)
             each.setQueues(1);
         enclosure_.reset();
-        progress_ = {INFINITE, frontier(confined_).turns()};
+        progress_ = {HUGE_VAL, frontier(confined_).turns()};
     }
 
     void Search::seekProof()

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 
 #include <ompl/base/State.h>
 #include <ompl/base/StateSpace.h>
+#include <ompl/base/spaces/RealVectorBounds.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/util/Exception.h>
 
@@ -25,6 +27,18 @@ namespace parking
         se2->setXY(pose.x, pose.y);
         const double yaw = wrapAngle(pose.yaw);
         se2->setYaw(yaw < PI ? yaw : -PI);
+    }
+
+    /** \brief A box of positions in metres, as OMPL's spaces take it. */
+    inline ompl::base::RealVectorBounds positionBounds(const Box &box)
+    {
+        ompl::base::RealVectorBounds bounds(2);
+        for (unsigned int axis = 0; axis < 2; ++axis)
+        {
+            bounds.setLow(axis, box.min[axis]);
+            bounds.setHigh(axis, box.max[axis]);
+        }
+        return bounds;
     }
 
     /** \brief Throws ompl::Exception unless the states of \e space are poses: an SE2 space or one derived from it. */

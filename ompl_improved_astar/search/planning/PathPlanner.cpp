@@ -10,7 +10,6 @@ namespace parking::search
 {
     namespace
     {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
         constexpr double FINE_SAMPLES = 0.02;  // metres between the poses at which the clearance is sampled finely
         constexpr std::size_t CURVES_TO_SHORTEN = 2;   // tried between two poses of a first path
         constexpr double KNOT_SHIFT = 0.3;             // of the knots in a second pass, in spacings
@@ -39,7 +38,7 @@ namespace parking::search
         starts_.clear();
         hasGoal_ = isGoodEnough_ = false;
         best_ = {};
-        best_.cost = INFINITE;
+        best_.cost = HUGE_VAL;
         passes_ = 0;
     }
 
@@ -275,7 +274,7 @@ namespace parking::search
     double PathPlanner::suboptimalityBound(double cost)
     {
         const double bound = hasSolution() ? search_.lowerBound() : 0.0;
-        return bound > 0.0 ? std::max(1.0, cost / bound) : INFINITE;
+        return bound > 0.0 ? std::max(1.0, cost / bound) : HUGE_VAL;
     }
 
     SearchStatistics PathPlanner::statistics() const

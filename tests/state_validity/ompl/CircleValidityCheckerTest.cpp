@@ -23,13 +23,7 @@ namespace
     ob::SpaceInformationPtr spaceOf(const Box &box)
     {
         const auto space = std::make_shared<ob::SE2StateSpace>();
-        ob::RealVectorBounds bounds(2);
-        for (unsigned int axis = 0; axis < 2; ++axis)
-        {
-            bounds.setLow(axis, box.min[axis]);
-            bounds.setHigh(axis, box.max[axis]);
-        }
-        space->setBounds(bounds);
+        space->setBounds(positionBounds(box));
         return std::make_shared<ob::SpaceInformation>(space);
     }
 

@@ -39,13 +39,7 @@ namespace
             space = std::make_shared<ob::DubinsStateSpace>(vehicle.minTurningRadius(), seed % 2 == 0);
         else
             space = std::make_shared<ob::ReedsSheppStateSpace>(vehicle.minTurningRadius());
-        ob::RealVectorBounds bounds(2);
-        for (unsigned int axis = 0; axis < 2; ++axis)
-        {
-            bounds.setLow(axis, world.bounds.min[axis]);
-            bounds.setHigh(axis, world.bounds.max[axis]);
-        }
-        space->setBounds(bounds);
+        space->setBounds(positionBounds(world.bounds));
         const auto si = std::make_shared<ob::SpaceInformation>(space);
         si->setStateValidityChecker(std::make_shared<FclFootprintChecker>(si, world.obstacles, vehicle));
         const auto validator = std::make_shared<SweptMotionValidator>(si);

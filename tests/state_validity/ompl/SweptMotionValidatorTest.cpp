@@ -32,13 +32,7 @@ namespace
     {
         Planar(const SpacePtr &space, const ObstacleSet &obstacles, const Box &box)
         {
-            ob::RealVectorBounds bounds(2);
-            for (unsigned int axis = 0; axis < 2; ++axis)
-            {
-                bounds.setLow(axis, box.min[axis]);
-                bounds.setHigh(axis, box.max[axis]);
-            }
-            space->setBounds(bounds);
+            space->setBounds(positionBounds(box));
             si = std::make_shared<ob::SpaceInformation>(space);
             checker = std::make_shared<FclFootprintChecker>(si, obstacles, vehicle);
             si->setStateValidityChecker(checker);

@@ -44,13 +44,7 @@ namespace
         explicit Checkers(const World &world)
         {
             const auto space = std::make_shared<ob::ReedsSheppStateSpace>(3.0);
-            ob::RealVectorBounds bounds(2);
-            for (unsigned int axis = 0; axis < 2; ++axis)
-            {
-                bounds.setLow(axis, world.bounds.min[axis]);
-                bounds.setHigh(axis, world.bounds.max[axis]);
-            }
-            space->setBounds(bounds);
+            space->setBounds(positionBounds(world.bounds));
             si = std::make_shared<ob::SpaceInformation>(space);
             footprint = std::make_shared<FclFootprintChecker>(si, world.obstacles, Vehicle());
             fcl = std::make_shared<PlainFclChecker>(world.obstacles, Vehicle());
