@@ -74,6 +74,37 @@ namespace
     }
 }  // namespace
 
+TEST(EnclosureProof, findsTheEndThatIsShutIn)
+{
+    // A ring of blocked cells round the origin in a plane without end, where the other flood never comes to one.
+    const auto ring = [](double gap)
+    {
+        return [gap](double x, double y)
+        {
+            HeadingSet bits{};
+            const double ahead = std::atan2(y, x), distance = std::hypot(x, y);
+            if (distance > 4.0 && distance < 8.0 && std::abs(ahead) >= gap)
+                bits.fill(~std::uint64_t{0});
+            return bits;
+        };
+    };
+    const Pose inside{0.1, 0.1, 0.0}, outside{30.1, 0.1, 0.0};
+    const Enclosure::Cells cells{SIDE, 64, 0.0, 20000};
+    const auto isProven = [&](double gap, const Pose &start, const Pose &goal)
+    {
+        EnclosureProof proof;
+        proof.begin(ring(gap), {start}, {goal}, cells);
+        bool result = false;
+        for (int i = 0; i < 1000 && !result; ++i)
+            result = proof.widen(10);
+        return result;
+    };
+    EXPECT_TRUE(isProven(0.0, inside, outside));
+    EXPECT_TRUE(isProven(0.0, outside, inside));
+    EXPECT_FALSE(isProven(0.6, inside, outside));
+    EXPECT_FALSE(isProven(0.6, outside, inside));
+}
+
 TEST(Enclosure, agreesWithAFloodOfSingleCells)
 {
     constexpr int SIZE = 4;  // columns and rows to each side of the root's, beyond which all is blocked
