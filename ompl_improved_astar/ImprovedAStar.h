@@ -41,29 +41,29 @@ namespace ompl::geometric
 
         \par Validity
 
-        Any StateValidityChecker and MotionValidator will do: paths found are put to the motion validator before they
-        are returned. With parking::FclFootprintChecker the search sweeps the car's footprint exactly and needs no
-        states at all, which is some ten times faster. A checker given to the SpaceInformation later serves from the
-        next query on.
+        Any StateValidityChecker and MotionValidator is supported: the motion validator checks each path before it is
+        returned. With parking::FclFootprintChecker the search sweeps the car's footprint exactly and checks no states,
+        which is about ten times faster. A checker that replaces another in the SpaceInformation is used from the next
+        query on.
 
         \par Goals
 
-        Any GoalSampleableRegion with any number of goals, of which the cheapest to reach is reached exactly. Where a
-        goal lies in an obstacle, or cannot be reached, the path ends as near to it as the car gets, and the solution is
+        Any GoalSampleableRegion with any number of goals. The path ends exactly at the goal that is cheapest to reach.
+        If all goals collide or cannot be reached, the path ends as close to one as possible, and the solution is
         approximate (parameter `approximate`).
 
         \par Several calls of solve()
 
-        A call goes on where the one before it ended, with starts and goals that were added since, and returns a
-        solution at least as good. Another problem definition, goal object, checker or motion validator, or another
-        value of a parameter, begins the query anew, as clearQuery() does; that is what to call when the obstacles of
-        the same checker have changed. Another objective prices the solution anew.
+        A call resumes the previous one, includes starts and goals that were added since, and returns a solution at
+        least as good. Another problem definition, goal object, checker, motion validator or parameter value begins a
+        new query, as clearQuery() does. Call clearQuery() if the obstacles of the same checker have changed. Another
+        objective recomputes the cost of the solution.
 
         \par Threads
 
-        A planner serves one thread at a time: no call of solve() may overlap with another on the same planner, nor with
-        clear() or a change of parameters. Several planners may run at once, on one SpaceInformation too. Progress
-        properties may be read while solve() runs.
+        A planner may be used by one thread at a time: calls of solve(), clear() and changes of parameters must not
+        overlap. Several planners may run concurrently, also on one SpaceInformation. Progress properties may be read
+        while solve() runs.
 
         \par Associated publication
 
@@ -73,68 +73,69 @@ namespace ompl::geometric
     class ImprovedAStar : public base::Planner
     {
     public:
-        /** \brief A planner with the default parameters for the space of \e si, which setup() looks at. */
+        /** \brief Creates a planner with default parameters for the space of \e si, which setup() checks. */
         explicit ImprovedAStar(const base::SpaceInformationPtr &si);
         ~ImprovedAStar() override;
 
-        /** \brief Throws ompl::Exception for a space that is not SE2, Reeds-Shepp or Dubins, and for a motion model
-            that does not go with it. */
+        /** \brief Prepares the planner. Throws ompl::Exception for a space that is not SE2, Reeds-Shepp or Dubins, and
+            for a motion model that is not compatible with it. */
         void setup() override;
 
-        /** \brief Another problem definition than before begins a new query. */
+        /** \brief Sets the problem. Another problem definition begins a new query. */
         void setProblemDefinition(const base::ProblemDefinitionPtr &pdef) override;
 
         using base::Planner::solve;
 
-        /** \brief Plans until the problem is solved, or shown to have no solution, or \e ptc says so.
+        /** \brief Plans until the problem is solved, no solution can be found, or \e ptc is met.
 
-            A problem without solution is a status, not an exception. Throws ompl::Exception where setup() does. */
+            A problem without a solution yields a status, not an exception. Throws ompl::Exception in the cases of
+            setup(). */
         base::PlannerStatus solve(const base::PlannerTerminationCondition &ptc) override;
 
-        /** \brief Forgets the query, and the memory and set-up with it; parameters stay. */
+        /** \brief Discards the query, its memory and the set-up; parameters are kept. */
         void clear() override;
 
-        /** \brief Forgets starts, goals and frontiers, but keeps memory and what depends on the space only. */
+        /** \brief Discards starts, goals and frontiers, but keeps memory and all that depends on the space only. */
         void clearQuery() override;
 
-        /** \brief Both frontiers and, when it is exact, the last solution; edges point in the direction of driving. The
-            states stay valid until the query ends. */
+        /** \brief Adds both frontiers and, if it is exact, the last solution; edges point in the direction of driving.
+            The states remain valid until the query ends. */
         void getPlannerData(base::PlannerData &data) const override;
 
-        /** \brief What the planner goes by; by name in params() too. parking::parameterTable() tells what each
-            means. */
+        /** \brief The parameters, also accessible by name in params(). parking::parameterTable() documents them. */
         const parking::PlannerParameters &parameters() const
         {
             return parameters_;
         }
 
-        /** \brief Sets all parameters. Throws ompl::Exception, naming parameter, value and what is right, when one is
-            out of its range, and then changes nothing. */
+        /** \brief Sets all parameters. If a value is out of range, throws ompl::Exception with parameter, value and
+            range, and changes nothing. */
         void setParameters(const parking::PlannerParameters &parameters);
 
-        /** \brief Seconds that solve() spent on finding out which cells are free before searching. */
+        /** \brief Seconds that solve() spent classifying cells before the search (obstacle_loading). */
         double mapLoadingTime() const;
 
-        /** \brief What the last query did. */
+        /** \brief Work of the last query. */
         parking::search::SearchStatistics statistics() const;
 
-        /** \brief States and motions that were checked. */
+        /** \brief Number of states and motions checked. */
         std::uint64_t checkedStates() const;
 
-        /** \brief How many of checkedStates() needed FCL; known with parking::FclFootprintChecker only, otherwise 0. */
+        /** \brief Number of checkedStates() that FCL decided; 0 without parking::FclFootprintChecker. */
         std::uint64_t exactChecks() const;
 
         /** \brief The best solution in exact form; nullptr without one. */
         const parking::Path *solutionPath() const;
 
-        /** \brief How the last solve() ended, more exactly than its status can say before OMPL 1.6: Infeasible where
-            nothing was left to try, whatever path was reported. */
+        /** \brief Outcome of the last solve(), more precise than a status before OMPL 1.6: Infeasible if nothing was
+            left to try, even if an approximate path was reported. */
         parking::search::PlanOutcome outcome() const;
 
-        /** \brief One line on why there is no solution, when that is known and not only for want of time. */
+        /** \brief One line that explains why there is no solution; empty if unknown or if only the time limit was met.
+        */
         const std::string &reason() const;
 
-        /** \brief Best cost over a bound that no path stays below, at least 1: see
+        /** \brief Best cost divided by a lower bound of all paths, at least 1; see
             parking::search::Search::lowerBound(). */
         double suboptimalityBound();
 

@@ -13,25 +13,25 @@ namespace parking
         std::string name;                       ///< in .cfg files and for --planner: letters, digits and _ . + -
         std::string summary;                    ///< one line for --help
         ompl::base::PlannerAllocator allocate;  ///< makes the planner; must not be empty
-        /** Does the planner go on improving its solution until the time is up? Then it is handed path length as its
-            objective, whose isSatisfied() should be asked for each new best solution: that is how its cost over time is
-            recorded. */
+        /** Whether the planner improves its solution until the time limit. It then receives path length as its
+            objective and should call isSatisfied() for each better solution, which records cost over time. */
         bool optimizing{false};
     };
 
-    /** \brief What a plug-in adds its planners to. */
+    /** \brief Receives the planners of a plug-in. */
     class PluginPlanners
     {
     public:
         virtual ~PluginPlanners() = default;
 
-        /** \brief Throws std::runtime_error for a name that is taken or not allowed, and without an allocator. */
+        /** \brief Adds a planner. Throws std::runtime_error for a name that is taken or invalid, and without an
+        allocator. */
         virtual void add(const PluginPlanner &planner) = 0;
     };
 
-    /** \brief What a plug-in exports, under the name `parking_planner_plugin`: the entry point.
+    /** \brief The entry point of a plug-in, exported as `parking_planner_plugin`.
 
-        The first two members are looked at before anything else of the library is used, and must not move. */
+        The loader reads the first two members before it uses the library; their positions must not change. */
     struct PlannerPlugin
     {
         int interfaceVersion;                           ///< of this header
@@ -45,7 +45,8 @@ namespace parking
 
 /** \brief Makes a shared library a plug-in: \a function, a `void (parking::PluginPlanners &)`, adds its planners.
 
-    Once in a library, outside of any namespace. Programs load it with `--plugin libmine.so`; see docs/comparison.md. */
+    Use it once in a library, outside of any namespace. Programs load it with `--plugin libmine.so`; see
+    docs/benchmarking.md. */
 #define PARKING_PLANNER_PLUGIN(function)                                                                   \
     extern "C" __attribute__((visibility("default"))) const parking::PlannerPlugin parking_planner_plugin; \
     const parking::PlannerPlugin parking_planner_plugin                                                    \

@@ -16,11 +16,10 @@
 
 namespace parking
 {
-    /** \brief How far apart the states of a path may be for the space's own interpolation to follow the path.
+    /** \brief Largest distance between states of a path at which the space's own interpolation follows the path.
 
-        Of straight lines and turns on the spot the ends suffice everywhere. Spaces of curves go from state to state
-        along arcs at their turning radius, too; an arc that turns less, or a clothoid, they would replace by a sharper
-        arc and a line. */
+        For straight lines and turns on the spot the ends suffice. Curve spaces also connect states by arcs at their
+        turning radius; they would replace a gentler arc or a clothoid by a sharper arc and a line. */
     struct StateSpacing
     {
         double onArcs{0.0};                 ///< metres; 0 where the ends of short arcs suffice
@@ -32,42 +31,41 @@ namespace parking
     /** \brief The poses of \e path between which the space's own interpolation follows the path. */
     std::vector<Pose> pathStates(const Path &path, const StateSpacing &spacing);
 
-    /** \brief The poses, and others in between where a Reeds-Shepp space would swerve instead of driving straight on.
+    /** \brief Adds poses where a Reeds-Shepp space would swerve instead of driving straight.
 
-        Of straight lines much shorter than the turning radius OMPL misses the shortest curve now and then, because of
-        the last digits of their ends, and takes one of four arcs instead (measured with OMPL 1.5: 4 to 7 % of those up
-        to 4 % of the radius, none from 8 % on, with coordinates below 50 m). Other digits will do. */
+        For some straight lines much shorter than the turning radius, rounding makes OMPL miss the shortest curve and
+        return four arcs instead (OMPL 1.5: lines up to 8 % of the radius). Slightly different poses avoid this. */
     std::vector<Pose> straightened(std::vector<Pose> poses, const CurveSpace &curves);
 
-    /** \brief The world of the search as OMPL sees it, for any validity checker and motion validator.
+    /** \brief Motion environment of the search on top of OMPL's validity checker and motion validator.
 
-        Motions are tried by asking for the validity of states along them; paths found are then put to the motion
-        validator, motion by motion, in the direction in which they will be driven. */
+        It checks states along each motion. The motion validator then checks each path, motion by motion, in the
+        direction of driving. */
     class StateSpaceEnvironment final : public search::MotionEnvironment
     {
     public:
-        /** \brief \param step metres between states asked for along a motion
+        /** \brief \param step metres between the states checked along a motion
             \param stateSpacing between the states of a path */
         StateSpaceEnvironment(const ompl::base::SpaceInformationPtr &si, double step, const StateSpacing &stateSpacing,
                               bool headingMatters);
 
-        /** \brief While \e stop says true every motion is cut short, and no clearance known, so that a slow checker
-            does not delay the end. */
+        /** \brief Sets a stop function. While it returns true, motions count as blocked and clearances as unknown, so
+            that a slow checker does not delay termination. */
         void setStop(const search::StopFunction &stop)
         {
             stop_ = stop;
             interrupted_ = false;
         }
 
-        /** \brief How the poses of a path are changed before it is handed out, to end at the very goal: what
-           acceptPath() is asked for are the motions between these. */
+        /** \brief Sets a function that changes the poses of a path so that it ends exactly at the goal; acceptPath()
+           checks the motions between these poses. */
         void setEnding(std::function<void(std::vector<Pose> &)> ending)
         {
             ending_ = std::move(ending);
         }
 
         bool isFree(const Pose &pose) override;
-        /** Nothing is proven to keep a clearance. */
+        /** Returns 0 for a positive clearance, which states cannot prove. */
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                          double *lengths) override;
         bool keeps(const Pose &pose, double clearance) override;
@@ -79,7 +77,7 @@ namespace parking
         {
             return bounds_;
         }
-        /** Infinite: nothing is known of the obstacles. */
+        /** Infinite: obstacles are unknown. */
         double roomAt(double x, double y) override;
         bool acceptPath(const Path &path) override;
         bool wasInterrupted() const override
@@ -93,7 +91,7 @@ namespace parking
             return headingMatters_;
         }
 
-        /** \brief States whose validity was asked for since construction, but by the motion validator. */
+        /** \brief States checked since construction, without those of the motion validator. */
         std::uint64_t checkedStates() const
         {
             return checkedStates_;

@@ -12,29 +12,29 @@
 
 namespace parking::search
 {
-    /** \brief A bit for each part of the circle of headings, the first of which begins at minus pi. */
+    /** \brief Set of headings: one bit per equal part of the circle, the first beginning at minus pi. */
     using HeadingSet = std::array<std::uint64_t, 2>;
 
-    /** \brief The headings at which the body collides wherever its middle stands in a square cell around (x, y). */
+    /** \brief Headings at which the body collides for every position of its centre in a square cell around (x, y). */
     using BlockedHeadings = std::function<HeadingSet(double x, double y)>;
 
-    /** \brief What the search asks of the world. One search uses one environment from one thread.
+    /** \brief The world as seen by the search. One search uses one environment from one thread.
 
-        Poses are of the rear axle's midpoint, in the coordinates of the problem. An environment whose answers take long
-        polls its own stop function: once the time is up it answers "no" without looking, and wasInterrupted(). */
+        Poses are those of the rear axle's midpoint in the coordinates of the problem. An environment with slow checks
+        polls its own stop function: after that it returns "no" unchecked, and wasInterrupted() is true. */
     class MotionEnvironment
     {
     public:
         virtual ~MotionEnvironment() = default;
 
-        /** \brief Is the car free of obstacles at \e pose? */
+        /** \brief Whether the car is free of obstacles at \e pose. */
         virtual bool isFree(const Pose &pose) = 0;
 
-        /** \brief How far the car can drive along each of some arcs from a pose while it keeps a clearance everywhere.
+        /** \brief Computes how far the car can drive along each of \e count arcs from a pose while keeping a clearance.
 
-            \param clearance metres; with 0 the car is free of obstacles, and \e from is known to be free. With more the
-            answer is a lower bound, 0 where nothing is known
-            \param lengths receives one length for each arc, between 0 and the arc's own, which stands for all of it */
+            \param clearance metres. With 0 the result is exact, and \e from must be free. Otherwise it is a lower
+            bound, 0 if unknown
+            \param lengths receives one length per arc, between 0 and the length of the arc */
         virtual void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,
                                  double *lengths) = 0;
 
@@ -46,52 +46,52 @@ namespace parking::search
             return length;
         }
 
-        /** \brief Does the car surely keep that many metres from all obstacles at \e pose? */
+        /** \brief Whether the car provably keeps \e clearance metres from all obstacles at \e pose. */
         virtual bool keeps(const Pose & /*pose*/, double /*clearance*/)
         {
             return false;
         }
 
-        /** \brief Is the motion free along which position and heading change evenly: a straight line, a turn on the
-            spot, or both at once? \e from is known to be free, \e to may not be. */
+        /** \brief Whether a motion with linear position and heading is free: a straight line, a turn on the spot, or
+            both. \e from must be free. */
         virtual bool isMotionFree(const Pose &from, const Pose &to) = 0;
 
-        /** \brief An upper bound of the distance between the point (x, y), which lies within the bounds, and the
-            nearest obstacle, in metres; infinite when it is not known. A car whose inscribed circle at the rear axle is
-            larger cannot be there. */
+        /** \brief Upper bound of the distance between (x, y), a point within the bounds, and the nearest obstacle, in
+            metres; infinite if unknown. A car with a larger inscribed circle at the rear axle cannot be there. */
         virtual double roomAt(double x, double y) = 0;
 
-        /** \brief What cells of the body's middle are blocked, for a proof that there is no path.
+        /** \brief Returns a function that gives the blocked headings of a cell of body positions, for proofs that no
+            path exists.
 
-            The first argument is the side of a cell in metres, the second the number of equal parts of the circle, 8 to
-            128. Returns an empty function when it is not known where the body surely collides. */
+            The arguments are the side of a cell in metres and the number of equal parts of the circle, 8 to 128.
+            Returns an empty function if the environment cannot prove collisions. */
         virtual BlockedHeadings blockedHeadings(double /*side*/, int /*headings*/)
         {
             return {};
         }
 
-        /** \brief A last word on a whole path whose pieces were all found free. */
+        /** \brief Final check of a whole path whose pieces are free. */
         virtual bool acceptPath(const Path & /*path*/)
         {
             return true;
         }
 
-        /** \brief Where the rear axle may be, whatever the obstacles. */
+        /** \brief Bounds of the rear axle's positions, obstacles aside. */
         virtual Box bounds() const = 0;
 
-        /** \brief Is anything known of clearances? Where not, they cost nothing. */
+        /** \brief Whether clearances are known; otherwise they cost nothing. */
         virtual bool knowsClearance() const
         {
             return true;
         }
 
-        /** \brief Does isFree() depend on the heading? It does not for the paper's circle round the car. */
+        /** \brief Whether isFree() depends on the heading; for the paper's circle it does not. */
         virtual bool headingMatters() const
         {
             return true;
         }
 
-        /** \brief Has an answer been "no" only because the time was up? It then says nothing about the world. */
+        /** \brief Whether a check returned "no" only because the stop function returned true. */
         virtual bool wasInterrupted() const
         {
             return false;

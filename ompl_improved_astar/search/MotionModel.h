@@ -23,15 +23,15 @@ namespace parking::search
         double clear{-1.0};    ///< metres at its beginning known to keep the preferred clearance; negative: unknown
     };
 
-    /** \brief What is peculiar to a model, for the search to go by. */
+    /** \brief Properties of a motion model that control the search. */
     struct ModelTraits
     {
-        /** Resolutions, each finer than the one before, that take turns (see Search). */
+        /** Number of resolutions, each finer than the previous one (see Search). */
         std::size_t levels{1};
         /** Nodes are joined by curves with the other side's roots and its best closed node, and motions are priced by
             their clearance; otherwise nodes are joined with the one in the same cell, before they are expanded. */
         bool drivesCurves{false};
-        /** What one side has seen completely, the other cannot reach: its cells leave nothing out. */
+        /** If one side is exhausted, the other cannot be reached: cells leave nothing out. */
         bool isComplete{false};
         /** Estimates count to the other side's closed node of least cost (paper, "Bidirectional Search"). */
         bool aims{false};
@@ -41,10 +41,10 @@ namespace parking::search
         std::uint64_t otherSidePeriod{2};
     };
 
-    /** \brief How nodes are reached from each other: the interchangeable part of the search that knows the car.
+    /** \brief Successors and connections of nodes: the part of the search that models the car.
 
-        An object serves one search; begin() makes it ready for a query. Poses are those of the rear axle. Motions are
-        given from the roots outwards on both sides: on the goal's side the car will drive them the other way. */
+        An object belongs to one search; begin() prepares it for a query. Poses are those of the rear axle. Motions lead
+        from the roots outwards on both sides: on the goal's side the car drives them in the opposite direction. */
     class MotionModel
     {
     public:
@@ -53,7 +53,7 @@ namespace parking::search
         /** \brief Begins a query. */
         virtual void begin(const SearchContext &context) = 0;
 
-        /** \brief Before begin() only what does not depend on parameters is right. */
+        /** \brief Traits of the model. Those that depend on parameters are valid after begin(). */
         virtual ModelTraits traits() const = 0;
 
         /** \brief The name of the heuristic that suits the model. */
@@ -64,18 +64,18 @@ namespace parking::search
         {
         }
 
-        /** \brief The cell that a pose lies in, with 61 bits. Of the nodes in a cell one is kept for each level.
+        /** \brief Key of the cell of a pose, 61 bits. The search keeps one node per cell and level.
 
             \param level 0 is the coarsest */
         virtual std::uint64_t cell(const Pose &pose, std::size_t level) const = 0;
 
-        /** \brief How far the car can move from a root, in metres summed over directions: little in a slot. */
+        /** \brief Free length around a root in metres, summed over directions; small in a slot. */
         virtual double mobility(const Pose & /*root*/)
         {
             return 0.0;
         }
 
-        /** \brief Mobility in metres by which the goal may exceed the start and still count as the confined end. */
+        /** \brief Mobility in metres by which the goal may exceed the start and still be the confined end. */
         virtual double mobilitySlack() const
         {
             return 0.0;
@@ -90,13 +90,14 @@ namespace parking::search
         virtual void expand(Side side, NodeIndex index, const Node &node, std::size_t level, bool isFirst,
                             std::vector<Successor> &successors) = 0;
 
-        /** \brief Is the motion free? Asked only of those that would become a node. */
+        /** \brief Whether the motion is free. Called only for motions that would become a node. */
         virtual bool isFree(Side /*side*/, const Node & /*from*/, const Successor & /*successor*/)
         {
             return true;
         }
 
-        /** \brief Receives the pieces between two nodes and the cost of the whole path. Returns whether they are taken.
+        /** \brief Receives the pieces between two nodes and the cost of the whole path. Returns whether it accepts
+            them.
          */
         using Offer = std::function<bool(const PathPiece *pieces, std::size_t count, double cost)>;
 
@@ -104,35 +105,32 @@ namespace parking::search
             until one is taken.
 
             \param sweptFrom the side near which a collision is more likely
-            \param bound whole paths that cost as much are not wanted
-            \return whether one was taken */
+            \param bound upper limit of the cost of the whole path \return whether one was accepted */
         virtual bool join(const Node &fromStart, const Node &fromGoal, Side sweptFrom, double bound,
                           const Offer &offer) = 0;
 
-        /** \brief Moves from a node by the shortest motion that would lead to a pose without regard to obstacles, and
-            ends where that does not surely keep the preferred clearance any more, or if none is preferred where it
-            collides.
+        /** \brief Follows the shortest motion to a pose, obstacles ignored, and ends where it may lose the preferred
+            clearance or, if none is preferred, where it collides.
 
-            \param motions one after the other, from the root outwards; overwritten. None for a model that cannot go
-            where it is told to */
+            \param motions receives consecutive motions, from the root outwards; empty if the model cannot drive to a
+            pose */
         virtual void moveTowards(Side /*side*/, const Pose & /*from*/, const Pose & /*to*/,
                                  std::vector<Successor> &motions)
         {
             motions.clear();
         }
 
-        /** \brief Length of the shortest motion between two poses without regard to obstacles: a lower bound of the
-            cost of any path that the model can drive. */
+        /** \brief Length of the shortest motion between two poses, obstacles ignored: a lower bound of the cost of any
+            path of the model. */
         virtual double distance(const Pose &from, const Pose &to) const = 0;
 
-        /** \brief The curves by which parts of a path may be replaced; nullptr for a model whose paths stay as they
-            are. */
+        /** \brief Curves that may replace parts of a path; nullptr for a model whose paths are not improved. */
         virtual const ReedsShepp *curves() const
         {
             return nullptr;
         }
 
-        /** \brief Finds out beforehand what is free. \return false when \e stop said so; the next call goes on */
+        /** \brief Classifies cells before the search. \return false if \e stop ended it; the next call resumes */
         virtual bool load(const StopFunction & /*stop*/)
         {
             return true;
@@ -148,6 +146,6 @@ namespace parking::search
     /** \brief The motion models by name. */
     Registry<MotionModel> &motionModels();
 
-    /** \brief Do the paths of this motion model turn on the spot? Throws parking::Error for one that is not known. */
+    /** \brief Whether paths of this motion model turn on the spot. Throws parking::Error for an unknown model. */
     bool turnsOnTheSpot(const std::string &motionModel);
 }  // namespace parking::search

@@ -21,42 +21,41 @@
 
 namespace parking::search
 {
-    /** \brief Why Search::run() came back. */
+    /** \brief Why Search::run() returned. */
     enum class SearchOutcome
     {
-        Improved,   ///< a solution, or a cheaper one than before
-        Exhausted,  ///< nothing left to expand, or no hope: see exhaustion()
-        Stopped     ///< the stop function said so
+        Improved, ///< a first or a cheaper solution
+        Exhausted, ///< nothing left to expand, or proven infeasible: see exhaustion()
+        Stopped ///< the stop function returned true
     };
 
-    /** \brief Why there is nothing left to search. */
+    /** \brief Why a search is exhausted. */
     enum class Exhaustion
     {
-        None,         ///< there is
-        WalledIn,     ///< proven: not even a disc inside of the car finds a route round the obstacles
-        Enclosed,     ///< proven: not even moving sideways and turning on the spot would the car get out (Enclosure)
-        SearchedOut,  ///< one end has been left by every motion, down to the finest resolution
-        NoProgress    ///< a search for the place nearest to a goal has not come nearer for long
+        None, ///< it is not
+        WalledIn, ///< proven: a disc inscribed in the car has no route around the obstacles
+        Enclosed, ///< proven: a car that moves sideways and turns on the spot has no path (Enclosure)
+        SearchedOut, ///< every motion from one end has been tried, down to the finest resolution
+        NoProgress ///< a search for the pose nearest to a goal has stalled
     };
 
     /** \brief Bidirectional best-first search over a motion model.
 
-        Two frontiers, one rooted at the starts and one at the goals, grow by the model's motions. Every node keeps its
-        exact pose. What is discretised is only which nodes are kept: cells, on a ladder of resolutions. A node lives on
-        the coarsest level where its cell is not yet taken by a cheaper one. Expanding it there tries that level's
-        motions; then the node is queued again on the next finer level. The levels take turns, the coarse ones getting
-        most of them, so that open areas are crossed in a few long steps while a tight slot, where long steps end at
-        once, is searched finely (after W. Du, F. Islam and M. Likhachev, "Multi-resolution A*", 2020).
+        Two frontiers, one rooted at the starts and one at the goals, grow by the model's motions. Nodes keep their
+        exact poses; cells at several resolutions only decide which nodes are kept. A node belongs to the coarsest level
+        on which no cheaper node occupies its cell. Its expansion tries the motions of that level, then the node is
+        queued on the next finer level. Levels alternate, and coarse ones receive most expansions: they cross open
+        ground in long steps, while fine levels resolve tight slots (after W. Du, F. Islam and M. Likhachev,
+        "Multi-resolution A*", 2020).
 
-        The more confined frontier gets most of the turns, and is guided by the route of a disc round the obstacles:
-        nodes farthest along it drive on towards it without an expansion for each step, and crowded places are left for
-        later. When it comes no nearer, the routes of wider discs (detours) guide queues of their own, and a proof that
-        there is no path is sought beside the search. Frontiers are joined by the model: from each expanded node to the
-        other side's roots and to its best closed node (paper, section "Bidirectional Search"), or where they meet in a
-        cell.
+        The more confined frontier receives most expansions. The route of a disc around the obstacles guides it: the
+        node farthest along the route follows it without an expansion for each step, and dense regions are deferred. If
+        the frontier stalls, routes of wider discs (detours) guide additional queues, and the search also seeks a proof
+        that no path exists. The model joins the frontiers: each expanded node with the roots of the other side and its
+        best closed node (paper, section "Bidirectional Search"), or nodes in a common cell.
 
-        What is interchangeable is the motion model, the heuristic and the open list, each chosen by name. All costs
-        come from one CostModel. Equal inputs give equal outputs. Memory is kept between queries. */
+        Motion model, heuristic and open list are interchangeable and chosen by name. One CostModel defines all costs.
+        Equal inputs give equal outputs. Memory is kept between queries. */
     class Search
     {
     public:
@@ -64,12 +63,12 @@ namespace parking::search
         {
         }
 
-        /** \brief Forgets everything and begins a query. \e environment must outlive it.
+        /** \brief Begins a new query. \e environment must outlive it.
 
-            Throws parking::Error for a part that is not known. */
+            Throws parking::Error for an unknown motion model, heuristic or open list. */
         void begin(MotionEnvironment &environment, const PlannerParameters &parameters, const CarInSpace &car);
 
-        /** \brief Adds a root, which must be free. Once nodes have been expanded the search restarts with all roots; it
+        /** \brief Adds a start, which must be free. If nodes have been expanded, the search restarts with all roots and
             keeps its solution. */
         void addStart(const Pose &pose)
         {
@@ -82,36 +81,36 @@ namespace parking::search
             addRoot(Side::Goal, pose);
         }
 
-        /** \brief Instead of a goal: searches for the free pose nearest to \e target, by distance between the rear
-            axles. run() ends with Exhausted when it has not come nearer for a while; see nearestPath(). */
+        /** \brief Searches, instead of for a goal, for the free pose nearest to \e target by distance between the rear
+            axles. run() returns Exhausted when it stalls; see nearestPath(). */
         void setTarget(const Pose &target)
         {
             target_ = Target{target};
         }
 
-        /** \brief Searches until the solution improves, nothing is left, or \e stop says so.
+        /** \brief Searches until the solution improves, the search is exhausted, or \e stop returns true.
 
-            \param maxExpansions of the query: after that many none is begun */
+            \param maxExpansions upper limit of the expansions of the query */
         SearchOutcome run(const StopFunction &stop,
                           std::uint64_t maxExpansions = std::numeric_limits<std::uint64_t>::max());
 
-        /** \brief Bytes that nodes, cells, open lists, routes, proofs and the tables of the model take at most, growing
-            included. */
+        /** \brief Upper limit of the bytes of nodes, cells, open lists, routes, proofs and tables of the model,
+            including growth. */
         std::size_t memory() const;
 
-        /** \brief Limits memory(), which is max_memory_mb otherwise. */
+        /** \brief Limits memory(); the default is max_memory_mb. */
         void setMaxMemory(std::size_t bytes)
         {
             memory_.max = bytes;
         }
 
-        /** \brief Has it stopped since it would take more memory than it may? */
+        /** \brief Whether the search stopped because of its memory limit. */
         bool isFull() const
         {
             return memory_.isFull;
         }
 
-        /** \brief Why the last run() ended with Exhausted; None when it did not. */
+        /** \brief Why the last run() returned Exhausted; None if it did not. */
         Exhaustion exhaustion() const
         {
             return exhaustion_;
@@ -135,43 +134,44 @@ namespace parking::search
             return *model_;
         }
 
-        /** \brief What motions cost in this query. */
+        /** \brief Cost model of the query. */
         const CostModel &cost() const
         {
             return query_->cost;
         }
 
-        /** \brief Length of the shortest motion between any start and any goal, obstacles or not. */
+        /** \brief Length of the shortest motion between any start and any goal, obstacles ignored. */
         double shortestMotion() const;
 
         /** \brief Expected cost of a path: the least estimate of the roots of the more confined side, and at least
             shortestMotion(). */
         double expectedCost() const;
 
-        /** \brief From now on only solutions that cost less than \e cost are of interest. */
+        /** \brief Restricts the search to solutions that cost less than \e cost. */
         void setCostBound(double cost)
         {
             costBound_ = std::min(costBound_, cost);
         }
 
-        /** \brief Lowers the weights of the heuristic: paths are then found later, and cheaper. */
+        /** \brief Multiplies the heuristic weights by \e factor, down to 1: the search takes longer and finds cheaper
+        paths. */
         void lowerWeights(double factor);
 
-        /** \brief A cost that no path stays below, whatever it is made of: the least lower bound of the roots. */
+        /** \brief Lower bound of the cost of any path: the smallest lower bound of the roots. */
         double lowerBound();
 
         /** \brief The path from a start to the node whose rear axle is nearest to that of \e target.
 
-            \return false when there is no start */
+            \return false if there is no start */
         bool nearestPath(const Pose &target, Path &path) const;
 
-        /** \brief Has the start's side been searched to its end? */
+        /** \brief Whether the start's side is exhausted. */
         bool hasSeenAllFromStart() const
         {
             return isPrepared_ && frontier(Side::Start).isExhausted();
         }
 
-        /** \brief What has grown from that end. */
+        /** \brief The frontier of one side. */
         const Frontier &frontier(Side side) const
         {
             return frontiers_[static_cast<std::size_t>(side)];
@@ -193,7 +193,7 @@ namespace parking::search
             Path path;
         };
 
-        /** What guides one side: the heuristic, and the route round obstacles if it has been asked for one. */
+        /** Guide of one side: the heuristic, and the route around obstacles if it is enabled. */
         struct Guide
         {
             std::string name;  // of the heuristic
@@ -214,21 +214,21 @@ namespace parking::search
             double estimate(const Node &node, bool looksFurther);
         };
 
-        /** What has come nearest to a target, or to the other side, and when: in expansions. */
+        /** Smallest distance to a target or to the other side, and the expansion that reached it. */
         struct Progress
         {
             double nearest{std::numeric_limits<double>::infinity()};
             std::uint64_t since{0};
         };
 
-        /** Where to go instead of a goal. */
+        /** Replacement of a goal by the nearest reachable pose. */
         struct Target
         {
             Pose pose;
             double nearestOfDisc{0.0};  // metres from there to the nearest place that the inscribed disc reaches
         };
 
-        /** Whether memory() is within its limit, which takes too long to ask each time. */
+        /** Checks memory() against its limit now and then, because the check is slow. */
         struct MemoryWatch
         {
             std::size_t max{0};

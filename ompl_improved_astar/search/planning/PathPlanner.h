@@ -55,8 +55,8 @@ namespace parking::search
             axles.
 
             Spends what is left of the time on a search of its own, unless there is none left, or no memory, or
-            everything has been seen from the start: then what the frontiers have seen has to do. \return false when
-            there is no start */
+            everything has been seen from the start: then what the frontiers have seen has to do. \return false if there
+            is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         /** \brief Is there a path from a start to a goal? */
