@@ -15,31 +15,31 @@
 
 namespace parking::search
 {
-    /** \brief One side of a search: the tree that grows from its roots, the cells that it occupies, and its open nodes:
-       a queue, with a list for each level of resolution.
+    /** \brief One side of a search: the tree that grows from its roots, its cells, and its open nodes in a queue with
+       one list per level.
 
-        A side that is stuck gets further queues, which order the open nodes by other estimates and take turns with the
-        first one. Every open node is in the first queue, whatever the others hold. */
+        A side that is stuck receives further queues, which order open nodes by other estimates and alternate with the
+        first one. The first queue always contains all open nodes. */
     class Frontier
     {
     public:
-        /** \brief Empty, and not usable before begin(). */
+        /** \brief Creates an empty frontier; call begin() before use. */
         explicit Frontier(Side side) : side_(side)
         {
         }
         Frontier(const Frontier &) = delete;
         Frontier &operator=(const Frontier &) = delete;
 
-        /** \brief Forgets everything; memory is kept. */
+        /** \brief Removes everything; memory is kept. */
         void begin(const std::string &openList, std::size_t levels);
 
-        /** \brief The end of the problem that it grows from. */
+        /** \brief The end of the problem from which it grows. */
         Side side() const
         {
             return side_;
         }
 
-        /** \brief Adds a root that costs nothing and holds no cell; it is not yet open. */
+        /** \brief Adds a root without cost and cell; it is not yet open. */
         NodeIndex addRoot(const Pose &pose);
 
         /** \brief The roots in the order in which they were added. */
@@ -57,41 +57,42 @@ namespace parking::search
             return nodes_;
         }
 
-        /** \brief A node to be changed. The reference holds until a node is added. */
+        /** \brief A node, for changes. The reference is valid until a node is added. */
         Node &node(NodeIndex index)
         {
             return nodes_[index];
         }
 
-        /** \brief A node. The reference holds until a node is added. */
+        /** \brief A node. The reference is valid until a node is added. */
         const Node &node(NodeIndex index) const
         {
             return nodes_[index];
         }
 
-        /** \brief The node that holds a cell; NO_NODE when it is empty. */
+        /** \brief The node that occupies a cell; NO_NODE if it is empty. */
         NodeIndex holderOf(std::uint64_t cell, std::size_t level) const
         {
             return cells_.find(keyOf(cell, level));
         }
 
-        /** \brief Puts a node into a cell of its level, as a new one or in the place of \e index. */
+        /** \brief Stores a node in a cell of its level, as a new one or in place of \e index. */
         NodeIndex place(const Node &node, NodeIndex index, std::uint64_t cell);
 
-        /** \brief Adds a node that holds no cell. */
+        /** \brief Adds a node without a cell. */
         NodeIndex append(const Node &node)
         {
             nodes_.push_back(node);
             return static_cast<NodeIndex>(nodes_.size() - 1);
         }
 
-        /** \brief Puts a node into the list of that level of a queue; see OpenList::push(). */
+        /** \brief Adds a node to the list of a level of a queue; see OpenList::push(). */
         void push(std::size_t queue, std::size_t level, double f, double h, NodeIndex index)
         {
             queues_[queue].open[level]->push(f, h, index);
         }
 
-        /** \brief Takes the best entry out of such a list, which must not be empty. The entry may be stale. */
+        /** \brief Removes the best entry of the list of a level of a queue, which must not be empty. It may be stale.
+         */
         OpenList::Entry pop(std::size_t queue, std::size_t level)
         {
             return queues_[queue].open[level]->pop();
@@ -100,44 +101,44 @@ namespace parking::search
         /** \brief Sorts all lists of the first queue again; see OpenList::rekey(). */
         bool rekey(const std::function<bool(OpenList::Entry &)> &key, const StopFunction &stop);
 
-        /** \brief Is nothing open on any level? */
+        /** \brief Whether no level has an open node. */
         bool isExhausted() const
         {
             return queues_.front().isEmpty();
         }
 
-        /** \brief How many queues take turns. */
+        /** \brief Number of alternating queues. */
         std::size_t queues() const
         {
             return queueCount_;
         }
 
-        /** \brief From now on that many queues take turns; those that are new are empty. */
+        /** \brief Sets the number of alternating queues; new ones are empty. */
         void setQueues(std::size_t count);
 
-        /** \brief The queue whose turn it is among those that are not empty; something must be open. */
+        /** \brief The next queue among those that are not empty; a node must be open. */
         std::size_t chooseQueue();
 
-        /** \brief The level whose turn it is among those of a queue with open nodes. */
+        /** \brief The next level among those of a queue with open nodes. */
         std::size_t chooseLevel(std::size_t queue) const;
 
-        /** \brief Notes that the level had its turn; chooseLevel() goes by that. */
+        /** \brief Counts a turn of the level, for chooseLevel(). */
         void countTurn(std::size_t queue, std::size_t level)
         {
             ++queues_[queue].turns[level];
             ++turns_;
         }
 
-        /** \brief How often countTurn() has been called since begin(). */
+        /** \brief Number of calls of countTurn() since begin(). */
         std::uint64_t turns() const
         {
             return turns_;
         }
 
-        /** \brief What the lists of all queues have done since begin(). */
+        /** \brief Work of the lists of all queues since begin(). */
         OpenList::Work work() const;
 
-        /** \brief Bytes of nodes, cells and open entries at the most, while their arrays grow. */
+        /** \brief Upper limit of the bytes of nodes, cells and open entries, including growth. */
         std::size_t bytes() const;
 
         /** \brief Adds the pieces between a node and its root, as the car drives them on the goal's side. */
@@ -146,13 +147,13 @@ namespace parking::search
         /** \brief The path from the root to a node, as the car drives it on the start's side. */
         Path pathTo(NodeIndex index) const;
 
-        /** \brief The node whose position is nearest to that of \e target; NO_NODE when there is none. */
+        /** \brief The node whose position is nearest to that of \e target; NO_NODE without nodes. */
         NodeIndex nearestTo(const Pose &target) const;
 
-        NodeIndex bestClosed{NO_NODE};             ///< the closed node that the other side is joined with, or aims at
-        double bestClosedCost{0.0};                ///< by which it is the best
-        std::uint64_t expansionsWhenExhausted{0};  ///< of both sides, when this one ran out of open nodes
-        ExpansionDensity density;                  ///< of the nodes expanded until there was a solution
+        NodeIndex bestClosed{NO_NODE};  ///< the closed node to which the other side is joined, or at which it aims
+        double bestClosedCost{0.0};     ///< value that bestClosed minimises
+        std::uint64_t expansionsWhenExhausted{0};  ///< of both sides when this side ran out of open nodes
+        ExpansionDensity density;                  ///< of the nodes expanded before the first solution
 
     private:
         /** Open nodes in one order: a list for each level. */

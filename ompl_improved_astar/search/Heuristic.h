@@ -8,28 +8,24 @@
 
 namespace parking::search
 {
-    /** \brief An estimate of the cost from a pose to the nearest of some targets: an interchangeable part of the
-       search. One object for each side. */
+    /** \brief Estimate of the cost from a pose to the nearest target, interchangeable. Each side has its own object. */
     class Heuristic
     {
     public:
         virtual ~Heuristic() = default;
 
-        /** \brief Begins a query.
-
-            \param side of the poses that are asked about
-            \param targets of the other side; at least one, or nothing is asked */
+        /** \brief Begins a query. \param side side of the queried poses \param targets roots of the other side, at
+least one */
         virtual void begin(const SearchContext &context, Side side, const std::vector<Pose> &targets) = 0;
 
         /** \brief The estimate that guides the search, in metres. For a pose on the goal's side the car drives from the
             target to the pose. */
         virtual double estimate(const Pose &pose) = 0;
 
-        /** \brief A bound in metres that no path costs less than. */
+        /** \brief Lower bound of the cost of any path, in metres. */
         virtual double lowerBound(const Pose &pose) = 0;
 
-        /** \brief From now on estimates count to \e pose instead of to the targets (see ModelTraits::aims). Heuristics
-            that cannot be aimed again ignore it. */
+        /** \brief Replaces the targets by \e pose (see ModelTraits::aims). The default ignores the call. */
         virtual void aim(const Pose & /*pose*/)
         {
         }

@@ -12,19 +12,19 @@ namespace parking::search
         double nearDistance{5.0};  ///< metres, straight
         double tieBreak{1e-3};     ///< p
 
-        /** \brief w + p at so many metres from the target. */
+        /** \brief w + p at \e distance metres from the target. */
         double at(double distance) const
         {
             return (distance > nearDistance ? far : near) + tieBreak;
         }
 
-        /** \brief Is any weight above 1, so that it can be lowered? */
+        /** \brief Whether any weight exceeds 1 and can be lowered. */
         bool canBeLowered() const
         {
             return far > 1.0 || near > 1.0;
         }
 
-        /** \brief Both times \e factor, but weights above 1 no lower than 1, and others as they are. */
+        /** \brief Multiplies weights above 1 by \e factor, down to 1. */
         HeuristicWeights lowered(double factor) const
         {
             const auto lower = [factor](double weight)

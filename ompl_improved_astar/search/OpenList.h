@@ -11,11 +11,11 @@
 
 namespace parking::search
 {
-    /** \brief The open list: entries in the order of f, then h, then insertion, so that equal inputs give equal
-        searches. How the best one is found is what implementations differ in.
+    /** \brief The open list: entries in order of f, then h, then insertion, so that equal inputs give equal searches.
+        Implementations differ in how they find the best entry.
 
-        Entries are never changed in place: a node that becomes cheaper is pushed again, and the owner drops the stale
-        entry when it comes out (its f is above the node's). */
+        Entries are never changed in place: a node that becomes cheaper is pushed again, and the owner discards the
+        stale entry when it is popped (its f exceeds the node's). */
     class OpenList
     {
     public:
@@ -28,16 +28,16 @@ namespace parking::search
             NodeIndex node;          ///< the open node
         };
 
-        /** \brief What was done since clear(): the work that one kind of list has more of than another. */
+        /** \brief Work since clear(), to compare kinds of lists. */
         struct Work
         {
-            std::uint64_t operations{0};   ///< entries that were pushed, and entries that were popped
-            std::uint64_t comparisons{0};  ///< of two entries with each other
+            std::uint64_t operations{0};   ///< entries pushed and popped
+            std::uint64_t comparisons{0};  ///< between two entries
         };
 
         virtual ~OpenList() = default;
 
-        /** \brief Is there no entry, stale ones included? */
+        /** \brief Whether the list has no entry, not even a stale one. */
         bool empty() const
         {
             return entries_.empty();
@@ -49,7 +49,7 @@ namespace parking::search
             return entries_.size();
         }
 
-        /** \brief Forgets the entries; memory is kept. */
+        /** \brief Removes all entries; memory is kept. */
         void clear()
         {
             entries_.clear();
@@ -75,19 +75,19 @@ namespace parking::search
             return best;
         }
 
-        /** \brief Gives every entry a new f: \e key changes the entry, and returns false for one to be dropped.
+        /** \brief Gives every entry a new f: \e key changes the entry, or returns false to drop it.
 
-            \return false, and nothing has changed, if \e stop says so meanwhile */
+            \return false, and nothing has changed, if \e stop returned true */
         bool rekey(const std::function<bool(Entry &)> &key, const StopFunction &stop);
 
-        /** \brief What was done since clear(). */
+        /** \brief Work since clear(). */
         const Work &work() const
         {
             return work_;
         }
 
     protected:
-        /** \brief Does \e a come out after \e b? Counts how often that is asked. */
+        /** \brief Whether \e a is popped after \e b. Counts its calls. */
         bool isAfter(const Entry &a, const Entry &b)
         {
             ++work_.comparisons;
@@ -105,13 +105,13 @@ namespace parking::search
             };
         }
 
-        /** \brief Called when an entry has been put at the end. */
+        /** \brief Called after an entry was added at the end. */
         virtual void pushed() = 0;
 
-        /** \brief Called before the last entry is taken. */
+        /** \brief Called before the last entry is popped. */
         virtual void moveBestToEnd() = 0;
 
-        /** \brief Called when all entries may have changed. */
+        /** \brief Called after all entries may have changed. */
         virtual void rearrange() = 0;
 
         std::vector<Entry> entries_;  ///< in the order of the implementation

@@ -12,16 +12,16 @@
 
 namespace parking::search
 {
-    /** \brief The interchangeable parts of one kind, by the names under which parameters choose them.
+    /** \brief Registry of interchangeable parts of one kind, by the names that parameters use.
 
-        What the project brings stands in the registry's own file, a line each. Programs may add their own with add()
-        before they plan; adding and planning at the same time is not safe. */
+        The parts of the project are listed in the file of the registry. Programs may add their own with add() before
+        they plan; adding while planning is not safe. */
     template <class Part>
     class Registry
     {
     public:
-        using Factory = std::function<std::unique_ptr<Part>()>;  ///< makes a part
-        using Entry = std::pair<std::string, Factory>;           ///< a name and what makes the part
+        using Factory = std::function<std::unique_ptr<Part>()>;  ///< creates a part
+        using Entry = std::pair<std::string, Factory>;           ///< a name and its factory
 
         /** \brief \param what the kind of part in an error message, for example "motion_model" */
         Registry(std::string what, std::initializer_list<Entry> entries) : what_(std::move(what)), entries_(entries)
@@ -49,7 +49,7 @@ namespace parking::search
             return result;
         }
 
-        /** \brief A new part. Throws parking::Error listing the known names for one that is not known. */
+        /** \brief Creates a part. Throws parking::Error with the known names for an unknown one. */
         std::unique_ptr<Part> make(const std::string &name) const
         {
             for (const Entry &entry : entries_)
@@ -63,7 +63,7 @@ namespace parking::search
         std::vector<Entry> entries_;
     };
 
-    /** \brief Makes a \e Part with its defaults: what most entries of a registry do. */
+    /** \brief Creates a default-constructed \e Part, the factory of most entries. */
     template <class Part>
     std::unique_ptr<Part> newPart()
     {

@@ -9,27 +9,27 @@
 
 namespace parking::search
 {
-    /** \brief A query, as all parts of a search see it. The environment outlives it. */
+    /** \brief Data of a query, shared by all parts of a search. The environment must outlive it. */
     struct SearchContext
     {
         MotionEnvironment &environment;  ///< the world
-        PlannerParameters parameters;    ///< of the user
-        CarInSpace car;                  ///< what plans
-        CostModel cost;                  ///< what motions cost
+        PlannerParameters parameters;    ///< parameters of the planner
+        CarInSpace car;                  ///< car and space
+        CostModel cost;                  ///< cost of motions
     };
 
-    /** \brief What a search did. */
+    /** \brief Work of a search. */
     struct SearchStatistics
     {
         std::uint64_t expanded{0};             ///< nodes whose motions were tried
         std::uint64_t generated{0};            ///< motions tried
-        std::uint64_t connections{0};          ///< pairs of poses that were joined by curves, or tried to be
-        std::uint64_t heuristicCells{0};       ///< cells settled by the route round the obstacles
-        std::uint64_t openListOperations{0};   ///< entries pushed to, and popped from, the open lists
-        std::uint64_t openListComparisons{0};  ///< of their entries with each other, for that
-        double loadingTime{0.0};               ///< seconds spent on finding out beforehand what is free
+        std::uint64_t connections{0};          ///< pairs of poses between which curves were sought
+        std::uint64_t heuristicCells{0};       ///< cells settled by routes around obstacles
+        std::uint64_t openListOperations{0};   ///< entries pushed to and popped from open lists
+        std::uint64_t openListComparisons{0};  ///< comparisons between entries of open lists
+        double loadingTime{0.0};               ///< seconds spent classifying cells before the search
 
-        /** \brief Adds what another search did. */
+        /** \brief Adds the work of another search. */
         SearchStatistics &operator+=(const SearchStatistics &other)
         {
             expanded += other.expanded;

@@ -4,6 +4,6 @@
 
 namespace parking::search
 {
-    /** \brief Polled now and then; true stops the search. Empty: never. */
+    /** \brief Polled during a search; true stops it. May be empty. */
     using StopFunction = std::function<bool()>;
 }  // namespace parking::search

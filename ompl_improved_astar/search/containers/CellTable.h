@@ -12,21 +12,21 @@ namespace parking::search
     class CellTable
     {
     public:
-        static constexpr std::uint32_t NONE = 0xffffffffu;  ///< what find() gives for an empty cell
+        static constexpr std::uint32_t NONE = 0xffffffffu;  ///< result of find() for an empty cell
 
-        /** \brief Empty, with room for half as many cells as there are \e slots, a power of two, before it grows. */
+        /** \brief Creates an empty table that grows above \e slots / 2 cells; \e slots is a power of two. */
         explicit CellTable(std::size_t slots = std::size_t{1} << 12) : slots_(slots)
         {
         }
 
-        /** \brief Forgets all cells. */
+        /** \brief Removes all cells. */
         void clear()
         {
             ++generation_;
             size_ = 0;
         }
 
-        /** \brief The number that the cell holds; NONE when it is empty. */
+        /** \brief The number stored for a cell; NONE if it is empty. */
         std::uint32_t find(std::uint64_t key) const
         {
             for (std::size_t i = place(key);; i = (i + 1) & (slots_.size() - 1))
@@ -38,8 +38,8 @@ namespace parking::search
             }
         }
 
-        /** \brief The most bytes that its cells take up to its next growth, old and new slots together; slots that an
-            earlier, larger query has left do not count. */
+        /** \brief Upper limit of the bytes of its cells, including growth; slots of an earlier, larger query do not
+            count. */
         std::size_t bytes() const
         {
             return 6 * size_ * sizeof(Slot);

@@ -9,12 +9,11 @@
 
 namespace parking::search
 {
-    /** \brief Counts how often a search has expanded nodes in a place with about the same heading: in squares of a
-       grid, and eight sectors of the circle. */
+    /** \brief Counts expansions per region: squares of a grid and eight sectors of heading. */
     class ExpansionDensity
     {
     public:
-        /** \brief Forgets all counts; memory is kept. \param side of a square in metres */
+        /** \brief Removes all counts; memory is kept. \param side side of a square in metres */
         void begin(double side)
         {
             counts_.clear();
@@ -27,14 +26,14 @@ namespace parking::search
             counts_.set(keyOf(pose), at(pose) + 1);
         }
 
-        /** \brief Expansions counted in the place and the sector of \e pose. */
+        /** \brief Number of expansions in the region of \e pose. */
         std::uint32_t at(const Pose &pose) const
         {
             const std::uint32_t count = counts_.find(keyOf(pose));
             return count == CellTable::NONE ? 0 : count;
         }
 
-        /** \brief The most bytes that the counts take up to their table's next growth. */
+        /** \brief Upper limit of the bytes of the counts, including growth. */
         std::size_t bytes() const
         {
             return counts_.bytes();

@@ -8,7 +8,7 @@
 
 namespace parking::search
 {
-    /** \brief A priority queue for whole priorities that do not fall below the one popped last, as those of A* with a
+    /** \brief A priority queue for integer priorities that do not fall below the last one popped, as in A* with a
         consistent heuristic.
 
         A radix heap (R. K. Ahuja et al., "Faster algorithms for the shortest path problem", 1990): an item's bucket is
@@ -18,7 +18,7 @@ namespace parking::search
     class MonotoneQueue
     {
     public:
-        /** \brief Is the queue empty? */
+        /** \brief Whether the queue is empty. */
         bool empty() const
         {
             return size_ == 0;

@@ -4,14 +4,13 @@
 
 namespace parking::search
 {
-    /** \brief What a search has found out of a cell so far. Cells begin as unknown: nobody has asked yet.
+    /** \brief Classification of a cell by a search. Cells begin as unknown, that is, not yet checked.
 
-        The cells of a map (parking::Cell) have values of their own: there, unknown is what the map says, and asking
-        again does not change it. */
+        The cells of a map (parking::Cell) have other values: there, unknown is information of the map. */
     enum class Occupancy : std::uint8_t
     {
-        Unknown,  ///< not asked yet
+        Unknown,  ///< not yet checked
         Free,     ///< the car can be there
-        Blocked   ///< it cannot
+        Blocked   ///< the car cannot be there
     };
 }  // namespace parking::search

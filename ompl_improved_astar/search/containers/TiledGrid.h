@@ -8,9 +8,9 @@
 
 namespace parking::search
 {
-    /** \brief A grid of cells of type T, of no fixed origin, whose memory grows with the area that is touched.
+    /** \brief A grid of cells of type T whose memory grows with the area that is accessed.
 
-        Cells live in square tiles, made when one of their cells is first accessed. clear() keeps the tiles for reuse.
+        Cells are stored in square tiles that are created on first access. clear() keeps the tiles for reuse.
         Columns and rows reach from -REACH to REACH - 1. */
     template <class T>
     class TiledGrid
@@ -24,14 +24,14 @@ namespace parking::search
         {
         }
 
-        /** \brief Does the cell lie within reach? False for numbers that are not finite. */
+        /** \brief Whether the cell lies within reach. False for numbers that are not finite. */
         template <class Number>
         static bool contains(Number column, Number row)
         {
             return column >= -REACH && row >= -REACH && column < REACH && row < REACH;
         }
 
-        /** \brief The cell, which starts as T(). Must be contained. The reference holds until clear(). */
+        /** \brief The cell, initially T(). Must be contained. The reference is valid until clear(). */
         T &at(std::int32_t column, std::int32_t row)
         {
             std::uint32_t &entry = directory_[tileOf(column, row)];
@@ -40,7 +40,7 @@ namespace parking::search
             return (*tiles_[entry - 1])[placeInTile(column, row)];
         }
 
-        /** \brief The cell, if its tile has been touched; must be contained. */
+        /** \brief The cell, or nullptr if its tile was never accessed. Must be contained. */
         const T *find(std::int32_t column, std::int32_t row) const
         {
             const std::uint32_t entry = directory_[tileOf(column, row)];
@@ -64,7 +64,7 @@ namespace parking::search
             return touched_.size() * sizeof(Tile);
         }
 
-        /** \brief Forgets the values of all cells; memory is kept. */
+        /** \brief Resets all cells; memory is kept. */
         void clear()
         {
             for (const std::uint32_t place : touched_)

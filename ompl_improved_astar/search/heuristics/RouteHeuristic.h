@@ -17,12 +17,12 @@
 
 namespace parking::search
 {
-    /** \brief A disc that stands for the car. */
+    /** \brief A disc that approximates the car. */
     struct Disc
     {
-        double radius{0.0};      ///< metres: places where the disc does not fit are blocked
-        double wideRadius{0.0};  ///< metres: places where a disc of this radius does not fit are costly; 0: none
-        double costFactor{1.0};  ///< a metre at costly places counts as that many, at least 1
+        double radius{0.0};      ///< metres: cells where the disc does not fit are blocked
+        double wideRadius{0.0};  ///< metres: cells where a disc of this radius does not fit are costly; 0: none
+        double costFactor{1.0};  ///< factor on lengths in costly cells, at least 1
     };
 
     /** \brief Side in metres of the cells of a RouteHeuristic between these poses.
@@ -31,55 +31,55 @@ namespace parking::search
     double routeResolution(double turningRadius, double bodyRadius, const std::vector<Pose> &roots,
                            const std::vector<Pose> &targets);
 
-    /** \brief The length of a disc's shortest route round the obstacles to the nearest of some targets.
+    /** \brief Length of a disc's shortest route around the obstacles to the nearest target.
 
-        A resumable A* from the targets (D. Silver, "Cooperative pathfinding", 2005): a question resumes the search
-        until the cell of the place is settled, so that the cost grows with the area queried, not with the map.
+        A resumable A* from the targets (D. Silver, "Cooperative pathfinding", 2005): each query resumes the search
+        until its cell is settled, so the work grows with the area queried, not with the map.
 
-        Routes lead through the cells of a grid, each with eight neighbours. A cell is passable unless the disc surely
-        hits an obstacle, or its centre leaves the bounds, at every place of the cell. A straight step counts as 12
+        Routes lead through the cells of a grid, each with eight neighbours. A cell is blocked only if the disc provably
+        hits an obstacle or leaves the bounds for every centre in the cell. A straight step counts as 12
         parts of a side, a diagonal one as 17, which is 0.2 % too long. */
     class RouteHeuristic
     {
     public:
-        /** \brief Restarts without targets; memory is kept. \e environment and \e stop must outlive the questions.
+        /** \brief Restarts without targets; memory is kept. \e environment and \e stop must outlive all queries.
 
             \param resolution side of a cell in metres
-            \param toward centre of the grid and first aim of the search: most questions should be near it
-            \param stop polled during long questions; may be empty
+            \param toward centre of the grid and first aim of the search, near most queries
+            \param stop polled during long queries; may be empty
             \param maxCells limit of the cells settled */
         void begin(MotionEnvironment &environment, double resolution, const Disc &disc, const Eigen::Vector2d &toward,
                    const StopFunction &stop, std::uint64_t maxCells);
 
-        /** \brief Adds a target; only before the first question. */
+        /** \brief Adds a target; only before the first query. */
         void addTarget(double x, double y);
 
         /** \brief Classifies the cells of a box in advance, until the stop function returns true. */
         void load(const Box &box);
 
-        /** \brief Metres from (x, y) to the nearest target. Infinite when there is no route, or when the stop function
-            returned true. 0 when the limit of cells or the reach of the grid leaves the distance unknown. */
+        /** \brief Metres from (x, y) to the nearest target. Infinite without a route, or if the stop function returned
+            true. 0 if the limit of cells or the reach of the grid leaves the distance unknown. */
         double distance(double x, double y);
 
-        /** \brief distance(), if it needs no further search. */
+        /** \brief distance(), if it requires no further search. */
         std::optional<double> knownDistance(double x, double y) const;
 
-        /** \brief distance() less a cell, for what the grid adds to it; 0 when it is infinite. */
+        /** \brief distance() minus the side of a cell, which compensates for the grid; 0 if infinite. */
         double estimate(const Pose &pose);
 
-        /** \brief Never more than the length of any route of the disc's centre to a target, along the grid or not;
-            infinite when there is none. */
+        /** \brief Lower bound of the length of any route of the disc's centre to a target, on the grid or not; infinite
+            without one. */
         double lowerBound(const Pose &pose);
 
-        /** \brief Is there certainly no route? False when the stop function ended the search. */
+        /** \brief Whether provably no route exists. False if the stop function ended the search. */
         bool provesUnreachable(const Pose &pose);
 
-        /** \brief The centre of the cell nearest to \e goal among those with a route; \e goal when there is none.
-            Settles all cells with a route, unless \e goal lies in one of them. */
+        /** \brief Centre of the cell nearest to \e goal among those with a route; \e goal if there is none. Settles all
+            cells with a route, unless \e goal lies in one of them. */
         Eigen::Vector2d nearestReachable(const Eigen::Vector2d &goal);
 
-        /** \brief The place \e ahead metres along a shortest route from (x, y), with the heading of the route from
-            \e around metres before it to \e around metres behind it; none where the route is shorter or unknown. */
+        /** \brief The position \e ahead metres along a shortest route from (x, y), with the heading of the route
+            between \e around metres before and behind it; std::nullopt if the route is shorter or unknown. */
         std::optional<Pose> placeOnRoute(double x, double y, double ahead, double around);
 
         /** \brief Number of cells settled. */

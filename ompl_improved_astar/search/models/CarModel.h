@@ -9,14 +9,13 @@
 
 namespace parking::search
 {
-    /** \brief A car: arcs at the turning radius and straight lines, forwards and in reverse, each as far as it is free.
+    /** \brief Motion model of a car: arcs at the turning radius and straight lines, forwards and in reverse.
 
-        Poses are exact; what is discretised is which of them are kept: cells of position and heading at a ladder of
-        resolutions that halve from level to level. On each level a node is left by that level's step, and when it is
-        expanded for the first time also by motions up to just short of the first contact: in a slot that is what a
-        driver does, as far back as it goes, then full lock the other way.
+        Poses are exact; cells of position and heading only decide which are kept. Cells and steps halve from level to
+        level. The first expansion of a node also tries motions up to just short of contact: the driver's manoeuvre in a
+        slot, back to the limit, then full lock the other way.
 
-        Nodes are joined by Reeds-Shepp (or Dubins) curves, every word in the order of its cost until one is free. */
+        Reeds-Shepp (or Dubins) curves join nodes; all words are tried in order of cost until one is free. */
     class CarModel final : public MotionModel
     {
     public:
@@ -51,10 +50,11 @@ namespace parking::search
             return 3 * (reaches_[0].size() + reaches_[1].size()) * sizeof(Reach);
         }
 
-        static constexpr std::size_t LEVELS = 7;  ///< of resolution, each with half the step of the one before
+        static constexpr std::size_t LEVELS =
+            7;  ///< number of resolutions, each with half the step of the previous one
 
     private:
-        /** Metres of a motion that are free, and at its beginning keep the preferred clearance, rounded down. */
+        /** Free metres of a motion, and metres at its beginning that keep the preferred clearance, rounded down. */
         struct Reach
         {
             float free, clear;

@@ -12,45 +12,45 @@
 
 namespace parking::search
 {
-    /** \brief A lower bound of the length of any curve between two poses, in metres, that costs no time: the car drives
-        that far, and turns that much at full lock. */
+    /** \brief Quick lower bound of the length of any curve between two poses in metres, from the distance and from the
+        turn at full lock. */
     inline double minCurveLength(const Pose &from, const Pose &to, double turningRadius)
     {
         return std::max(positionDistance(from, to), std::abs(wrapAngle(from.yaw - to.yaw)) * turningRadius);
     }
 
-    /** \brief Receives a free curve and what it costs, proximity and joins included. Returns whether it is taken. */
+    /** \brief Receives a free curve and its cost, including proximity and joins. Returns whether it is accepted. */
     using CurveOffer = std::function<bool(const ReedsSheppCurve &curve, double cost)>;
 
     /** \brief Finds the cheapest free curves of bounded curvature between two poses.
 
-        Most curves that are tried collide, and most of these where a piece ends, above all at their cusps: the car is
-        put there, and in the middle of long pieces, before anything is swept. */
+        Most curves collide, usually where a piece ends, above all at cusps. The footprint is therefore checked there
+        and in the middle of long pieces before any sweep. */
     class FreeCurves
     {
     public:
-        /** \brief Which end of a gap is the one near which a collision is more likely: pieces are swept from there. */
+        /** \brief End of a gap near which a collision is more likely; pieces are swept from there. */
         enum class SweepEnd
         {
             Start,  ///< the pose at which the curve begins
             Goal    ///< the pose at which the curve ends
         };
 
-        static constexpr std::size_t MAX_CURVES = 64;  ///< more than there are between two poses
+        static constexpr std::size_t MAX_CURVES = 64;  ///< exceeds the number of curves between two poses
 
-        /** \brief Two poses, both free, between which a curve is wanted. */
+        /** \brief Two free poses to be connected by a curve. */
         struct Gap
         {
             Pose from;                          ///< where the curve begins
             Pose to;                            ///< where it ends
-            const PathPiece *before;            ///< what is driven before it, null for nothing
-            const PathPiece *after;             ///< what is driven after it, null for nothing
-            double maxCost;                     ///< of the curve with its joins: what costs as much is not wanted
-            SweepEnd end{SweepEnd::Start};      ///< from which pieces are swept
-            std::size_t maxCurves{MAX_CURVES};  ///< that are tried, the cheapest ones
+            const PathPiece *before;            ///< piece before it, or nullptr
+            const PathPiece *after;             ///< piece after it, or nullptr
+            double maxCost;                     ///< upper limit of the cost of the curve with its joins
+            SweepEnd end{SweepEnd::Start};      ///< end from which pieces are swept
+            std::size_t maxCurves{MAX_CURVES};  ///< number of cheapest curves tried
         };
 
-        /** \brief \e environment and \e curves must outlive it. */
+        /** \brief Creates the object. \e environment and \e curves must outlive it. */
         FreeCurves(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost)
           : environment_(environment),
             curves_(curves),
@@ -58,9 +58,8 @@ namespace parking::search
         {
         }
 
-        /** \brief Offers the free curves that fill a gap, the cheapest first, until one is taken.
-
-            \return whether one was taken */
+        /** \brief Offers free curves across a gap, the cheapest first, until one is accepted. \return whether one was
+accepted */
         bool connect(const Gap &gap, const CurveOffer &offer);
 
     private:

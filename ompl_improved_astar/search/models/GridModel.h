@@ -21,11 +21,10 @@ namespace parking::search
 
     /** \brief The paper's moves on a grid of positions ("Summary of Optimizations for Improved A* Algorithm").
 
-        The car moves from cell centre to cell centre, heading where it goes and turning on the spot in between. Whether
-        a cell is free is a matrix of three values, unknown, free and blocked, filled when first asked for, or
-        beforehand. Motions between cells are checked along their whole length, so that a long step does not jump over a
-        small obstacle. The cells of starts and goals hold their exact poses. Sides meet where their nodes share a
-        cell. */
+        The car moves from cell centre to cell centre with the heading of the step, and turns on the spot in between. A
+        matrix stores whether each cell is unknown, free or blocked; it is filled on demand or before the search.
+        Motions between cells are checked along their whole length. The cells of starts and goals hold their exact
+        poses. The sides meet where their nodes share a cell. */
     class GridModel final : public MotionModel
     {
     public:
@@ -60,7 +59,7 @@ namespace parking::search
 
         struct Cell
         {
-            Occupancy occupancy{Occupancy::Unknown};       // whatever the heading
+            Occupancy occupancy{Occupancy::Unknown};       // for any heading
             std::array<Occupancy, MAX_STEPS> byHeading{};  // by the step that arrives with it
         };
 

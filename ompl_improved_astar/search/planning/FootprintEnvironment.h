@@ -6,16 +6,16 @@
 
 namespace parking
 {
-    /** \brief The world of the search when the validity checker is this project's own: motions are swept exactly.
+    /** \brief Motion environment on top of a FootprintChecker: motions are swept exactly.
 
-        Nothing of OMPL is in the way of the search here: no states, no interpolation. */
+        The search then uses neither states nor interpolation of OMPL. */
     class FootprintEnvironment final : public search::MotionEnvironment
     {
     public:
         /** \brief \param checker must outlive the environment
             \param bounds of the rear axle's position, in addition to the checker's world
             \param tolerance metres kept from obstacles along motions
-            \param judge has the last word on whole paths; may be nullptr */
+            \param judge final check of whole paths; may be nullptr */
         FootprintEnvironment(const FootprintChecker &checker, const Box &bounds, double tolerance,
                              search::MotionEnvironment *judge = nullptr);
 
@@ -37,7 +37,7 @@ namespace parking
             return judge_ != nullptr && judge_->wasInterrupted();
         }
 
-        /** \brief Which tier decided how many poses. */
+        /** \brief Number of poses decided by each tier. */
         const CheckCounts &counts() const
         {
             return counts_;

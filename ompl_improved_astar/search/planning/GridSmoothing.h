@@ -8,11 +8,10 @@ namespace parking::search
 {
     /** \brief The paper's B-spline through a path of a grid model, with the same first and last pose.
 
-        The spline is checked pose by pose, and then motion by motion. Where it collides or turns more sharply than at
-        \e turningRadius it follows the corners of the path.
+        The spline is checked pose by pose, then motion by motion. If it collides or turns more sharply than \e
+        turningRadius, it follows the corners of the path there.
 
-        \return whether \e path was replaced; not when it has no corner, nor when \e stop said so or a motion
-        collides */
+        \return whether \e path was replaced; false if it has no corner, \e stop returned true, or a motion collides */
     bool smoothGridPath(Path &path, MotionEnvironment &environment, double turningRadius, const StopFunction &stop);
 
     /** \brief Metres between states of a smoothed grid path that are joined by straight motions. */

@@ -124,12 +124,12 @@ namespace parking
     {
         static const std::vector<Parameter> table{
             {"parameter_set", &P::parameterSet, oneOf(parameterSetNames), "",
-             "sets the others but for `turning_radius`, `xy_resolution` and `heading_bins`; the `experiment_` sets are "
+             "sets all others except `turning_radius`, `xy_resolution` and `heading_bins`; the `experiment_` sets are "
              "the paper's ablation, `hybrid_astar` is the car model without this project's additions"},
             {"motion_model", &P::motionModel, oneOf([] { return search::motionModels().names(); }), "",
              "`car`: drivable motions; the `grid` models: the paper's moves between grid cells, for a plain SE2 space"},
             {"turning_radius", &P::turningRadius, between(0.01, 1000.0, 0.1), "m",
-             "on a plain SE2 space only, others bring their own"},
+             "on a plain SE2 space only; curve spaces define their own"},
             {"xy_resolution", &P::xyResolution, zeroOrBetween(0.001, 100.0, 0.05), "m",
              "side of a cell: of the grid, or (car model) of the cells at steps of a metre; 0 chooses 0.5 m on grids "
              "and a tenth of the turning radius for the car"},
@@ -137,48 +137,48 @@ namespace parking
              "cells of heading round the circle, at steps of a metre (car model)"},
             {"steering_angles", &P::steeringAngles, between(3.0, 21.0, 2.0), "", "of the car model, straight included"},
             {"bidirectional", &P::bidirectional, YES_OR_NO, "", "search from the start and from the goal"},
-            {"search_from", &P::searchFrom, oneOf(sides), "", "the side of a search that is not bidirectional"},
+            {"search_from", &P::searchFrom, oneOf(sides), "", "side of a search that is not bidirectional"},
             {"open_list", &P::openList, oneOf([] { return search::openLists().names(); }), "",
-             "how the best node is found; `linear` is that of the plain A* of the paper's comparison"},
+             "data structure of the open nodes; `linear` is that of the paper's basic A*"},
             {"heuristic_weight_far", &P::heuristicWeightFar, between(0.0, 10.0, 0.1), "",
              "w of f = g + (w + p) h, farther from the target than `near_goal_distance`"},
             {"heuristic_weight_near", &P::heuristicWeightNear, between(0.0, 10.0, 0.1), "", "w nearer to the target"},
             {"near_goal_distance", &P::nearGoalDistance, between(0.0, 1000.0, 1.0), "m", "where w changes"},
             {"tie_break", &P::tieBreak, between(0.0, 1.0, 0.001), "", "p of f = g + (w + p) h"},
             {"heuristic", &P::heuristic, oneOf(heuristicNames), "",
-             "what is thought to lie ahead: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to "
+             "estimate of the remaining cost: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to
+             "
              "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, YES_OR_NO, "",
-             "guide the search round obstacles (car model)"},
+             "guide the search around obstacles (car model)"},
             {"detours", &P::detours, YES_OR_NO, "",
-             "while no path is known, drive ahead along the route round obstacles and spread out the search; when "
-             "stuck, try routes through wider gaps and look for a proof that there is none (car model)"},
+             "until the first solution, look ahead along the route and spread out the search; when stuck, try routes "
+             "through wider gaps and seek a proof that no path exists (car model)"},
             {"obstacle_loading", &P::obstacleLoading, oneOf(obstacleLoadings), "",
-             "when to find out which cells are free: as the search asks, or all of them beforehand"},
+             "when cells are classified: `lazy` on demand, or `eager` before the search"},
             {"adaptive_resolution", &P::adaptiveResolution, YES_OR_NO, "",
-             "search finely where coarse steps do not get through (car model)"},
+             "search finely where coarse steps fail (car model)"},
             {"analytic_expansion", &P::analyticExpansion, YES_OR_NO, "",
-             "join the two frontiers by Reeds-Shepp or Dubins curves (car model); without it nothing ends exactly at "
-             "the goal"},
+             "join the frontiers by Reeds-Shepp or Dubins curves (car model); required to end exactly at the goal"},
             {"reverse_penalty", &P::reversePenalty, between(0.0, 100.0, 0.1), "", "extra cost per metre in reverse"},
             {"gear_change_penalty", &P::gearChangePenalty, between(0.0, 100.0, 0.1), "m",
              "cost of a change of direction"},
             {"steering_change_penalty", &P::steeringChangePenalty, between(0.0, 100.0, 0.1), "m",
              "cost of turning the wheels from straight to full lock"},
             {"preferred_clearance", &P::preferredClearance, between(0.0, 10.0, 0.01), "m",
-             "the path keeps so far from obstacles where that is cheap; 0: it may graze them (car model, with a "
-             "checker that knows clearances)"},
+             "clearance kept where that is cheap; 0: the path may graze obstacles (car model, with a checker that "
+             "provides clearances)"},
             {"clearance_cost", &P::clearanceCost, between(0.0, 100.0, 0.5), "m",
-             "what a metre driven nearer than `preferred_clearance` is worth, in metres of detour"},
+             "extra cost per metre driven closer than `preferred_clearance`"},
             {"smoothing", &P::smoothing, oneOf(smoothings), "", "B-spline through the path (grid models)"},
             {"shortening", &P::shortening, YES_OR_NO, "",
-             "replace parts of the solution by cheaper curves, move its cusps, and drive parts of it the other way "
-             "round (car model)"},
+             "replace parts of the solution by cheaper curves, move its cusps, and drive parts of it in the other "
+             "direction (car model)"},
             {"approximate", &P::approximate, YES_OR_NO, "",
-             "end as near to the goal as possible when it cannot be reached"},
-            {"anytime", &P::anytime, YES_OR_NO, "", "after the first solution go on improving until terminated"},
+             "if the goal cannot be reached, return a path that ends as near to it as possible"},
+            {"anytime", &P::anytime, YES_OR_NO, "", "improve the solution until terminated"},
             {"max_memory_mb", &P::maxMemoryMb, between(16.0, 1048576.0, 1.0), "MB",
-             "of the search: with more it ends as when the time is up, and says so"}};
+             "memory limit of the search; above it planning ends as at a time limit, with this reason"}};
         return table;
     }
 

@@ -14,7 +14,7 @@ namespace parking
         parameterTable() documents each and limits its values: a new parameter is a member here and a row there. */
     struct PlannerParameters
     {
-        std::string parameterSet{"default"};  ///< a name only: parameterSet() makes the values that belong to it
+        std::string parameterSet{"default"};  ///< only a name: parameterSet() returns its values
         std::string motionModel{"car"};       ///< motion_model: name of a search::MotionModel
         std::string heuristic{"default"};     ///< heuristic: name of a search::Heuristic, or `default`
         double turningRadius{3.0};            ///< turning_radius: metres, on a plain SE2 space only
@@ -51,10 +51,10 @@ namespace parking
         }
     };
 
-    /** \brief Are all parameters equal? */
+    /** \brief Whether all parameters are equal. */
     bool operator==(const PlannerParameters &a, const PlannerParameters &b);
 
-    /** \brief Does any parameter differ? */
+    /** \brief Whether any parameter differs. */
     inline bool operator!=(const PlannerParameters &a, const PlannerParameters &b)
     {
         return !(a == b);
@@ -65,53 +65,53 @@ namespace parking
     {
         double min{0.0};         ///< smallest number
         double max{0.0};         ///< largest number
-        double step{0.0};        ///< between whole numbers; for others what suits a slider
+        double step{0.0};        ///< between values: fixed for integers, a suggestion for sliders otherwise
         bool allowsZero{false};  ///< whether zero is allowed even below the smallest number
         /** Lists the values of a text; nullptr for a number or a switch. */
         std::vector<std::string> (*names)(){nullptr};
     };
 
-    /** \brief One row of the table: all that there is to know of a parameter. */
+    /** \brief One row of the parameter table. */
     struct Parameter
     {
-        /** \brief A member of PlannerParameters of one of the kinds that parameters have. */
+        /** \brief A member of PlannerParameters. */
         using Member = std::variant<bool PlannerParameters::*, unsigned int PlannerParameters::*,
                                     double PlannerParameters::*, std::string PlannerParameters::*>;
 
         std::string name;        ///< in ParamSet, in `.cfg` files and for `--set`
-        Member member;           ///< where its value is
+        Member member;           ///< member with its value
         ParameterValues values;  ///< none for a switch
         std::string unit;        ///< of a number; empty for none
         std::string meaning;     ///< one line of Markdown, for docs/parameters.md
 
-        /** \brief What is right, for error messages and tables: "between 0 and 10", "car, grid8, grid16". */
+        /** \brief Valid values for messages and tables: "between 0 and 10", "car, grid8, grid16". */
         std::string allowed() const;
 
-        /** \brief Throws parking::Error, naming the parameter, its value and what is right, when the value that it has
-            in \e parameters is not allowed. */
+        /** \brief Throws parking::Error with parameter, value and valid values if its value in \e parameters is
+            invalid. */
         void check(const PlannerParameters &parameters) const;
 
-        /** \brief Gives it, in \e parameters, the value that is written in \e text: true or false, a number, a name.
+        /** \brief Sets it in \e parameters to the value in \e text: true or false, a number, or a name.
 
-            Throws parking::Error as check() does when the text means none, or one that is not allowed; \e parameters
-            are then as before. `parameter_set` gets its name only, see parameterSet(). */
+            Throws parking::Error as check() does for an invalid text or value and then leaves \e parameters unchanged.
+            For `parameter_set` only the name is set, see parameterSet(). */
         void setText(PlannerParameters &parameters, const std::string &text) const;
 
-        /** \brief Gives a number its value, unchecked but for what its type cannot hold: throws parking::Error for a
-            count that is not whole, as check() does. Not for switches and names. */
+        /** \brief Sets a number without checking its range. Throws parking::Error for a count that is not an integer.
+            Not for switches and names. */
         void setNumber(PlannerParameters &parameters, double value) const;
     };
 
     /** \brief Every parameter, in the order in which docs/parameters.md lists them. */
     const std::vector<Parameter> &parameterTable();
 
-    /** \brief The row of this name. Otherwise throws parking::Error with the nearest one, or as checkNotRemoved(). */
+    /** \brief The row of this name. Throws parking::Error with the nearest name, or as checkNotRemoved(). */
     const Parameter &parameterNamed(std::string_view name);
 
-    /** \brief Throws parking::Error with what to use instead if \e name is that of a removed parameter. */
+    /** \brief Throws parking::Error with the replacement if \e name is a removed parameter. */
     void checkNotRemoved(std::string_view name);
 
-    /** \brief Throws parking::Error for the first parameter whose value is not allowed, see Parameter::check(). */
+    /** \brief Throws parking::Error for the first invalid parameter, see Parameter::check(). */
     void checkParameters(const PlannerParameters &parameters);
 
     /** \brief Names of the parameter sets: `default`, the paper's `basic_astar`, `experiment_1` to `experiment_6` and
@@ -121,6 +121,6 @@ namespace parking
 
     /** \brief The parameters of a named set; turning radius, resolution and headings are kept from \e current.
 
-        Throws parking::Error listing the known names otherwise. */
+        Throws parking::Error with the known names for an unknown one. */
     PlannerParameters parameterSet(const std::string &name, const PlannerParameters &current);
 }  // namespace parking

@@ -16,32 +16,32 @@ namespace parking::search
 {
     /** \brief Makes a drivable path cheaper by replacing parts of it with curves of bounded curvature.
 
-        A pass cuts the path at knots: the ends of its pieces, and some between them. At each knot the car may be as on
-        the path (lane 0) or, in other lanes, moved by a step, or turned round on the same ground. The cheapest path
-        through these states is found by dynamic programming, knot by knot: to each lead the path's own piece and curves
-        from states before it. Bounds are compared first, then the cost of a curve, and only at last whether it is free
-        (after B. Cohen, M. Phillips and M. Likhachev, "Planning single-arm manipulations with n-arm robots", 2014).
+        A pass cuts the path at knots: the ends of its pieces, and some poses between them. Each knot offers the pose of
+        the path (lane 0) and, in other lanes, poses moved by a step or turned round in place. Dynamic programming finds
+        the cheapest path through these states, knot by knot: the path's own piece and curves from earlier states lead
+        to each. Bounds are compared first, then costs, and collisions are checked last (after B. Cohen, M. Phillips and
+        M. Likhachev, "Planning single-arm manipulations with n-arm robots", 2014).
 
-        A curve from lane 0 to lane 0 shortens the path; one to another lane and one back move a pose, aside from an
-        obstacle or where the car changes direction; the turned lane drives a part of the path the other way round. The
-        path stays free and drivable, keeps its ends and never becomes more expensive. Deterministic. */
+        A curve from lane 0 to lane 0 shortens the path. A curve to another lane and one back move a pose, for example
+        away from an obstacle or at a cusp. The turned lane drives a part of the path in the other direction. The path
+        stays free and drivable, keeps its ends and never costs more. Equal inputs give equal paths. */
     class PathImprover
     {
     public:
-        /** \brief What one pass tries. Lengths in metres. */
+        /** \brief Settings of one pass. Lengths in metres. */
         struct Pass
         {
             double spacing;      ///< largest distance between knots
-            double offset{0.0};  ///< of the first knot within each piece, so that passes differ; 0: as spacing
-            double reach{std::numeric_limits<double>::infinity()};  ///< of the path that one curve replaces at most
-            double step{0.0};  ///< by which poses at the ends of pieces are moved; 0: they are not
-            std::size_t maxCurves{FreeCurves::MAX_CURVES};  ///< that are tried between two poses, the cheapest ones
-            bool turnsCar{false};  ///< try the car turned round at all knots, instead of moved poses
+            double offset{0.0};  ///< of the first knot within each piece, so that passes differ; 0: spacing
+            double reach{std::numeric_limits<double>::infinity()};  ///< largest part of the path that one curve
+            replaces double step{0.0};  ///< distance by which poses at the ends of pieces are moved; 0: not moved
+            std::size_t maxCurves{FreeCurves::MAX_CURVES};  ///< number of cheapest curves tried between two poses
+            bool turnsCar{false};  ///< offer the car turned round at all knots instead of moved poses
         };
 
-        /** \brief What is referred to must outlive it.
+        /** \brief Creates an improver. \e environment and \e curves must outlive it.
 
-            \param centreOffset metres from the rear axle ahead to the middle of the body, about which it is turned
+            \param centreOffset metres from the rear axle ahead to the centre of the body, the pivot for turning
             round */
         PathImprover(MotionEnvironment &environment, const ReedsShepp &curves, const CostModel &cost,
                      double centreOffset)
@@ -55,11 +55,11 @@ namespace parking::search
 
         /** \brief One pass over \e path.
 
-            \param maxCusps that the path may have then
+            \param maxCusps maximum number of cusps of the result
             \return whether it was replaced by a cheaper one */
         bool improve(PricedPath &path, const Pass &pass, std::size_t maxCusps, const StopFunction &stop);
 
-        /** \brief Pairs of poses between which curves were looked for in all passes so far. */
+        /** \brief Number of pairs of poses between which curves were sought, over all passes. */
         std::uint64_t connections() const
         {
             return connections_;

@@ -13,28 +13,27 @@
 
 namespace parking::search
 {
-    /** \brief Receives every improvement: path and cost. Returns true when that is good enough and planning shall
-        end. */
+    /** \brief Receives every improvement: path and cost. Returns true to end planning. */
     using ImprovementFunction = std::function<bool(const Path &, double)>;
 
-    /** \brief Plans paths: searches a while, improves the path, and repeats that until stopped.
+    /** \brief Plans paths: alternates between search and improvement of the path until stopped.
 
-        Knows nothing of OMPL. One object may serve many queries and keeps its memory. */
+        Independent of OMPL. One object may serve many queries and keeps its memory. */
     class PathPlanner
     {
     public:
-        /** \brief Why solve() came back. */
+        /** \brief Why solve() returned. */
         enum class Outcome
         {
-            Solved,     ///< there is a solution, and it will not be improved further
-            Exhausted,  ///< there is none at the finest resolution, or no hope for one: see Search::exhaustion()
-            Stopped     ///< stopped; there may be a solution
+            Solved,     ///< a solution that will not be improved further
+            Exhausted,  ///< no solution: see Search::exhaustion()
+            Stopped     ///< stopped, with or without a solution
         };
 
         /** \brief Begins a new query in \e environment, which must outlive it. */
         void begin(MotionEnvironment &environment, const PlannerParameters &parameters, const CarInSpace &car);
 
-        /** \brief Adds a start, which must be free. May be called between calls of solve(). */
+        /** \brief Adds a start, which must be free, also between calls of solve(). */
         void addStart(const Pose &pose)
         {
             starts_.push_back(pose);
@@ -48,36 +47,35 @@ namespace parking::search
             search_.addGoal(pose);
         }
 
-        /** \brief Plans; may be called again to go on after Stopped or when roots were added. */
+        /** \brief Plans; call it again to resume after Stopped or after adding roots. */
         Outcome solve(const StopFunction &stop, const ImprovementFunction &improved);
 
-        /** \brief A path towards \e target that ends as near to it as the car comes, by distance between the rear
-            axles.
+        /** \brief Finds a path that ends as near to \e target as possible, by distance between the rear axles.
 
             Spends what is left of the time on a search of its own, unless there is none left, or no memory, or
             everything has been seen from the start: then what the frontiers have seen has to do. \return false if there
             is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
-        /** \brief Is there a path from a start to a goal? */
+        /** \brief Whether a path from a start to a goal is known. */
         bool hasSolution() const
         {
             return best_.cost < std::numeric_limits<double>::infinity();
         }
 
-        /** \brief The cheapest path; without pieces when there is none. */
+        /** \brief The cheapest path; without pieces if there is none. */
         const Path &bestPath() const
         {
             return best_.path;
         }
 
-        /** \brief Its cost, in metres and penalties (see CostModel); infinite without one. */
+        /** \brief Cost of bestPath() in metres and penalties (see CostModel); infinite without a path. */
         double bestCost() const
         {
             return best_.cost;
         }
 
-        /** \brief Part of bestCost() for being nearer to obstacles than preferred. */
+        /** \brief Part of bestCost() for closeness to obstacles. */
         double proximityOfBest() const
         {
             return best_.totalProximity();
@@ -98,7 +96,7 @@ namespace parking::search
             return search_.expanded() + (approach_ ? approach_->expanded() : 0);
         }
 
-        /** \brief What search and improvement did in this query. */
+        /** \brief Work of search and improvement in this query. */
         SearchStatistics statistics() const;
 
     private:

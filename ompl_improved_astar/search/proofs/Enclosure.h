@@ -16,16 +16,16 @@
 
 namespace parking::search
 {
-    /** \brief Proves that the car cannot get out of a place, however it moves: also sideways and on the spot.
+    /** \brief Proves that the car cannot leave a region, even if it moves sideways and turns on the spot.
 
-        Position of the body's middle and heading are cut into cells. Cells in which the body collides wherever it
-        stands are closed; those that can be reached from the roots through faces of cells that are not closed are
-        looked for. When all of them have been seen and no target lies in any of them, then no motion of any kind leads
-        from a root to a target (L. Zhang, Y. J. Kim and D. Manocha, "Efficient cell labelling and path non-existence
-        computation using C-obstacle query", 2008). The converse does not hold: finer cells may prove what coarse ones
-        do not.
+        Positions of the body's centre and headings are divided into cells. A cell in which the body collides at every
+        pose is closed. A flood visits all cells that are connected with the roots by faces of cells that are not
+        closed. If it ends without meeting the cell of a target, no motion leads from a root to a
+        target (L. Zhang, Y. J. Kim and D. Manocha, "Efficient cell labelling and path non-existence
+        computation using C-obstacle query", 2008). The converse does not hold: finer cells may yield proofs that coarse
+        ones do not.
 
-        Headings of a column of cells are handled together, as bits, so open areas cost little. */
+        All headings of a position are processed together as bits, so open areas cost little. */
     class Enclosure
     {
     public:
@@ -34,28 +34,28 @@ namespace parking::search
         {
             double side;             ///< metres
             int headings;            ///< round the circle, 8 to 128
-            double centreOffset;     ///< metres from the rear axle ahead to the body's middle, which stands in the cell
-            std::size_t maxColumns;  ///< places after which the proof is given up
+            double centreOffset;     ///< metres from the rear axle ahead to the body's centre, whose cell counts
+            std::size_t maxColumns;  ///< limit of the positions visited
         };
 
-        /** \brief How far the proof is. */
+        /** \brief State of a proof. */
         enum class Verdict
         {
-            Unknown,    ///< there is more to see
-            Closed,     ///< proven: no target can be reached
-            Connected,  ///< nothing is proven with these cells: a target may be reached
-            TooLarge    ///< nothing is proven: there are too many cells
+            Unknown,    ///< the flood has not ended
+            Closed,     ///< proven: no target is reachable
+            Connected,  ///< no proof: the flood met a target
+            TooLarge    ///< no proof: too many cells
         };
 
-        /** \brief Begins a proof; memory of the last one is kept.
+        /** \brief Begins a proof; the memory of the previous one is kept.
 
             \param blocked of such cells; must outlive the proof
-            \param roots, targets poses of the rear axle, free. Places near a target are seen first, so that a flood
-            which can reach one does so soon */
+            \param roots, targets free poses of the rear axle. Positions near a target are visited first, so that a
+            connected flood ends soon */
         void begin(const BlockedHeadings &blocked, const std::vector<Pose> &roots, const std::vector<Pose> &targets,
                    const Cells &cells);
 
-        /** \brief Goes on by that many columns. */
+        /** \brief Visits up to \e columns further positions. */
         Verdict widen(std::size_t columns);
 
         /** \brief Bytes of the cells and of the queue, growing included. */
@@ -98,33 +98,33 @@ namespace parking::search
         std::size_t entered_{0};  // places that were put into it
     };
 
-    /** \brief Seeks the proof from both ends at once: out of either is as good as the other. */
+    /** \brief Seeks a proof from both ends alternately; a proof from either end suffices. */
     class EnclosureProof
     {
     public:
-        /** \brief Forgets it; memory is kept. */
+        /** \brief Discards the proof; memory is kept. */
         void reset()
         {
             state_ = State::NotBegun;
             blocked_ = {};
         }
 
-        /** \brief Begins; gives up at once when \e blocked is empty: the world cannot tell. */
+        /** \brief Begins a proof. Ends at once if \e blocked is empty. */
         void begin(BlockedHeadings blocked, const std::vector<Pose> &starts, const std::vector<Pose> &goals,
                    const Enclosure::Cells &cells);
 
-        /** \brief Has it begun since it was reset? */
+        /** \brief Whether it has begun since reset(). */
         bool hasBegun() const
         {
             return state_ != State::NotBegun;
         }
 
-        /** \brief Goes on by that many columns at each end, until there is nothing more to find out.
+        /** \brief Visits up to \e columns further positions at each end.
 
-            \return whether it has been proven now that no path leads from a start to a goal */
+            \return whether this call proved that no path leads from a start to a goal */
         bool widen(std::size_t columns);
 
-        /** \brief Bytes of both while it is under way. */
+        /** \brief Bytes of both floods while the proof is under way. */
         std::size_t bytes() const;
 
     private:
