@@ -24,7 +24,7 @@ namespace parking_examples
         return space;
     }
 
-    /** \brief Tells OMPL of the obstacles: both what is valid, and how motions are swept. */
+    /** \brief Sets OMPL's state validity checker and motion validator for the obstacles. */
     inline void setObstacles(const ompl::base::SpaceInformationPtr &si, const parking::ObstacleSet &obstacles,
                              const parking::Vehicle &car)
     {

@@ -26,7 +26,7 @@ namespace parking_examples
     class StreetScene
     {
     public:
-        /** \brief A world of 40 m round the origin without obstacles; the car shall get from \e start into \e slot. */
+        /** \brief An empty world of 40 m around the origin; the car parks from \e start in \e slot. */
         StreetScene(const parking::Vehicle &car, const parking::ParkingSlot &slot, const parking::Pose &start)
         {
             scenario_.vehicle = car;

@@ -37,7 +37,7 @@ namespace
         setup.setStartAndGoalStates(start, goal);
 
         const auto planner = std::make_shared<og::ImprovedAStar>(setup.getSpaceInformation());
-        planner->params()["turning_radius"] = 3.0;  // for the plain space, which knows of none
+        planner->params()["turning_radius"] = 3.0;  // for the plain space, which has none
         setup.setPlanner(planner);
         if (setup.solve(5.0) != ob::PlannerStatus::EXACT_SOLUTION)
             return false;

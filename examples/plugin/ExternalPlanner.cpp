@@ -177,7 +177,7 @@ namespace
                 throw ompl::Exception(getName(), "the program ended with status " + std::to_string(status));
             const auto path = read(answer);
             if (path->getStateCount() == 0)
-                return ob::PlannerStatus::TIMEOUT;  // it says that it has found nothing
+                return ob::PlannerStatus::TIMEOUT;  // the program found no path
             ob::PlannerSolution solution(path);
             solution.setPlannerName(getName());
             const double difference = si_->distance(path->getStates().back(), goal);
@@ -199,7 +199,7 @@ namespace
             const auto *checker =
                 dynamic_cast<const parking::FclFootprintChecker *>(si_->getStateValidityChecker().get());
             if (checker == nullptr)
-                throw ompl::Exception(getName(), "knows only problems with the car's rectangle");
+                throw ompl::Exception(getName(), "supports only problems with a rectangular footprint");
             const parking::Vehicle &car = checker->footprint().vehicle();
             const parking::ObstacleSet &obstacles = checker->footprint().obstacles();
             std::ostringstream text;

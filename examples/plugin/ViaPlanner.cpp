@@ -1,5 +1,5 @@
 // A planner in a library of its own: it tries random poses until one can be driven to from the start, and from there to
-// the goal. parking_plan and parking_benchmark load it with --plugin; docs/comparison.md says how.
+// the goal. parking_plan and parking_benchmark load it with --plugin; see docs/benchmarking.md.
 
 #include <ompl_improved_astar/PlannerPlugin.h>
 

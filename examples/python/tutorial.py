@@ -41,7 +41,7 @@ print(f'  {result.status}: {result.length:.2f} m, {result.cusps} changes of dire
 picture(result, '1-slot.png')
 assert result
 
-print('2. Somebody else has a look at it')
+print('2. An independent check')
 verdict = ia.check(scenario, result.path)
 print(f'  {verdict}: {verdict.states} poses, sharpest curve {1 / verdict.max_curvature:.2f} m')
 straight = numpy.array([[x, 1.7, 0.0] for x in numpy.linspace(-8, 8, 100)])

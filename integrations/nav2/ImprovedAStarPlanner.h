@@ -19,7 +19,7 @@ namespace parking
        are the lethal cells of the costmap; inflation is not looked at, since the exact footprint is swept along all
        motions. Where the car drives in reverse the poses still look where its front does.
 
-        Parameters are those of PlannerSettings, read anew for each plan. Failures are nav2's own exceptions. Compiled
+        Parameters are those of PlannerSettings, read for each plan. Failures are nav2's own exceptions. Compiled
         against stub headers and not yet tried on a robot. */
     class ImprovedAStarPlanner : public nav2_core::GlobalPlanner
     {

@@ -35,15 +35,15 @@ namespace parking::nav2_compatibility
     using nav2_core::StartOccupied;
     using nav2_core::StartOutsideMapBounds;
 #else
-    // Humble has one for all, and tells them apart by their text alone.
+    // Humble has one exception for all; only the text differs.
     using nav2_core::PlannerException;
     using GoalOccupied = PlannerException;             ///< humble's only exception
-    using GoalOutsideMapBounds = PlannerException;     ///< likewise
-    using NoValidPathCouldBeFound = PlannerException;  ///< likewise
-    using PlannerCancelled = PlannerException;         ///< likewise
-    using PlannerTFError = PlannerException;           ///< likewise
-    using PlannerTimedOut = PlannerException;          ///< likewise
-    using StartOccupied = PlannerException;            ///< likewise
-    using StartOutsideMapBounds = PlannerException;    ///< likewise
+    using GoalOutsideMapBounds = PlannerException;     ///< Humble's only exception
+    using NoValidPathCouldBeFound = PlannerException;  ///< Humble's only exception
+    using PlannerCancelled = PlannerException;         ///< Humble's only exception
+    using PlannerTFError = PlannerException;           ///< Humble's only exception
+    using PlannerTimedOut = PlannerException;          ///< Humble's only exception
+    using StartOccupied = PlannerException;            ///< Humble's only exception
+    using StartOutsideMapBounds = PlannerException;    ///< Humble's only exception
 #endif
 }  // namespace parking::nav2_compatibility

@@ -8,7 +8,7 @@
 
 namespace parking
 {
-    /** \brief What the plugin goes by: ROS parameters below the plugin's name. */
+    /** \brief Parameters of the plugin: ROS parameters below its name. */
     struct PlannerSettings
     {
         Vehicle vehicle;  ///< `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`

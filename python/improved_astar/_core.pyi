@@ -12,7 +12,7 @@ PathLike = Union[str, 'os.PathLike[str]']
 __version__: str
 
 class Error(ValueError):
-    """A bad value or file: one line that names the field or the file and says what would be right."""
+    """Invalid value or file: one line that names the field or file and a valid alternative."""
 
 def vehicles() -> List[str]: ...
 

@@ -61,7 +61,7 @@ namespace parking::python
 start to a goal, can the car steer like that, and does its body stay clear, looked at every 5 mm?
 
 path : a Result, a ParkingPlan, or an array of n rows (x, y, yaw, ...), joined by arcs
-exact : False for a path that only comes near to a goal
+exact : False for a path that only ends near a goal
 
 Returns a Verdict.)");
     }

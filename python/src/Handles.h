@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-// What the Python objects hold. Everything is immutable, or made once when it is first asked for.
+// Data of the Python objects. Everything is immutable or computed once, on first use.
 namespace parking::python
 {
     /** \brief A scenario, and the planner with its distance field, which is made when something is first planned or

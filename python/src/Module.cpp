@@ -27,7 +27,7 @@ PYBIND11_MODULE(_core, module)
     module.doc() = "The planner's core. Use the package improved_astar.";
     module.attr("__version__") = PARKING_VERSION;
     py::register_exception<parking::Error>(module, "Error", PyExc_ValueError).doc() =
-        "A bad value or file: one line that names the field or the file and says what would be right.";
+        "Invalid value or file: one line that names the field or file and a valid alternative.";
     py::register_exception_translator(
         [](std::exception_ptr thrown)
         {

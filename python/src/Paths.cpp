@@ -115,7 +115,7 @@ namespace parking::python
             "Metres between the car and the obstacles along the path, the least; None without a path.");
         type.def_property_readonly("trajectory", &trajectoryOf,
                                    "The quickest drive near the path: an n x 8 array of t, x, y, yaw, v, acceleration, "
-                                   "steering, steering rate, 0.05 s apart or less. Optimised when first asked for.");
+                                   "steering, steering rate, at most 0.05 s apart. Optimised on first use.");
         type.def_property_readonly(
             "duration", [](const PathHandle &self) { return optimized(self).duration; }, "Seconds of the trajectory.");
         type.def_property_readonly(

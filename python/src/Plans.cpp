@@ -238,7 +238,7 @@ namespace parking::python
 
         py::class_<PlanHandle, PathHandle, std::shared_ptr<PlanHandle>>(module, "Result", R"(What plan() came to.
 
-True when the path reaches a goal exactly. Arrays are made when they are first asked for, and then kept.)")
+True if the path reaches a goal exactly. Arrays are created on first use and then kept.)")
             .def_property_readonly(
                 "status", [](const PlanHandle &self) { return statusName(self.plan().outcome); },
                 "exact, approximate, timeout, infeasible, invalid_start or invalid_goal")
@@ -250,7 +250,7 @@ True when the path reaches a goal exactly. Arrays are made when they are first a
                 "Metres and penalties; infinite without a solution.")
             .def_property_readonly(
                 "bound", [](const PlanHandle &self) { return self.plan().suboptimalityBound; },
-                "cost over what no path stays below (docs/planner.md says for which paths it holds); "
+                "cost over a lower bound of all paths (see docs/planner.md); "
                 "infinite if unknown.")
             .def_property_readonly(
                 "goal",
@@ -283,7 +283,7 @@ True when the path reaches a goal exactly. Arrays are made when they are first a
         static const std::string ABOUT_PLAN =
             "Plans a path from the start of a scenario to its goal, or to the nearest of several.\n\n"
             "time_limit : seconds; anytime : go on improving until it is up\n"
-            "max_expansions : ends the search after so many, which depends on no clock; 0: no limit\n\n"
+            "max_expansions : limit of the number of expansions, independent of any clock; 0: no limit\n\n"
             "Other Python threads run meanwhile, and Ctrl-C ends it. Parameters:\n\n" +
             parameterLines() + "\nReturns a Result. Raises Error for a value that is not allowed.";
         module.def("plan", &planScenario, py::arg("scenario"), py::arg("time_limit") = 1.0, py::arg("anytime") = false,

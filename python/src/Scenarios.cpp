@@ -218,7 +218,7 @@ namespace parking::python
                         {static_cast<py::ssize_t>(grid.height()), static_cast<py::ssize_t>(grid.width())}, self);
         }
 
-        const char *const ABOUT = R"(A parking problem: obstacles, a car, where it stands and where it shall stand.
+        const char *const ABOUT = R"(A parking problem: obstacles, a vehicle, start and goals.
 
 Scenario.read(path)                                  from a file: YAML, TPCAP case
 Scenario.from_polygons(polygons, start, goal)        from lists or arrays of corners

@@ -143,7 +143,7 @@ namespace parking::python
 
     std::size_t countFrom(const py::handle &value, const std::string &field)
     {
-        // Whatever may be an index counts, such as NumPy's whole numbers.
+        // Every object with __index__ is accepted, such as NumPy's integers.
         const bool isWhole = PyIndex_Check(value.ptr()) != 0 && isNumber(value) && !isFlag(value);
         const auto whole = py::reinterpret_steal<py::object>(isWhole ? PyNumber_Index(value.ptr()) : nullptr);
         if (!whole)

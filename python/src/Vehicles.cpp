@@ -105,7 +105,7 @@ namespace parking::python
 
     void addVehicles(py::module_ &module)
     {
-        module.def("vehicles", &vehicleNames, "The names of the cars that Vehicle() knows.");
+        module.def("vehicles", &vehicleNames, "Names of the known vehicles.");
 
         py::class_<Vehicle> vehicle(module, "Vehicle", R"(A car: its rectangle round the rear axle, and its limits.
 
@@ -136,7 +136,7 @@ front wheels), max_speed, max_acceleration, max_steering_rate.)");
         py::class_<ParkingSlot>(module, "Slot", R"(A parking slot: a rectangle with a pose at its centre.
 
 Perpendicular and angled slots: +x of the pose points out of the slot towards the aisle. Parallel slots: +x is the direction
-of travel in the lane beside it. docs/scenario-format.md says what each field means.)")
+of travel in the lane beside it. See docs/scenarios.md for the fields.)")
             .def(py::init(&makeSlot), py::arg("kind"), py::arg("pose"), py::arg("length"), py::arg("width"),
                  py::arg("entry") = "reverse", py::arg("angle") = 0.25 * PI, py::arg("side") = "either",
                  py::arg("depth") = py::none(), py::arg("lateral_offset") = 0.0)
@@ -161,8 +161,7 @@ of travel in the lane beside it. docs/scenario-format.md says what each field me
                         goals.append(toPython(pose));
                     return goals;
                 },
-                py::arg("vehicle"),
-                "Where the rear axle of a car parked in it stands: a list of poses, preferred first.")
+                py::arg("vehicle"), "Poses of the rear axle of a car parked in the slot, preferred first.")
             .def("__repr__", [](const ParkingSlot &self) { return "Slot('" + nameOf(self.kind, KINDS) + "')"; });
     }
 }  // namespace parking::python

@@ -52,9 +52,8 @@ namespace parking::search
 
         /** \brief Finds a path that ends as near to \e target as possible, by distance between the rear axles.
 
-            Spends what is left of the time on a search of its own, unless there is none left, or no memory, or
-            everything has been seen from the start: then what the frontiers have seen has to do. \return false if there
-            is no start */
+            Runs a separate search from the start. If no time or memory is left, or the start's side is exhausted,
+            uses the nearest node of the frontiers instead. \return false if there is no start */
         bool approximate(const Pose &target, const StopFunction &stop, Path &path);
 
         /** \brief Whether a path from a start to a goal is known. */
