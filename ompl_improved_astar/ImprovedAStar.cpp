@@ -60,8 +60,9 @@ namespace ompl::geometric
         // plain SE2 space it keeps the chord within a hundred-thousandth of the radius of the arc.
         constexpr double DENSE_SPACING = 0.01;
 
-        constexpr unsigned int MAX_GOALS = 16;        // of a region that offers ever more of them
-        constexpr unsigned int GOAL_ATTEMPTS = 1000;  // to find a first valid one, or one that can be reached
+        constexpr unsigned int MAX_SAMPLED_GOALS = 16;   // read at first from a region
+        constexpr unsigned int MAX_LISTED_GOALS = 1000;  // read at first from a list
+        constexpr unsigned int GOAL_ATTEMPTS = 1000;     // samples of a region for a first valid or reachable goal
 
         /** The object if it is of just this class: one that is derived from it may say something else. */
         template <class Class, class Base>
@@ -71,10 +72,41 @@ namespace ompl::geometric
             return known != nullptr && typeid(*known) == typeid(Class) ? static_cast<const Class *>(known) : nullptr;
         }
 
-        /** Are there only so many goals, now at least? */
-        bool isFinite(const ob::GoalSampleableRegion &region)
+        /** Whether the goals are a list, or few enough to be read as one. Large finite numbers of samples, such as
+            INT_MAX, stand for a continuous region. */
+        bool isList(const ob::GoalSampleableRegion &region)
         {
-            return region.maxSampleCount() < std::numeric_limits<unsigned int>::max();
+            return region.hasType(ob::GOAL_STATES) || region.maxSampleCount() <= MAX_LISTED_GOALS;
+        }
+
+        /** The states that OMPL has stored so far: starts, or the goals of a goal state or a list. */
+        std::vector<Pose> storedStarts(const ob::ProblemDefinition &problem)
+        {
+            std::vector<Pose> poses;
+            for (unsigned int i = 0; i < problem.getStartStateCount(); ++i)
+                poses.push_back(parking::poseOf(problem.getStartState(i)));
+            return poses;
+        }
+
+        std::vector<Pose> storedGoals(const ob::Goal &goal)
+        {
+            std::vector<Pose> poses;
+            if (goal.hasType(ob::GOAL_STATE))
+                poses.push_back(parking::poseOf(goal.as<ob::GoalState>()->getState()));
+            else if (goal.hasType(ob::GOAL_STATES))
+                for (std::size_t i = 0; i < goal.as<ob::GoalStates>()->getStateCount(); ++i)
+                    poses.push_back(parking::poseOf(goal.as<ob::GoalStates>()->getState(i)));
+            return poses;
+        }
+
+        /** Whether \e now consists of \e known and, if any, further poses. */
+        bool extends(const std::vector<Pose> &now, const std::vector<Pose> &known)
+        {
+            const auto isEqual = [](const Pose &a, const Pose &b)
+            {
+                return a.x == b.x && a.y == b.y && a.yaw == b.yaw;
+            };
+            return now.size() >= known.size() && std::equal(known.begin(), known.end(), now.begin(), isEqual);
         }
 
         /** May goals that are sampled elsewhere, meanwhile, still come? */
@@ -146,7 +178,9 @@ namespace ompl::geometric
         base::MotionValidatorPtr validator;         ///< likewise
         std::vector<Pose> starts,                   ///< valid ones, as far as they were read
             goals;                                  ///< likewise
-        unsigned int otherGoals{0};                 ///< asked of a region since none of the first can be reached
+        std::vector<Pose> storedStarts,             ///< the problem's, valid or not, at the last solve()
+            storedGoals;                            ///< those of a goal state or a list, at the last solve()
+        unsigned int otherGoals{0};                 ///< samples of a region after none of the first was reachable
         std::optional<Pose> fallbackTarget;         ///< a goal to come near to when none is valid
         PlanOutcome outcome{PlanOutcome::Timeout};  ///< of the last solve()
         std::string reason;                         ///< why there is no solution, where known
@@ -204,6 +238,8 @@ namespace ompl::geometric
             goal.reset();
             starts.clear();
             goals.clear();
+            storedStarts.clear();
+            storedGoals.clear();
             otherGoals = 0;
             fallbackTarget.reset();
             hasSolution = false;
@@ -411,6 +447,8 @@ namespace ompl::geometric
             return false;
         }
         prepareQuery();
+        query_->storedStarts = storedStarts(*pdef_);
+        query_->storedGoals = storedGoals(*region);
         query_->stateEnvironment->setStop([&ptc] { return ptc(); });
         if (!readStarts())
         {
@@ -430,7 +468,8 @@ namespace ompl::geometric
             query_->fallbackTarget = anyGoal(*pdef_->getGoal(), si_);
             query_->outcome = PlanOutcome::InvalidGoal;
             query_->reason = "no goal is valid";
-            if (!query_->fallbackTarget || !parameters_.approximate)
+            const bool hasTarget = query_->fallbackTarget && isFinite(*query_->fallbackTarget);
+            if (!hasTarget || !parameters_.approximate)
             {
                 OMPL_ERROR("%s: Unable to find a valid goal state", getName().c_str());
                 failure = ob::PlannerStatus::INVALID_GOAL;
@@ -467,9 +506,9 @@ namespace ompl::geometric
 
     bool ImprovedAStar::readAnotherGoal(const ob::PlannerTerminationCondition &ptc)
     {
-        // Those that are on their way are worth waiting for. A region always has others: so many must do.
+        // Goals that are being sampled are worth waiting for. A region has endless others: their number is limited.
         const auto &goal = *pdef_->getGoal()->as<ob::GoalSampleableRegion>();
-        while (!ptc && mayHaveOtherGoals() && (isFinite(goal) || query_->otherGoals++ < GOAL_ATTEMPTS))
+        while (!ptc && mayHaveOtherGoals() && (isList(goal) || query_->otherGoals++ < GOAL_ATTEMPTS))
         {
             const ob::State *state = isSampling(goal) ? pis_.nextGoal(ptc) : pis_.nextGoal();
             if (state != nullptr && addGoal(parking::poseOf(state)))
@@ -481,36 +520,39 @@ namespace ompl::geometric
     ImprovedAStar::GoalReading ImprovedAStar::readGoals(const ob::GoalSampleableRegion &region,
                                                         const ob::PlannerTerminationCondition &ptc)
     {
-        const bool finite = isFinite(region);
+        const bool listed = isList(region);
+        const std::size_t maxGoals = listed ? MAX_LISTED_GOALS : MAX_SAMPLED_GOALS;
         unsigned int attempt = 0;
         // The first is looked at in any case.
-        for (; (finite || attempt < GOAL_ATTEMPTS) && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
+        for (; (listed || attempt < GOAL_ATTEMPTS) && pis_.haveMoreGoalStates() && (attempt == 0 || !ptc); ++attempt)
         {
-            if (!finite && query_->goals.size() >= MAX_GOALS)
+            if (query_->goals.size() >= maxGoals)
                 break;
             if (const ob::State *state = pis_.nextGoal())
                 addGoal(parking::poseOf(state));
-            else if (!finite && !query_->goals.empty())
+            else if (!listed && !query_->goals.empty())
                 break;
         }
         // Lazily sampled goals may be on their way. A list of goals that are all taken grows no longer: OMPL would wait
         // for it until the time is up. So would it for a region whose samples are all invalid: after so many attempts
         // the time is better spent on coming near to it.
-        const bool mayHaveMore = isSampling(region) || (!finite && !region.canSample());
+        const bool mayHaveMore = isSampling(region) || (!listed && !region.canSample());
         if (query_->goals.empty() && region.couldSample() && mayHaveMore)
             if (const ob::State *state = pis_.nextGoal(ptc))
                 addGoal(parking::poseOf(state));
         if (!query_->goals.empty())
             return GoalReading::Some;
         // That the time is up does not make those invalid that nobody has looked at.
-        const bool hasSeenAll = (!finite && attempt == GOAL_ATTEMPTS) || !(pis_.haveMoreGoalStates() || mayHaveMore);
+        const bool hasSeenAll = (!listed && attempt == GOAL_ATTEMPTS) || !(pis_.haveMoreGoalStates() || mayHaveMore);
         return hasSeenAll || !ptc ? GoalReading::NoneValid : GoalReading::TimeUp;
     }
 
     bool ImprovedAStar::isSameQuery() const
     {
         return query_->goal == pdef_->getGoal() && query_->parameters == parameters_ &&
-               query_->checker == si_->getStateValidityChecker() && query_->validator == si_->getMotionValidator();
+               query_->checker == si_->getStateValidityChecker() && query_->validator == si_->getMotionValidator() &&
+               extends(storedStarts(*pdef_), query_->storedStarts) &&
+               extends(storedGoals(*pdef_->getGoal()), query_->storedGoals);
     }
 
     ob::PlannerStatus ImprovedAStar::solve(const ob::PlannerTerminationCondition &ptc)

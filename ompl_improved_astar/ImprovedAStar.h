@@ -56,8 +56,9 @@ namespace ompl::geometric
 
         A call resumes the previous one, includes starts and goals that were added since, and returns a solution at
         least as good. Another problem definition, goal object, checker, motion validator or parameter value begins a
-        new query, as clearQuery() does. Call clearQuery() if the obstacles of the same checker have changed. Another
-        objective recomputes the cost of the solution.
+        new query, as clearQuery() does, and so do start states or goal states whose values have changed. Call
+        clearQuery() if the obstacles of the same checker have changed. Another objective recomputes the cost of the
+        solution.
 
         \par Threads
 

@@ -26,7 +26,7 @@ namespace parking
         auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
         se2->setXY(pose.x, pose.y);
         const double yaw = wrapAngle(pose.yaw);
-        se2->setYaw(yaw < PI ? yaw : -PI);
+        se2->setYaw(yaw == PI ? -PI : yaw);
     }
 
     /** \brief A box of positions in metres, as OMPL's spaces take it. */

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <thread>
 
+#include <ompl/base/PlannerData.h>
 #include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/base/goals/GoalState.h>
 
@@ -112,6 +115,49 @@ namespace
                 problem.expectSound(each.status == EXACT);
             EXPECT_LT(problem.pdef->hasApproximateSolution() ? problem.pdef->getSolutionDifference() : 0.0, 5.0);
         }
+    }
+
+    /** A region that gives a large number of samples instead of the largest one, as some regions of users do. */
+    class CountedRegion : public SampledRegion
+    {
+    public:
+        using SampledRegion::SampledRegion;
+        unsigned int maxSampleCount() const override
+        {
+            return std::numeric_limits<int>::max();
+        }
+    };
+
+    TEST(PlannerGoals, ManyGoalsAreNotAllRead)
+    {
+        PlanningProblem problem(Space::SE2, CLOSED);
+        const auto region = std::make_shared<CountedRegion>(problem.si, oneInReachOf(1));
+        problem.from({BEFORE_WALL}).pdef->setGoal(region);
+        EXPECT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+        EXPECT_LE(region->samples, 100u);
+
+        PlanningProblem listed(Space::SE2, CLOSED);
+        const auto states = std::make_shared<ob::GoalStates>(listed.si);
+        for (unsigned int i = 0; i < 20000; ++i)
+            states->addState(listed.state(oneInReachOf(20)(i)));
+        listed.from({BEFORE_WALL}).pdef->setGoal(states);
+        EXPECT_EQ(listed.solve(), Status::EXACT_SOLUTION);
+        ob::PlannerData data(listed.si);
+        listed.planner->getPlannerData(data);
+        EXPECT_LE(data.numGoalVertices(), 1000u);
+    }
+
+    TEST(PlannerGoals, GoalsThatAreNotFiniteAreInvalid)
+    {
+        for (const double value : {HUGE_VAL, -HUGE_VAL, std::nan("")})
+            for (const Pose &goal : {Pose{value, 0.0, 0.0}, Pose{1.0, value, 0.0}, Pose{1.0, 0.0, value}})
+                for (const char *model : {"motion_model=car", "motion_model=grid8"})
+                {
+                    SCOPED_TRACE(testing::Message() << goal.x << ' ' << goal.y << ' ' << goal.yaw << ' ' << model);
+                    PlanningProblem problem(Space::SE2, SLOT_SCENE, model);
+                    EXPECT_EQ(problem.from({HERE}).to({goal}).solve(), Status::INVALID_GOAL);
+                    EXPECT_EQ(problem.planner->outcome(), Outcome::InvalidGoal);
+                }
     }
 
     TEST(PlannerGoals, LazySamplesAreWaitedFor)

@@ -10,6 +10,7 @@
 
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/PlannerData.h>
+#include <ompl/base/goals/GoalState.h>
 
 namespace
 {
@@ -78,6 +79,46 @@ namespace
         ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
         EXPECT_TRUE(isSamePose(problem.poses().front(), start, SAME));
         EXPECT_TRUE(isSamePose(problem.poses().back(), goal, SAME));
+    }
+
+    // The loop of a car that plans again from where it is: OMPL's starts and goals change, its objects do not.
+    TEST(PlannerQueries, BeginAgainWhenStartsOrGoalsAreReplaced)
+    {
+        const Pose start{-1.0, -5.0, 0.0}, goal{0.0, -7.0, 0.5};
+        for (const char *change :
+             {"start replaced", "start changed in place", "goal changed in place", "goals replaced"})
+        {
+            SCOPED_TRACE(change);
+            PlanningProblem problem(Space::ReedsShepp, SLOT_SCENE);
+            const auto single = std::make_shared<ob::GoalState>(problem.si);
+            problem.from({AISLE}).to({SLOT});
+            if (std::string(change) == "goal changed in place")
+            {
+                single->setState(problem.state(SLOT));
+                problem.pdef->setGoal(single);
+            }
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            problem.pdef->clearSolutionPaths();
+            const bool isStart = std::string(change).find("start") == 0;
+            if (std::string(change) == "start replaced")
+            {
+                problem.pdef->clearStartStates();
+                problem.pdef->addStartState(problem.state(start));
+            }
+            else if (isStart)
+                parking::setPose(problem.pdef->getStartState(0), start);
+            else if (std::string(change) == "goal changed in place")
+                single->setState(problem.state(goal));
+            else
+            {
+                auto *states = problem.pdef->getGoal()->as<ob::GoalStates>();
+                states->clear();
+                states->addState(problem.state(goal));
+            }
+            ASSERT_EQ(problem.solve(), Status::EXACT_SOLUTION);
+            EXPECT_TRUE(isSamePose(problem.poses().front(), isStart ? start : AISLE, SAME));
+            EXPECT_TRUE(isSamePose(problem.poses().back(), isStart ? SLOT : goal, SAME));
+        }
     }
 
     TEST(PlannerQueries, BeginAgainWhenTheProblemChanges)

@@ -146,9 +146,8 @@ namespace parking
             {"near_goal_distance", &P::nearGoalDistance, between(0.0, 1000.0, 1.0), "m", "where w changes"},
             {"tie_break", &P::tieBreak, between(0.0, 1.0, 0.001), "", "p of f = g + (w + p) h"},
             {"heuristic", &P::heuristic, oneOf(heuristicNames), "",
-             "estimate of the remaining cost: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps to
-             "
-             "eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
+             "estimate of the remaining cost: `curves` (Reeds-Shepp or Dubins), `straight` distance, `octile` (steps "
+             "to eight neighbours), `manhattan` (to four); `default` chooses what suits the motion model"},
             {"obstacle_heuristic", &P::obstacleHeuristic, YES_OR_NO, "",
              "guide the search around obstacles (car model)"},
             {"detours", &P::detours, YES_OR_NO, "",

@@ -33,8 +33,8 @@ namespace parking::search
         {
             double spacing;      ///< largest distance between knots
             double offset{0.0};  ///< of the first knot within each piece, so that passes differ; 0: spacing
-            double reach{std::numeric_limits<double>::infinity()};  ///< largest part of the path that one curve
-            replaces double step{0.0};  ///< distance by which poses at the ends of pieces are moved; 0: not moved
+            double reach{std::numeric_limits<double>::infinity()};  ///< largest length that one curve replaces
+            double step{0.0};  ///< distance by which poses at the ends of pieces are moved; 0: not moved
             std::size_t maxCurves{FreeCurves::MAX_CURVES};  ///< number of cheapest curves tried between two poses
             bool turnsCar{false};  ///< offer the car turned round at all knots instead of moved poses
         };
