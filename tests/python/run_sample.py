@@ -1,4 +1,4 @@
-"""Runs the Python programs of the guides, each page in a folder of its own."""
+"""Runs the Python programs of the README and the guides, those of each page in a folder of its own."""
 import os
 import re
 import subprocess
@@ -8,8 +8,8 @@ import tempfile
 
 def main(root):
     root = os.path.abspath(root)
-    for name in ('getting-started.md', 'python.md'):
-        with open(os.path.join(root, 'docs', name), encoding='utf-8') as stream:
+    for name in ('README.md', os.path.join('docs', 'getting-started.md'), os.path.join('docs', 'python.md')):
+        with open(os.path.join(root, name), encoding='utf-8') as stream:
             blocks = re.findall(r'^```python\n(.*?)^```', stream.read(), re.MULTILINE | re.DOTALL)
         if not blocks:
             return f'{name}: has no Python program'
