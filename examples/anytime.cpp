@@ -1,4 +1,4 @@
-// A first solution at once, better ones while there is time; ends early when the path is short enough.
+// A first solution at once, then shorter ones until the time is up or the path is short enough.
 #include "examples/CarPark.h"
 
 #include <cstdio>
@@ -22,7 +22,7 @@ int main()
                                 parking_examples::state(space, 9.0, 5.0, 3.0));
 
     const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
-    objective->setCostThreshold(ob::Cost(20.0));  // metres: never reached here, so that the time runs out
+    objective->setCostThreshold(ob::Cost(20.0));  // metres, less than any path here: planning ends with the time
     setup.setOptimizationObjective(objective);
     const auto planner = std::make_shared<ompl::geometric::ImprovedAStar>(si);
     planner->params()["anytime"] = true;

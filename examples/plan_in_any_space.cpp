@@ -1,5 +1,5 @@
-// One planner, three state spaces, any validity checker: a point that has to keep away from a pillar. Here the rule is
-// a lambda; with parking::FclFootprintChecker (see readme_example.cpp) planning is some ten times faster.
+// One planner, three state spaces, any validity checker: here a lambda that keeps a point away from a pillar. With
+// parking::FclFootprintChecker (see readme_example.cpp) planning is faster.
 #include <ompl_improved_astar/ImprovedAStar.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ namespace
             [](const ob::State *state)
             {
                 const auto *pose = state->as<ob::SE2StateSpace::StateType>();
-                return std::hypot(pose->getX(), pose->getY()) > 3.0;  // the pillar, with room for the car
+                return std::hypot(pose->getX(), pose->getY()) > 3.0;  // a pillar, enlarged by the size of the car
             });
         setup.getSpaceInformation()->setStateValidityCheckingResolution(0.005);
         ob::ScopedState<ob::SE2StateSpace> start(space), goal(space);
@@ -37,7 +37,7 @@ namespace
         setup.setStartAndGoalStates(start, goal);
 
         const auto planner = std::make_shared<og::ImprovedAStar>(setup.getSpaceInformation());
-        planner->params()["turning_radius"] = 3.0;  // for the plain space, which has none
+        planner->params()["turning_radius"] = 3.0;  // a plain SE2 space has none of its own
         setup.setPlanner(planner);
         if (setup.solve(5.0) != ob::PlannerStatus::EXACT_SOLUTION)
             return false;

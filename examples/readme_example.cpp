@@ -1,6 +1,5 @@
-// The program of docs/using.md and, in part, of the README, as the tests compile and run it: a car parks in reverse.
+// The program of the README: a car reverses into a slot between two others.
 
-// program:begin
 #include <iostream>
 #include <memory>
 
@@ -22,7 +21,6 @@ int main()
     auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(car.minTurningRadius());
     space->setBounds(bounds);
 
-    // readme:begin
     ompl::geometric::SimpleSetup setup(space);
     const auto &si = setup.getSpaceInformation();
     const auto world = parking::ObstacleSet::fromPolygons(obstacles, {{-15, -15}, {15, 15}});
@@ -32,13 +30,11 @@ int main()
 
     ompl::base::ScopedState<ompl::base::SE2StateSpace> start(space), goal(space);
     start->setXY(-8.0, -3.0), start->setYaw(0.0);  // in the aisle
-    goal->setXY(0.0, 4.0), goal->setYaw(-1.5708);  // middle of the rear axle, in the slot
+    goal->setXY(0.0, 4.0), goal->setYaw(-1.5708);  // in the slot
     setup.setStartAndGoalStates(start, goal);
     setup.setPlanner(std::make_shared<ompl::geometric::ImprovedAStar>(si));
 
     if (setup.solve(1.0) != ompl::base::PlannerStatus::EXACT_SOLUTION)
         return 1;
     setup.getSolutionPath().printAsMatrix(std::cout);
-    // readme:end
 }
-// program:end

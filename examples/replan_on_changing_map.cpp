@@ -1,5 +1,5 @@
-// A car that sees its surroundings as a grid, anew each time: from the raw 200 by 200 cells to the path in one call, by
-// a planner that keeps its memory from map to map.
+// A car receives a new grid of its surroundings each time: from the raw 200 by 200 cells to the path in one call, by a
+// planner that keeps its memory from map to map.
 #include "examples/CarPark.h"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Three free slots in a row, each of which may be entered nose first or tail first: the planner chooses.
+// Three free slots in a row, each of which can be entered nose or tail first: the planner chooses the cheapest.
 #include "examples/CarPark.h"
 
 #include <cstdio>

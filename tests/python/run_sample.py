@@ -1,4 +1,4 @@
-"""Runs the Python programs in README.md, docs/using.md and in docs/python.md, each in a folder of its own."""
+"""Runs the Python programs of the README and the guides, those of each page in a folder of its own."""
 import os
 import re
 import subprocess
@@ -8,7 +8,7 @@ import tempfile
 
 def main(root):
     root = os.path.abspath(root)
-    for name in ('README.md', os.path.join('docs', 'using.md'), os.path.join('docs', 'python.md')):
+    for name in ('README.md', os.path.join('docs', 'getting-started.md'), os.path.join('docs', 'python.md')):
         with open(os.path.join(root, name), encoding='utf-8') as stream:
             blocks = re.findall(r'^```python\n(.*?)^```', stream.read(), re.MULTILINE | re.DOTALL)
         if not blocks:

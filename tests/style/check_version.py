@@ -13,7 +13,7 @@ from project_files import report, text_of
 NAMED = {
     'CHANGELOG.md': (r'\A(?:(?!^## ).)*^## (\S+)', 1),  # the first heading
     'integrations/nav2/package.xml': (r'<version>(.*?)</version>', 1),
-    'CITATION.cff': (r'^version: *["\']?([^"\'\s]+)', 0),
+    'CITATION.cff': (r'^version: *["\']?([^"\'\s]+)', 1),
     'pyproject.toml': (r'^version *= *["\']([^"\']+)', 0),
 }
 # These take it from there.

@@ -8,12 +8,15 @@ import sys
 import tempfile
 import unittest
 
+from pages import BUDGETS
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 GOOD_SOURCE = '#pragma once\n\n#include "parking_geometry/Pose.h"\n'
-README = '<!-- sample:begin -->\n```cpp\nint main()\n{\n}\n```\n<!-- sample:end -->\n'
-GUIDE = '<!-- program:begin -->\n```cpp\n// all\nint main()\n{\n}\n```\n<!-- program:end -->\n'
-EXAMPLE = '// program:begin\n// all\n// readme:begin\nint main()\n{\n}\n// readme:end\n// program:end\n'
+PROGRAM = '#include <cstdio>\n\nint main()\n{\n    std::puts("a");\n    std::puts("b");\n}\n'
+EXAMPLE = '// Writes.\n\n' + PROGRAM
+README = f'# A project\n\n```cpp\n{PROGRAM}```\n'
+GUIDE = '# A guide\n\n```cpp\nstd::puts("a");\nstd::puts("b");\n```\n'
 
 
 class ChecksTest(unittest.TestCase):
@@ -29,7 +32,7 @@ class ChecksTest(unittest.TestCase):
         self.write('ompl_improved_astar/search/Search.h', GOOD_SOURCE)
         self.write('examples/readme_example.cpp', EXAMPLE)
         self.write('README.md', README)
-        self.write('docs/using.md', GUIDE)
+        self.write('docs/using-the-planner.md', GUIDE)
         self.write('scripts/run', '#!/usr/bin/env bash\necho "$1"\n')
 
     def write(self, name, text):
@@ -48,7 +51,7 @@ class ChecksTest(unittest.TestCase):
         self.assertIn(name, done.stdout + done.stderr)
 
     def test_project_without_faults_passes_all(self):
-        for check in ('format', 'dependencies', 'shell', 'paths', 'readme_sample'):
+        for check in ('format', 'dependencies', 'shell', 'paths', 'samples', 'links', 'glossary'):
             with self.subTest(check):
                 done = self.run_check(check)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -123,19 +126,46 @@ class ChecksTest(unittest.TestCase):
         self.expect_found('paths', 'README.md:1')
 
     def test_sample_that_differs(self):
-        for document, text in (('README.md', README), ('docs/using.md', GUIDE)):
-            self.write(document, text.replace('main()', 'main(int, char **)'))
-            self.expect_found('readme_sample', document)
-            subprocess.run([sys.executable, '-B', os.path.join(HERE, 'check_readme_sample.py'), self.root, '--update'],
-                           check=True)
-            self.assertEqual(self.run_check('readme_sample').returncode, 0)
+        for page, text, other in (('README.md', README, README.replace('main()', 'main(int, char **)')),
+                                  ('README.md', README, README.replace('#include <cstdio>\n\n', '')),
+                                  ('docs/using-the-planner.md', GUIDE, GUIDE.replace('"b"', '"c"')),
+                                  ('docs/using-the-planner.md', GUIDE, GUIDE.replace('std::puts("b")', '    f("b")'))):
+            self.write(page, other)
+            self.expect_found('samples', page)
+            self.write(page, text)
+            self.assertEqual(self.run_check('samples').returncode, 0)
+
+    def test_pages_that_are_missing_or_too_long(self):
+        for page, budget in BUDGETS.items():
+            self.write(page, 'word | ' * budget + '<!-- x:begin -->' + ' more' * budget + '<!-- x:end -->')
+        done = self.run_check('words')
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.write('docs/limits.md', 'word ' * 551)
+        self.expect_found('words', 'docs/limits.md: 551 words')
+        os.remove(os.path.join(self.root, 'docs/limits.md'))
+        self.expect_found('words', 'docs/limits.md: is missing')
+
+    def test_words_that_are_no_terms(self):
+        self.write('docs/limits.md', '# Limits\n\nA path is asked\nfor.\n')
+        self.expect_found('glossary', 'docs/limits.md:3: "asked for"; rather: requested')
+        self.write('docs/limits.md', '# Limits\n\nA task, so manyfold.\n\n```text\nanew\n```\n')
+        done = self.run_check('glossary')
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.write('parking_geometry/Pose.h', '#pragma once\nint anew;\n/** \\brief Plans anew. */\nvoid plan();\n')
+        self.write('state_validity/Bad.cpp', 'int anew;  // anew\nconst char *text = "plans by turns";\n')
+        for place, found in (('headers', 'parking_geometry/Pose.h:3: "anew"'),
+                             ('messages', 'state_validity/Bad.cpp:2: "by turns"')):
+            done = self.run_check('glossary', place)
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stdout.count('rather'), 1, done.stdout)
+            self.assertIn(found, done.stdout)
 
     def test_versions_that_differ(self):
         changes = '# Changelog\n\nNewest first.\n\n## 0.3.0 (unreleased)\n\nAll new.\n\n## 0.2.0\n'
         self.write('CMakeLists.txt', 'cmake_minimum_required(VERSION 3.25)\nproject(some_project\n  VERSION 0.3.0\n)\n')
         self.write('CHANGELOG.md', changes)
         self.write('integrations/nav2/package.xml', '<?xml version="1.0"?>\n<version>0.3.0</version>\n')
-        self.write('CITATION.cff', 'cff-version: 1.2.0\ntitle: some\n')
+        self.write('CITATION.cff', 'cff-version: 1.2.0\nversion: "0.3.0"\n')
         self.write('pyproject.toml', 'cmake.version = ">=3.25"\ndynamic = ["version"]\ninput = "CMakeLists.txt"\n')
         self.write('scripts/package', 'libompl-improved-astar$soversion\n')
         done = self.run_check('version')
@@ -143,6 +173,7 @@ class ChecksTest(unittest.TestCase):
         for name, text in (('CHANGELOG.md', changes.replace('## 0.3.0', '## 0.4.0')), ('CHANGELOG.md', '# Changelog\n'),
                            ('integrations/nav2/package.xml', '<version>0.2.0</version>\n'),
                            ('CITATION.cff', 'cff-version: 1.2.0\nversion: "0.2.0"\n'),
+                           ('CITATION.cff', 'cff-version: 1.2.0\ntitle: some\n'),
                            ('pyproject.toml', 'dynamic = ["version"]\ninput = "CMakeLists.txt"\nversion = "0.2.0"\n'),
                            ('pyproject.toml', 'dynamic = ["version"]\n'),
                            ('scripts/package', 'libompl-improved-astar0.2\n')):

@@ -2,10 +2,8 @@
 #include <cmath>
 #include <iostream>
 
-#include <ompl_improved_astar/search/CarInSpace.h>
 #include <ompl_improved_astar/search/planning/FootprintEnvironment.h>
-#include <ompl_improved_astar/search/planning/Parameters.h>
-#include <ompl_improved_astar/search/planning/PathPlanner.h>
+#include <ompl_improved_astar/search/planning/Plan.h>
 #include <parking_geometry/Vehicle.h>
 #include <state_validity/FootprintChecker.h>
 
@@ -18,31 +16,30 @@ int main()
         {{{-0.5, -15.0}, {0.5, -15.0}, {0.5, 2.0}, {-0.5, 2.0}}, {{-0.5, 6.0}, {0.5, 6.0}, {0.5, 15.0}, {-0.5, 15.0}}},
         bounds);
     const parking::FootprintChecker checker(world, car);
-    const parking::Pose start{-10.0, -5.0, 0.0}, goal{10.0, -5.0, 0.0}, inTheWall{0.0, 0.0, 0.0};
-    if (!checker.isFree(start) || !checker.isFree(goal) || checker.isFree(inTheWall))
+    parking::FootprintEnvironment environment(checker, bounds, 1e-3);
+    parking::search::PlanRequest request;
+    request.starts = {{-10.0, -5.0, 0.0}};
+    request.goals = {{10.0, -5.0, 0.0}};
+    request.car = parking::search::carInSpace(car, 0.0, bounds);
+    request.maxExpansions = 100000;
+    const parking::search::PlanResult result = parking::search::plan(environment, request);
+
+    if (!checker.isFree(request.starts[0]) || !checker.isFree(request.goals[0]) || checker.isFree({0.0, 0.0, 0.0}))
     {
         std::cerr << "a footprint is judged wrongly\n";
         return 1;
     }
-
-    parking::FootprintEnvironment environment(checker, bounds, 1e-3);
-    parking::search::PathPlanner planner;
-    planner.begin(environment, parking::PlannerParameters(), parking::search::carInSpace(car, 0.0, bounds));
-    planner.addStart(start);
-    planner.addGoal(goal);
-    planner.solve([] { return false; }, [](const parking::Path &, double) { return true; });
-    if (!planner.hasSolution())
+    if (result.outcome != parking::search::PlanOutcome::Solved)
     {
-        std::cerr << "no path is found\n";
+        std::cerr << "no path is found: " << result.reason << '\n';
         return 1;
     }
-    const parking::Path path = planner.bestPath();
-    const parking::Pose end = path.end();
-    if (positionDistance(end, goal) > 1e-6 || !(path.length() > 20.0))
+    const parking::Pose end = result.path.end();
+    if (positionDistance(end, request.goals[0]) > 1e-6 || !(result.path.length() > 20.0))
     {
-        std::cerr << "the path ends at " << end.x << ' ' << end.y << " after " << path.length() << " m\n";
+        std::cerr << "the path ends at " << end.x << ' ' << end.y << " after " << result.path.length() << " m\n";
         return 1;
     }
-    std::cout << "planned " << path.length() << " m without OMPL\n";
+    std::cout << "planned " << result.path.length() << " m without OMPL\n";
     return 0;
 }
