@@ -1,4 +1,4 @@
-// parking_benchmark: compares planners on parking problems. docs/comparison.md says how.
+// parking_benchmark: compares planners on parking problems. docs/benchmark-reference.md says how.
 
 #include "benchmarks/compare/BenchmarkOptions.h"
 #include "benchmarks/compare/Comparison.h"

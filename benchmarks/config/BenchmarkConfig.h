@@ -49,7 +49,7 @@ namespace parking
         All        ///< every path
     };
 
-    /** \brief A comparison, as a .cfg file describes it (see docs/comparison.md). */
+    /** \brief A comparison, as a .cfg file describes it (see docs/benchmark-reference.md). */
     struct BenchmarkConfig
     {
         std::string file;                    ///< that it was read from

@@ -1,1 +1,1 @@
-"""parking_convert: problems and results from one format into another. docs/formats.md describes the formats."""
+"""parking_convert: problems and results from one format into another. docs/scenarios.md describes the formats."""

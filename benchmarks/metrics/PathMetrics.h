@@ -9,7 +9,7 @@
 namespace parking
 {
     /** \brief How a path is shaped, whatever is around it: the measures of Bench-MR (Heiden and others, IEEE Robotics
-        and Automation Letters 6, 2021), computed from the exact path instead of from samples. docs/metrics.md defines
+        and Automation Letters 6, 2021), computed from the exact path instead of from samples. docs/benchmark-reference.md defines
         each. */
     struct PathShape
     {

@@ -106,8 +106,8 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_plan SCENARIO [options]\n\n"
-                "Plans one parking problem. SCENARIO is a YAML scenario or a TPCAP case (docs/scenario-format.md);\n"
-                "parking_convert makes scenarios of other formats (docs/formats.md).\n\n"
+                "Plans one parking problem. SCENARIO is a YAML scenario or a TPCAP case (docs/scenarios.md);\n"
+                "parking_convert makes scenarios of other formats (docs/scenarios.md).\n\n"
              << describe() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 20 ? 22 - each.name.size() : 2, ' ')

@@ -48,7 +48,7 @@ namespace parking
         name, and why. */
     std::vector<std::string> missingFiles(const PlanOptions &options, const PlanReport &result);
 
-    /** \brief The result in the format that docs/comparison.md describes. */
+    /** \brief The result in the format that docs/benchmark-reference.md describes. */
     nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanReport &result);
 
     /** \brief The result for a reader in a hurry: a few lines. */

@@ -1,4 +1,4 @@
-// parking_plan: plans one scenario. docs/comparison.md says how.
+// parking_plan: plans one scenario. docs/benchmark-reference.md says how.
 
 #include "benchmarks/plan/PlanOptions.h"
 #include "benchmarks/plan/PlanReport.h"

@@ -1,7 +1,7 @@
 """Statistics of runs and problems that assume nothing of a distribution, computed by SciPy.
 
 Infinite values are welcome everywhere: a run that timed out took longer than all that did not. Definitions and sources:
-docs/metrics.md."""
+docs/benchmark-reference.md."""
 import collections
 import functools
 import math

@@ -1,6 +1,6 @@
 """Planners against each other over all problems: profiles, penalised times, ranks and tests of pairs.
 
-Definitions and their sources: docs/metrics.md."""
+Definitions and their sources: docs/benchmark-reference.md."""
 import bisect
 import csv
 import dataclasses

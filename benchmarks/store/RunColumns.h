@@ -51,7 +51,7 @@ namespace parking
         const char *name;  ///< as in OMPL's logs, but without type; in the database '_' stands for blanks
         ColumnType type;   ///< of its values
         const char *unit;  ///< empty for counts and what is yes or no
-        const char *text;  ///< what it means, for docs/comparison.md
+        const char *text;  ///< what it means, for docs/benchmark-reference.md
         std::optional<InSummary> summary{};  ///< without it the summary does not show the column
         std::optional<InReport> report{};    ///< without it the report shows the column only where it knows its name
 
@@ -65,7 +65,7 @@ namespace parking
 
     /** \brief All columns: the one place that knows their names, types, units and meanings.
 
-        The database and OMPL's logs, the summary, the report's further columns and the table in docs/comparison.md are
+        The database and OMPL's logs, the summary, the report's further columns and the table in docs/benchmark-reference.md are
         loops over it. Whoever adds a figure adds a row here, and sets it where it is measured. */
     const std::vector<RunColumn> &runColumns();
 

@@ -21,7 +21,7 @@ namespace parking
         std::optional<Pose> goal{};   ///< likewise; it takes the place of a slot, too
     };
 
-    /** \brief Reads a scenario file, recognised by content: YAML (see docs/scenario-format.md) or a TPCAP case.
+    /** \brief Reads a scenario file, recognised by content: YAML (see docs/scenarios.md) or a TPCAP case.
 
         A case is one line of comma-separated numbers: start x, y, yaw, goal x, y, yaw, the number of obstacles, the
         vertex count of each, then all vertices. The local frame of either has its origin at the start.

@@ -40,7 +40,7 @@ namespace parking
         std::vector<TimeSpan> stuck;  ///< when the wheels stay where they are
         std::uint64_t seed{1};        ///< of the noise
 
-        /** \brief What the figures of docs/path-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
+        /** \brief What the figures of docs/trajectories-and-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
             and 0.5 degrees, 5 % of speed bias. */
         static Disturbances everyday(std::uint64_t seed);
 

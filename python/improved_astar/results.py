@@ -51,7 +51,7 @@ def read_runs(path):
     """The runs of a comparison, one row each, as a pandas DataFrame.
 
     path: a database, or the folder that parking_benchmark wrote, with its benchmark.db. Columns: problem, planner, those of
-    docs/comparison.md, parameters, and progress: a list of (seconds, cost).
+    docs/benchmark-reference.md, parameters, and progress: a list of (seconds, cost).
     """
     import pandas
     try:

@@ -7,7 +7,6 @@ import os
 import re
 import sys
 
-from pages import PENDING
 from project_files import project_files, report, text_of
 
 LINK = re.compile(r'\]\(([^)\s]+)\)|\b(?:src|href)="([^"]+)"')
@@ -26,8 +25,6 @@ def main(root):
             if not target or ':' in target or target.startswith('../../actions/'):  # pages of the host of the project
                 continue
             path = os.path.normpath(os.path.join(os.path.dirname(name), target))
-            if path in PENDING:
-                continue
             if path not in files and not any(folder == path or folder.startswith(path + '/') for folder in folders):
                 findings.append(f'{name}: there is no {target}')
     report(findings, 'Links are relative to the file that they are in; the target must be tracked by git.')

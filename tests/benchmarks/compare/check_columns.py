@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Are the table in docs/comparison.md and the report's columns those of benchmarks/store/RunColumns.cpp?
+"""Are the table in docs/benchmark-reference.md and the report's columns those of benchmarks/store/RunColumns.cpp?
 
 usage: check_columns.py ROOT LIST_COLUMNS [--update]
 LIST_COLUMNS is the program built from list_columns.cpp. --update writes table and columns anew.
@@ -27,7 +27,7 @@ def main(root, program, update):
         text = stream.read()
     table = TABLE.search(text)
     if not table:
-        return 'docs/comparison.md: no table between <!-- columns:begin --> and <!-- columns:end -->'
+        return 'docs/benchmark-reference.md: no table between <!-- columns:begin --> and <!-- columns:end -->'
     wanted = HEADER + ''.join(row(column) for column in columns)
     shown = [column['report'] for column in columns if 'report' in column]
     if update:
@@ -38,7 +38,7 @@ def main(root, program, update):
         return None
     how = f'is not that of the columns; {os.path.basename(__file__)} --update makes it'
     if table.group(2) != wanted:
-        return f'docs/comparison.md: the table {how}'
+        return f'docs/benchmark-reference.md: the table {how}'
     with open(report, encoding='utf-8') as stream:
         if json.load(stream) != shown:
             return f'benchmarks/report/columns.json: {how}'

@@ -76,7 +76,7 @@ namespace parking::test
         {
             // No feasible change of the controls, small or large, in any of many directions, does noticeably better.
             // Seeds 155 and 176 need a trust region that grows again: it stopped a fifth and a quarter above these.
-            // Figures of more problems: docs/path-tracking.md.
+            // Figures of more problems: docs/trajectories-and-tracking.md.
             const Vehicle vehicle;
             MpcParameters mpc;
             mpc.maxIterations = 30;
