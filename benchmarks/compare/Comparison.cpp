@@ -9,7 +9,6 @@
 #include "benchmarks/system/LongStep.h"
 #include "benchmarks/system/Machine.h"
 #include "benchmarks/system/Progress.h"
-#include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
@@ -215,11 +214,7 @@ namespace parking
 
     std::vector<Row> Comparison::experimentsOf(UnitRunner &runner) const
     {
-        const std::string cpu = []
-        {
-            const QuietChildren quiet;
-            return ompl::machine::getCPUInfo();
-        }();
+        const std::string cpu = ompl::machine::getCPUInfo();
         std::vector<Row> rows = experimentRows();
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
@@ -235,23 +230,12 @@ namespace parking
         return rows;
     }
 
-    void Comparison::requireNoEarlierFormat() const
-    {
-        std::error_code ignored;
-        if (const std::string runs = (fs::path(folder_) / "runs.jsonl").string();
-            !options_.fresh && fs::exists(runs, ignored) && !fs::exists(database(), ignored))
-            throw Error(runs +
-                        ": results of an earlier version of parking_benchmark, which this one cannot read; name "
-                        "another --output, or start over with --fresh");
-    }
-
     bool Comparison::run(const std::atomic<bool> &stop)
     {
         UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
         tellUnsolvable(runner);
         makeFolder(folder_);
-        requireNoEarlierFormat();
         store_ = std::make_unique<RunStore>(database());
         if (options_.fresh)
             store_->forget();
@@ -315,7 +299,6 @@ namespace parking
 
     void Comparison::mergeParts()
     {
-        requireNoEarlierFormat();
         const std::vector<std::string> files = parts();
         if (files.empty() && !fs::exists(database()))
             throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");

@@ -61,8 +61,6 @@ namespace parking
         }
 
     private:
-        /** Throws when the folder has results that this version does not know. */
-        void requireNoEarlierFormat() const;
         /** Throws when something that is read would be written over. */
         void protectInputs() const;
         /** Says which experiments nobody can solve, and why. */
