@@ -91,7 +91,7 @@ def case_content(scenario, file):
     identifier = re.search(r'\d*$', Path(file).stem).group()  # 7 of Case07
     return matlab.content_of('caseData', {
         'id': float(identifier or 1), 'task': task,
-        'obstacle': {'num_obs': float(len(obstacles)), 'obs': matlab.cells(obstacles)}})
+        'obstacle': {'num_obs': float(len(obstacles)), 'obs': obstacles}})
 
 
 def path_content(result):
@@ -137,7 +137,7 @@ def result_content(result, kind, solution):
     return matlab.content_of('result', {
         'schema_version': 'CommonParking-result-1', 'planner': result.planner, 'case_id': float(result.case_id),
         'kind': kind, 'reference_point': 'rear_axle_midpoint', 'units': {'length': 'm', 'angle': 'rad', 'time': 's'},
-        'status': {'success': np.bool_(is_solved), 'code': 'solved' if is_solved else 'not_solved',
+        'status': {'success': is_solved, 'code': 'solved' if is_solved else 'not_solved',
                    'message': result.status},
         'computation_time_s': result.planning_time, 'path': solution if kind == 'path' else none,
         'trajectory': solution if kind == 'trajectory' else none})
