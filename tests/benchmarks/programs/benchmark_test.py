@@ -1,7 +1,6 @@
 """parking_benchmark from a .cfg file to its results: files, database, interrupting and going on, shards."""
 
 import csv
-import fcntl
 import glob
 import math
 import os
@@ -196,17 +195,6 @@ improved_astar.problem.footprint=circle
             self.assertAlmostEqual(run['trajectory cost'], cost, delta=1e-6 * cost)
             self.assertLess(0.5 * run['path length'] / 2.5, time)
 
-    def test_a_folder_of_scenarios(self):
-        os.mkdir(self.path('cases'))
-        shutil.copy(bundled('angled45'), self.path('cases/b.yaml'))
-        self.write('cases/a10.csv', '0,0,0,5,0,0,0\n')
-        self.write('cases/a9.csv', '0,0,0,7,0,0,1,3,90,90,91,90,91,91\n')
-        self.write('cases/vehicle.yaml', 'wheelbase: 3\n')
-        self.benchmark('set.cfg', '--scenarios', 'cases', '--output', 'out', '--quiet', '--runs', 1, '--planner',
-                       'improved_astar')
-        runs = self.records('out/benchmark.db')
-        self.assertEqual({run['experiment'] for run in runs}, {'a9', 'a10', 'b'})
-
 
 class GoingOn(BenchmarkTest):
     def has_runs(self, number):
@@ -266,12 +254,6 @@ class GoingOn(BenchmarkTest):
                 self.assertTrue(os.path.exists(self.path('out/angled45.log')))
                 self.assertEqual(self.records('out/benchmark.db', clock=True) == first, arguments == [])
         self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(3 * RUNS // 2,)])
-
-    def test_two_at_a_time_are_refused(self):
-        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        with open(self.path('out/benchmark.db'), 'r+') as stream:
-            fcntl.lockf(stream, fcntl.LOCK_EX, 1, 1 << 62)
-            self.refused_benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet', parts=['another'])
 
 
 class Shards(BenchmarkTest):

@@ -93,14 +93,6 @@ class Outcomes(IsolationTest):
         expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
         self.assert_reasons(self.compare(list(expected), '--no-isolate'), expected)
 
-    def test_with_and_without_isolation_results_agree(self):
-        self.compare(['RRTConnect', 'fine'], '--isolate', '--quiet')
-        apart = self.records('out/benchmark.db')
-        os.rename(self.path('out'), self.path('apart'))
-        self.compare(['RRTConnect', 'fine'], '--no-isolate', '--quiet')
-        self.assertEqual(len(apart), 8)
-        self.assertEqual(self.records('out/benchmark.db'), apart)
-
     def test_settings_are_refused_as_ever(self):
         self.write('set.cfg', CONFIG.format(time=5, planners='fine=\nfine.speed=3\n'))
         for option in ('--isolate', '--no-isolate'):
