@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -18,7 +19,6 @@
 #include <string_view>
 
 #include <glob.h>
-#include <string.h>
 
 namespace fs = std::filesystem;
 
@@ -119,9 +119,9 @@ namespace parking
             return patterns;
         }
 
-        void checkName(const std::string &name)
+        /** A name that becomes part of file names, and a single word in OMPL's logs. */
+        std::string checkedName(const std::string &name)
         {
-            // Names become parts of file names, and single words in OMPL's logs.
             if (name.empty() || name.front() == '.' ||
                 !std::all_of(name.begin(), name.end(),
                              [](unsigned char c) {
@@ -130,6 +130,7 @@ namespace parking
                              }))
                 throw Error("a name must consist of letters, digits and _ . + - *, and " + inQuotes(name) +
                             " does not");
+            return name;
         }
 
         /** What a comparison reads once for each experiment and again for the pictures cannot come through a pipe. */
@@ -140,18 +141,138 @@ namespace parking
                 throw Error(file + ": is a pipe; a comparison reads it more than once, so that it must be a file");
         }
 
-        void setCoordinate(std::optional<Pose> &pose, const std::string &key, const std::string &value)
+        /** A vehicle that is known, so that one that is not is found where its line is. */
+        std::string knownVehicle(const std::string &name)
         {
-            if (!pose)
-                pose.emplace(Pose{NAN, NAN, NAN});
-            (key.back() == 'x' ? pose->x : key.back() == 'y' ? pose->y : pose->yaw) = finiteNumber(key, value);
+            refusePipe(name);
+            if (!name.empty())
+                readVehicle(name);
+            return name;
+        }
+
+        SavePaths savePathsNamed(const std::string &key, const std::string &value)
+        {
+            choiceNamed(key, value, {"none", "shortest", "all"});
+            return value == "all" ? SavePaths::All : value == "shortest" ? SavePaths::Shortest : SavePaths::None;
+        }
+
+        bool isProcessorClock(const std::string &key, const std::string &value)
+        {
+            return choiceNamed(key, value, {"wall", "processor"}) == "processor";
         }
 
         using Text = const std::string &;
 
-        /** Names of keys, and what each sets of the options. */
+        /** What a key sets of the options. */
         template <class Options>
-        using Keys = std::vector<std::pair<std::string, std::function<void(Options &, Text key, Text value)>>>;
+        using Setter = std::function<void(Options &, Text key, Text value)>;
+
+        /** Sets a member to what \e read makes of key and value. */
+        template <class Options, class Member, class Read>
+        Setter<Options> into(Member Options::*member, Read read)
+        {
+            return [=](Options &options, Text key, Text value)
+            {
+                options.*member = read(key, value);
+            };
+        }
+
+        template <class Member, class Read>
+        Setter<ProblemOptions> intoSettings(Member ProblemSettings::*member, Read read)
+        {
+            return [set = into(member, read)](ProblemOptions &options, Text key, Text value)
+            {
+                set(options.settings, key, value);
+            };
+        }
+
+        Setter<ProblemOptions> intoPose(std::optional<Pose> ProblemOptions::*member, double Pose::*coordinate)
+        {
+            return [=](ProblemOptions &options, Text key, Text value)
+            {
+                std::optional<Pose> &pose = options.*member;
+                if (!pose)
+                    pose.emplace(Pose{NAN, NAN, NAN});
+                (*pose).*coordinate = finiteNumber(key, value);
+            };
+        }
+
+        /** Of a reader that names no key. */
+        template <class Read>
+        auto ofValue(Read read)
+        {
+            return [read](Text /*key*/, Text value)
+            {
+                return read(value);
+            };
+        }
+
+        auto positive(double most = std::numeric_limits<double>::infinity())
+        {
+            return [most](Text key, Text value)
+            {
+                return positiveNumber(key, value, most);
+            };
+        }
+
+        auto whole(std::size_t most)
+        {
+            return [most](Text key, Text value)
+            {
+                return wholeNumber(key, value, 1, most);
+            };
+        }
+
+        auto oneOf(const std::vector<std::string> &known)
+        {
+            return [known](Text key, Text value)
+            {
+                return choiceNamed(key, value, known);
+            };
+        }
+
+        template <class Options>
+        using Keys = std::vector<std::pair<std::string, Setter<Options>>>;
+
+        using Problems = ProblemOptions;
+        using Settings = ProblemSettings;
+        const Keys<Problems> PROBLEM_KEYS{
+            {"scenario", {}},  // for messages: readBenchmarkConfig() reads it
+            {"name", into(&Problems::name, ofValue(checkedName))},
+            {"vehicle", into(&Problems::vehicle, ofValue(knownVehicle))},
+            {"space", intoSettings(&Settings::space, ofValue(spaceByName))},
+            {"footprint", intoSettings(&Settings::footprint, ofValue(footprintByName))},
+            {"circle_radius", intoSettings(&Settings::circleRadius, positive())},
+            {"start.x", intoPose(&Problems::start, &Pose::x)},
+            {"start.y", intoPose(&Problems::start, &Pose::y)},
+            {"start.theta", intoPose(&Problems::start, &Pose::yaw)},
+            {"goal.x", intoPose(&Problems::goal, &Pose::x)},
+            {"goal.y", intoPose(&Problems::goal, &Pose::y)},
+            {"goal.theta", intoPose(&Problems::goal, &Pose::yaw)},
+            {"volume.min.x", into(&Problems::minX, finiteNumber)},
+            {"volume.min.y", into(&Problems::minY, finiteNumber)},
+            {"volume.max.x", into(&Problems::maxX, finiteNumber)},
+            {"volume.max.y", into(&Problems::maxY, finiteNumber)},
+            {"objective",
+             [](Problems &, Text key, Text value)
+             {
+                 choiceNamed(key, value, {"length"});
+             }},
+            {"threshold", intoSettings(&Settings::threshold, positive())},
+            {"sampler", into(&Problems::sampler, oneOf({"uniform", "gaussian", "obstacle_based", "bridge_test"}))}};
+
+        using Config = BenchmarkConfig;
+        const Keys<Config> BENCHMARK_KEYS{
+            {"time_limit", into(&Config::timeLimit, positive(LONGEST_RUN))},
+            {"mem_limit", into(&Config::memoryLimit, positive())},
+            {"run_count", into(&Config::runCount, whole(1000000))},
+            {"output", into(&Config::output, ofValue([](Text value) { return value; }))},
+            {"save_paths", into(&Config::savePaths, savePathsNamed)},
+            {"seed", into(&Config::seed, whole(std::numeric_limits<std::uint32_t>::max()))},
+            {"simplify", into(&Config::simplify, switchNamed)},
+            {"track", into(&Config::track, switchNamed)},
+            {"trajectory", into(&Config::trajectory, switchNamed)},
+            {"clock", into(&Config::processorTime, isProcessorClock)}};
 
         /** \param section for the message that there is no such key in it */
         template <class Options>
@@ -166,146 +287,6 @@ namespace parking
             }
             throw Error(unknownName("key of " + section, key, names));
         }
-
-        using Problems = ProblemOptions;
-        using Config = BenchmarkConfig;
-
-        void setStart(Problems &options, Text key, Text value)
-        {
-            setCoordinate(options.start, key, value);
-        }
-
-        void setGoal(Problems &options, Text key, Text value)
-        {
-            setCoordinate(options.goal, key, value);
-        }
-
-        const Keys<Problems> PROBLEM_KEYS{
-            {"name",
-             [](Problems &options, Text, Text value)
-             {
-                 checkName(value);
-                 options.name = value;
-             }},
-            {"vehicle",
-             [](Problems &options, Text, Text value)
-             {
-                 refusePipe(value);
-                 if (!value.empty())
-                     readVehicle(value);  // so that one that is not known is found here, where its line is
-                 options.vehicle = value;
-             }},
-            {"space",
-             [](Problems &options, Text, Text value)
-             {
-                 options.settings.space = spaceByName(value);
-             }},
-            {"footprint",
-             [](Problems &options, Text, Text value)
-             {
-                 options.settings.footprint = footprintByName(value);
-             }},
-            {"circle_radius",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.settings.circleRadius = positiveNumber(key, value);
-             }},
-            {"start.x", setStart},
-            {"start.y", setStart},
-            {"start.theta", setStart},
-            {"goal.x", setGoal},
-            {"goal.y", setGoal},
-            {"goal.theta", setGoal},
-            {"volume.min.x",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.minX = finiteNumber(key, value);
-             }},
-            {"volume.min.y",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.minY = finiteNumber(key, value);
-             }},
-            {"volume.max.x",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.maxX = finiteNumber(key, value);
-             }},
-            {"volume.max.y",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.maxY = finiteNumber(key, value);
-             }},
-            {"objective",
-             [](Problems &, Text key, Text value)
-             {
-                 choiceNamed(key, value, {"length"});
-             }},
-            {"threshold",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.settings.threshold = positiveNumber(key, value);
-             }},
-            {"sampler",
-             [](Problems &options, Text key, Text value)
-             {
-                 options.sampler = choiceNamed(key, value, {"uniform", "gaussian", "obstacle_based", "bridge_test"});
-             }},
-            {"scenario", {}}};  // for messages: readBenchmarkConfig() reads it
-
-        const Keys<Config> BENCHMARK_KEYS{
-            {"time_limit",
-             [](Config &config, Text key, Text value)
-             {
-                 config.timeLimit = positiveNumber(key, value, LONGEST_RUN);
-             }},
-            {"mem_limit",
-             [](Config &config, Text key, Text value)
-             {
-                 config.memoryLimit = positiveNumber(key, value);
-             }},
-            {"run_count",
-             [](Config &config, Text key, Text value)
-             {
-                 config.runCount = wholeNumber(key, value, 1, 1000000);
-             }},
-            {"output",
-             [](Config &config, Text, Text value)
-             {
-                 config.output = value;
-             }},
-            {"save_paths",
-             [](Config &config, Text key, Text value)
-             {
-                 choiceNamed(key, value, {"none", "shortest", "all"});
-                 config.savePaths = value == "all"        ? SavePaths::All
-                                    : value == "shortest" ? SavePaths::Shortest
-                                                          : SavePaths::None;
-             }},
-            {"seed",
-             [](Config &config, Text key, Text value)
-             {
-                 config.seed = wholeNumber(key, value, 1, std::numeric_limits<std::uint32_t>::max());
-             }},
-            {"simplify",
-             [](Config &config, Text key, Text value)
-             {
-                 config.simplify = switchNamed(key, value);
-             }},
-            {"track",
-             [](Config &config, Text key, Text value)
-             {
-                 config.track = switchNamed(key, value);
-             }},
-            {"trajectory",
-             [](Config &config, Text key, Text value)
-             {
-                 config.trajectory = switchNamed(key, value);
-             }},
-            {"clock", [](Config &config, Text key, Text value)
-             {
-                 config.processorTime = choiceNamed(key, value, {"wall", "processor"}) == "processor";
-             }}};
 
         std::string uniqueName(const BenchmarkConfig &config, const std::string &wanted, std::size_t self)
         {
@@ -347,8 +328,7 @@ namespace parking
             line.noteOnce(spec.lines, parameter);
             if (parameter == "name")
             {
-                checkName(value);
-                spec.name = value;
+                spec.name = checkedName(value);
                 if (uniqueName(config, value, config.planners.size() - 1) != value)
                     throw Error("there is already a planner called " + inQuotes(value));
             }
