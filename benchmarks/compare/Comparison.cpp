@@ -9,7 +9,6 @@
 #include "benchmarks/system/LongStep.h"
 #include "benchmarks/system/Machine.h"
 #include "benchmarks/system/Progress.h"
-#include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 #include "parking_geometry/text/WriteFile.h"
@@ -215,11 +214,7 @@ namespace parking
 
     std::vector<Row> Comparison::experimentsOf(UnitRunner &runner) const
     {
-        const std::string cpu = []
-        {
-            const QuietChildren quiet;
-            return ompl::machine::getCPUInfo();
-        }();
+        const std::string cpu = ompl::machine::getCPUInfo();
         std::vector<Row> rows = experimentRows();
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
@@ -235,23 +230,12 @@ namespace parking
         return rows;
     }
 
-    void Comparison::requireNoEarlierFormat() const
-    {
-        std::error_code ignored;
-        if (const std::string runs = (fs::path(folder_) / "runs.jsonl").string();
-            !options_.fresh && fs::exists(runs, ignored) && !fs::exists(database(), ignored))
-            throw Error(runs +
-                        ": results of an earlier version of parking_benchmark, which this one cannot read; name "
-                        "another --output, or start over with --fresh");
-    }
-
     bool Comparison::run(const std::atomic<bool> &stop)
     {
         UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
         tellUnsolvable(runner);
         makeFolder(folder_);
-        requireNoEarlierFormat();
         store_ = std::make_unique<RunStore>(database());
         if (options_.fresh)
             store_->forget();
@@ -315,7 +299,6 @@ namespace parking
 
     void Comparison::mergeParts()
     {
-        requireNoEarlierFormat();
         const std::vector<std::string> files = parts();
         if (files.empty() && !fs::exists(database()))
             throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
@@ -344,16 +327,14 @@ namespace parking
         store_->describe(experimentRows());
     }
 
-    void Comparison::writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
-                                     ComparisonFiles &files) const
+    void Comparison::writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records) const
     {
         const fs::path folder(folder_);
         std::map<std::string, std::vector<const RunRecord *>> runs;  // by planner
         for (const RunRecord &record : records)
             runs[record.planner].push_back(&record);
-        const std::string log = (folder / (experiment.name + ".log")).string();
-        writeFileAtomically(log, omplLog(store_->database(), experiment.name));
-        files.logs.push_back(log);
+        writeFileAtomically((folder / (experiment.name + ".log")).string(),
+                            omplLog(store_->database(), experiment.name));
 
         const Scenario scenario = experiment.scenario();
         std::vector<std::pair<std::string, const RunRecord *>> best;
@@ -370,20 +351,18 @@ namespace parking
                             .string(),
                         pathCsv(scenario, *record));
         }
-        const std::string picture = (folder / "pictures" / (experiment.name + ".svg")).string();
-        writeFileAtomically(picture, comparisonSvg(scenario, experiment.name, best));
-        files.pictures.push_back(picture);
+        writeFileAtomically((folder / "pictures" / (experiment.name + ".svg")).string(),
+                            comparisonSvg(scenario, experiment.name, best));
     }
 
-    ComparisonFiles Comparison::write()
+    ComparisonResult Comparison::write()
     {
         if (options_.merge)
             mergeParts();
         std::optional<LongStep> step;
         if (!options_.quiet)
             step.emplace("writing the results");
-        ComparisonFiles files;
-        files.database = database();
+        ComparisonResult result;
         const fs::path folder(folder_);
         removeRemains(folder);
         makeFolder((folder / "pictures").string());
@@ -396,7 +375,7 @@ namespace parking
             // One after the other, as there may be very many runs.
             const std::vector<RunRecord> records = store_->read(experiment.name);
             const std::size_t expected = experiment.planners.size() * config_.runCount;
-            files.missing += expected - std::min(expected, records.size());
+            result.missing += expected - std::min(expected, records.size());
             if (records.empty())
                 continue;
             for (SummaryRow &row : summarize(config_, {experiment}, records))
@@ -404,24 +383,28 @@ namespace parking
             std::copy_if(records.begin(), records.end(), std::back_inserter(failed),
                          [](const RunRecord &record)
                          { return isFailure(record.outcome().value_or(PlanStatus::Timeout)); });
-            writeExperiment(experiment, records, files);
+            writeExperiment(experiment, records);
         }
         const std::string failures = failuresText(failed);
-        summary_ = summaryText(summaryRows) + failures;
-        files.table = (folder / "summary.md").string();
-        writeFileAtomically(files.table, summaryMarkdown(summaryRows) + failures);
-        files.csv = (folder / "summary.csv").string();
-        writeFileAtomically(files.csv, summaryCsv(summaryRows));
+        const auto nameOf = [&folder](const char *name)
+        {
+            return (folder / name).string();
+        };
+        writeFileAtomically(nameOf("summary.md"), summaryMarkdown(summaryRows) + failures);
+        writeFileAtomically(nameOf("summary.csv"), summaryCsv(summaryRows));
+        result.text = summaryText(summaryRows) + failures + "\nResults:\n    " + database() +
+                      " (Planner Arena opens it)\n    " + nameOf("summary.md") + "\n    " + nameOf("summary.csv") +
+                      "\n    " + nameOf("*.log") + " (of OMPL)\n    " + nameOf("pictures") + "\n";
         // Last, and whatever happens to it does not harm the results.
         try
         {
-            if (options_.report)
-                files.report = makeReport(folder_);
+            if (const std::string report = options_.report ? makeReport(folder_) : ""; !report.empty())
+                result.text += "    " + report + "\n";
         }
         catch (const Error &error)
         {
-            files.reportError = error.what();
+            result.reportError = error.what();
         }
-        return files;
+        return result;
     }
 }  // namespace parking

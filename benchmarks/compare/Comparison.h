@@ -16,18 +16,12 @@
 
 namespace parking
 {
-    /** \brief What a comparison left in its folder. */
-    struct ComparisonFiles
+    /** \brief What is to be said of a comparison. */
+    struct ComparisonResult
     {
-        std::string folder;                 ///< of all results
-        std::vector<std::string> logs;      ///< OMPL's logs, one for each experiment with runs
-        std::string database;               ///< SQLite, in OMPL's schema
-        std::string table;                  ///< Markdown
-        std::string csv;                    ///< the same table with all figures
-        std::string report;                 ///< HTML; empty when there is no python3 to make it
-        std::string reportError;            ///< why there is none although there should be
-        std::vector<std::string> pictures;  ///< SVG, one for each experiment with runs
-        std::size_t missing{0};             ///< runs that are not there
+        std::string text;         ///< the table for the terminal, and the files that were written
+        std::string reportError;  ///< why there is no report although there should be
+        std::size_t missing{0};   ///< runs that are not there
     };
 
     /** \brief A comparison from beginning to end: configuration, runs, results. */
@@ -49,20 +43,12 @@ namespace parking
             pictures and report. Each replaces what was there once it is whole, so that it can be done again at any
             time; what killed processes have left unfinished goes away. Throws parking::Error, also while another
             process does the same in the folder. */
-        ComparisonFiles write();
+        ComparisonResult write();
 
         /** \brief The database of this shard's runs. */
         std::string database() const;
 
-        /** \brief The table for the terminal, of what write() has put together. */
-        const std::string &summary() const
-        {
-            return summary_;
-        }
-
     private:
-        /** Throws when the folder has results that this version does not know. */
-        void requireNoEarlierFormat() const;
         /** Throws when something that is read would be written over. */
         void protectInputs() const;
         /** Says which experiments nobody can solve, and why. */
@@ -79,8 +65,7 @@ namespace parking
         std::vector<std::string> parts() const;
         void mergeParts();
         /** Log, paths and picture. */
-        void writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records,
-                             ComparisonFiles &files) const;
+        void writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records) const;
 
         BenchmarkOptions options_;
         const PlannerRegistry &registry_;
@@ -88,6 +73,5 @@ namespace parking
         std::vector<Experiment> experiments_;
         std::string folder_;
         std::unique_ptr<RunStore> store_;
-        std::string summary_;
     };
 }  // namespace parking

@@ -8,12 +8,10 @@
 #include "benchmarks/planners/SettingError.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/system/ProcessorTime.h"
-#include "benchmarks/system/QuietChildren.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
 #include <ompl/tools/benchmark/Benchmark.h>
-#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <chrono>
@@ -39,25 +37,6 @@ namespace parking
         constexpr double SOLVE_SHARE = 3.0, SOLVE_GRACE = 2.0;  // of the time limit; seconds more
         // The same for all that is done with its path: simplification and drive take long.
         constexpr double MEASURE_SHARE = 10.0, MEASURE_GRACE = 60.0;
-
-        /** While it lives OMPL says nothing. */
-        class Quiet
-        {
-        public:
-            Quiet() : handler_(ompl::msg::getOutputHandler())
-            {
-                ompl::msg::noOutputHandler();
-            }
-            ~Quiet()
-            {
-                ompl::msg::useOutputHandler(handler_);
-            }
-            Quiet(const Quiet &) = delete;
-            Quiet &operator=(const Quiet &) = delete;
-
-        private:
-            ompl::msg::OutputHandler *handler_;
-        };
 
         RunRecord failedRun(RunRecord record, PlanStatus outcome, const std::string &reason)
         {
@@ -435,8 +414,6 @@ namespace parking
             prepared.measured->setStop(&stop_);
         }
 
-        // Not while the planner is at work: what it starts may have something to say.
-        std::optional<QuietChildren> quiet(std::in_place);
         ompl::tools::Benchmark benchmark(*prepared.setup, record.experiment);
         benchmark.addPlanner(prepared.planner);
         // clear() has thrown samplers away; those that solve() makes shall not depend on how many were made before. And
@@ -447,7 +424,6 @@ namespace parking
             {
                 seedRandomNumbers(seed);
                 world.resetCounts();
-                quiet.reset();
                 memory.begin();
             });
         std::exception_ptr failure;
@@ -455,7 +431,6 @@ namespace parking
             [&](const ob::PlannerPtr &, std::map<std::string, std::string> &properties)
             {
                 record.set("peak memory", memory.megabytes());
-                quiet.emplace();
                 solved();
                 takeOmplProperties(record, properties);
                 try
@@ -469,7 +444,6 @@ namespace parking
             });
         ompl::tools::Benchmark::Request request(patience(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
                                                 false);
-        const Quiet nothingToTell;
         benchmark.benchmark(request);
 
         if (failure)

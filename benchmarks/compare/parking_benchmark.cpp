@@ -8,7 +8,6 @@
 
 #include <ompl/util/Console.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <iostream>
@@ -45,26 +44,6 @@ namespace
         _exit(INTERRUPTED);
     }
 
-    /** Names files; of many in one folder only the folder. */
-    void list(const std::string &title, const std::vector<std::string> &files)
-    {
-        constexpr std::size_t MANY = 4;
-        const auto folderOf = [](const std::string &file)
-        {
-            return file.substr(0, file.rfind('/') + 1);
-        };
-        const bool oneFolder =
-            std::all_of(files.begin(), files.end(),
-                        [&](const std::string &file) { return folderOf(file) == folderOf(files.front()); });
-        std::cout << title << ":\n";
-        if (files.size() >= MANY && oneFolder)
-            std::cout << "    " << folderOf(files.front()) << "*" << files.front().substr(files.front().rfind('.'))
-                      << " (" << files.size() << ")\n";
-        else
-            for (const std::string &file : files)
-                std::cout << "    " << file << "\n";
-    }
-
     int compare(const std::vector<std::string> &arguments)
     {
         using namespace parking;
@@ -96,22 +75,16 @@ namespace
                 return DONE;
             }
         }
-        const ComparisonFiles files = comparison.write();
-        std::cout << comparison.summary() << "\n";
-        list("Logs", files.logs);
-        list("Database (Planner Arena opens it)", {files.database});
-        list("Tables", {files.table, files.csv});
-        list("Pictures", files.pictures);
-        if (!files.report.empty())
-            list("Report", {files.report});
+        const ComparisonResult result = comparison.write();
+        std::cout << result.text;
         if (!std::cout.flush())
             throw Error("standard output cannot be written");
-        if (!files.reportError.empty())
-            std::cerr << "parking_benchmark: " << files.reportError << std::endl;
-        if (files.missing > 0)
-            std::cerr << "parking_benchmark: " << files.missing << " runs are missing; the results hold what there is"
+        if (!result.reportError.empty())
+            std::cerr << "parking_benchmark: " << result.reportError << std::endl;
+        if (result.missing > 0)
+            std::cerr << "parking_benchmark: " << result.missing << " runs are missing; the results hold what there is"
                       << std::endl;
-        return files.missing > 0 || !files.reportError.empty() ? INCOMPLETE : DONE;
+        return result.missing > 0 || !result.reportError.empty() ? INCOMPLETE : DONE;
     }
 }  // namespace
 

@@ -1,7 +1,5 @@
 #include "benchmarks/config/BenchmarkConfig.h"
 
-#include "benchmarks/config/ConfigChecks.h"
-#include "benchmarks/config/ConfigLines.h"
 #include "benchmarks/system/CommandLine.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -12,11 +10,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
-#include <tuple>
+#include <string_view>
 
 #include <glob.h>
 
@@ -26,14 +26,58 @@ namespace parking
 {
     namespace
     {
-        const std::vector<std::string> PROBLEM_KEYS{
-            "scenario",     "name",         "vehicle",   "space",     "footprint",  "circle_radius", "start.x",
-            "start.y",      "start.theta",  "goal.x",    "goal.y",    "goal.theta", "volume.min.x",  "volume.min.y",
-            "volume.max.x", "volume.max.y", "objective", "threshold", "sampler"};
-        const std::vector<std::string> BENCHMARK_KEYS{"time_limit", "mem_limit", "run_count", "output",
-                                                      "save_paths", "seed",      "simplify",  "track",
-                                                      "trajectory", "clock"};
-        const std::vector<std::string> SAMPLERS{"uniform", "gaussian", "obstacle_based", "bridge_test"};
+        constexpr std::size_t CONFIG_LIMIT = std::size_t(1) << 20;  // bytes
+
+        /** A line "key = value" of a .cfg file. */
+        struct ConfigLine
+        {
+            std::string section;  ///< that it is in, without brackets
+            std::string key;      ///< before the first equals sign
+            std::string value;    ///< behind it
+            std::string where;    ///< "FILE:LINE: ", with which messages begin
+
+            /** Notes in \e known that \e name is set here. Throws parking::Error naming both lines when it is there
+                already: of two values one would be ignored. */
+            void noteOnce(std::map<std::string, std::string> &known, const std::string &name) const
+            {
+                const auto [first, isNew] = known.emplace(name, where);
+                if (!isNew)
+                    throw Error(inQuotes(key) + " is given twice, first at " +
+                                first->second.substr(0, first->second.rfind(": ")) + "; leave one of them out");
+            }
+        };
+
+        std::vector<ConfigLine> readConfigLines(const std::string &file)
+        {
+            const std::vector<std::string> known{"[problem]", "[benchmark]", "[planner]"};
+            std::vector<ConfigLine> lines;
+            std::istringstream stream(readFile(file, CONFIG_LIMIT));
+            std::string line, section;
+            for (std::size_t number = 1; std::getline(stream, line); ++number)
+            {
+                const std::string where = file + ":" + std::to_string(number) + ": ";
+                const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
+                const std::size_t sign = content.find('=');
+                if (content.empty())
+                    continue;
+                if (content.front() == '[')
+                {
+                    section = std::string(content);
+                    if (std::find(known.begin(), known.end(), section) == known.end())
+                        throw Error(where + unknownName("section", section, known));
+                }
+                else if (sign == std::string_view::npos)
+                    throw Error(where + "expected 'key = value' or '[section]', not " + inQuotes(content));
+                else if (section.empty())
+                    throw Error(where + "the key " + inQuotes(content) +
+                                " is in no section; expected [problem], [benchmark] or [planner] before it");
+                else
+                    lines.push_back({section.substr(1, section.size() - 2),
+                                     std::string(trimmed(content.substr(0, sign))),
+                                     std::string(trimmed(content.substr(sign + 1))), where});
+            }
+            return lines;
+        }
 
         double finiteNumber(const std::string &name, const std::string &text)
         {
@@ -75,39 +119,173 @@ namespace parking
             return patterns;
         }
 
-        void setBenchmarkOption(BenchmarkConfig &config, const std::string &key, const std::string &value)
+        /** A name that becomes part of file names, and a single word in OMPL's logs. */
+        std::string checkedName(const std::string &name)
         {
-            if (key == "time_limit")
-                config.timeLimit = positiveNumber(key, value, LONGEST_RUN);
-            else if (key == "mem_limit")
-                config.memoryLimit = positiveNumber(key, value);
-            else if (key == "run_count")
-                config.runCount = wholeNumber(key, value, 1, 1000000);
-            else if (key == "output")
-                config.output = value;
-            else if (key == "save_paths")
+            if (name.empty() || name.front() == '.' ||
+                !std::all_of(name.begin(), name.end(),
+                             [](unsigned char c) {
+                                 return std::isalnum(c) != 0 ||
+                                        std::string("_.+-*").find(static_cast<char>(c)) != std::string::npos;
+                             }))
+                throw Error("a name must consist of letters, digits and _ . + - *, and " + inQuotes(name) +
+                            " does not");
+            return name;
+        }
+
+        /** What a comparison reads once for each experiment and again for the pictures cannot come through a pipe. */
+        void refusePipe(const std::string &file)
+        {
+            std::error_code ignored;
+            if (fs::is_fifo(file, ignored) || fs::is_socket(file, ignored))
+                throw Error(file + ": is a pipe; a comparison reads it more than once, so that it must be a file");
+        }
+
+        /** A vehicle that is known, so that one that is not is found where its line is. */
+        std::string knownVehicle(const std::string &name)
+        {
+            refusePipe(name);
+            if (!name.empty())
+                readVehicle(name);
+            return name;
+        }
+
+        SavePaths savePathsNamed(const std::string &key, const std::string &value)
+        {
+            choiceNamed(key, value, {"none", "shortest", "all"});
+            return value == "all" ? SavePaths::All : value == "shortest" ? SavePaths::Shortest : SavePaths::None;
+        }
+
+        bool isProcessorClock(const std::string &key, const std::string &value)
+        {
+            return choiceNamed(key, value, {"wall", "processor"}) == "processor";
+        }
+
+        using Text = const std::string &;
+
+        /** What a key sets of the options. */
+        template <class Options>
+        using Setter = std::function<void(Options &, Text key, Text value)>;
+
+        /** Sets a member to what \e read makes of key and value. */
+        template <class Options, class Member, class Read>
+        Setter<Options> into(Member Options::*member, Read read)
+        {
+            return [=](Options &options, Text key, Text value)
             {
-                choiceNamed(key, value, {"none", "shortest", "all"});
-                config.savePaths = value == "all"        ? SavePaths::All
-                                   : value == "shortest" ? SavePaths::Shortest
-                                                         : SavePaths::None;
-            }
-            else if (key == "seed")
-                config.seed = wholeNumber(key, value, 1, std::numeric_limits<std::uint32_t>::max());
-            else if (key == "simplify")
-                config.simplify = switchNamed(key, value);
-            else if (key == "clock")
+                options.*member = read(key, value);
+            };
+        }
+
+        template <class Member, class Read>
+        Setter<ProblemOptions> intoSettings(Member ProblemSettings::*member, Read read)
+        {
+            return [set = into(member, read)](ProblemOptions &options, Text key, Text value)
             {
-                if (value != "wall" && value != "processor")
-                    throw Error(unknownName("clock", value, {"wall", "processor"}));
-                config.processorTime = value == "processor";
+                set(options.settings, key, value);
+            };
+        }
+
+        Setter<ProblemOptions> intoPose(std::optional<Pose> ProblemOptions::*member, double Pose::*coordinate)
+        {
+            return [=](ProblemOptions &options, Text key, Text value)
+            {
+                std::optional<Pose> &pose = options.*member;
+                if (!pose)
+                    pose.emplace(Pose{NAN, NAN, NAN});
+                (*pose).*coordinate = finiteNumber(key, value);
+            };
+        }
+
+        /** Of a reader that names no key. */
+        template <class Read>
+        auto ofValue(Read read)
+        {
+            return [read](Text /*key*/, Text value)
+            {
+                return read(value);
+            };
+        }
+
+        auto positive(double most = std::numeric_limits<double>::infinity())
+        {
+            return [most](Text key, Text value)
+            {
+                return positiveNumber(key, value, most);
+            };
+        }
+
+        auto whole(std::size_t most)
+        {
+            return [most](Text key, Text value)
+            {
+                return wholeNumber(key, value, 1, most);
+            };
+        }
+
+        auto oneOf(const std::vector<std::string> &known)
+        {
+            return [known](Text key, Text value)
+            {
+                return choiceNamed(key, value, known);
+            };
+        }
+
+        template <class Options>
+        using Keys = std::vector<std::pair<std::string, Setter<Options>>>;
+
+        using Problems = ProblemOptions;
+        using Settings = ProblemSettings;
+        const Keys<Problems> PROBLEM_KEYS{
+            {"scenario", {}},  // for messages: readBenchmarkConfig() reads it
+            {"name", into(&Problems::name, ofValue(checkedName))},
+            {"vehicle", into(&Problems::vehicle, ofValue(knownVehicle))},
+            {"space", intoSettings(&Settings::space, ofValue(spaceByName))},
+            {"footprint", intoSettings(&Settings::footprint, ofValue(footprintByName))},
+            {"circle_radius", intoSettings(&Settings::circleRadius, positive())},
+            {"start.x", intoPose(&Problems::start, &Pose::x)},
+            {"start.y", intoPose(&Problems::start, &Pose::y)},
+            {"start.theta", intoPose(&Problems::start, &Pose::yaw)},
+            {"goal.x", intoPose(&Problems::goal, &Pose::x)},
+            {"goal.y", intoPose(&Problems::goal, &Pose::y)},
+            {"goal.theta", intoPose(&Problems::goal, &Pose::yaw)},
+            {"volume.min.x", into(&Problems::minX, finiteNumber)},
+            {"volume.min.y", into(&Problems::minY, finiteNumber)},
+            {"volume.max.x", into(&Problems::maxX, finiteNumber)},
+            {"volume.max.y", into(&Problems::maxY, finiteNumber)},
+            {"objective",
+             [](Problems &, Text key, Text value)
+             {
+                 choiceNamed(key, value, {"length"});
+             }},
+            {"threshold", intoSettings(&Settings::threshold, positive())},
+            {"sampler", into(&Problems::sampler, oneOf({"uniform", "gaussian", "obstacle_based", "bridge_test"}))}};
+
+        using Config = BenchmarkConfig;
+        const Keys<Config> BENCHMARK_KEYS{
+            {"time_limit", into(&Config::timeLimit, positive(LONGEST_RUN))},
+            {"mem_limit", into(&Config::memoryLimit, positive())},
+            {"run_count", into(&Config::runCount, whole(1000000))},
+            {"output", into(&Config::output, ofValue([](Text value) { return value; }))},
+            {"save_paths", into(&Config::savePaths, savePathsNamed)},
+            {"seed", into(&Config::seed, whole(std::numeric_limits<std::uint32_t>::max()))},
+            {"simplify", into(&Config::simplify, switchNamed)},
+            {"track", into(&Config::track, switchNamed)},
+            {"trajectory", into(&Config::trajectory, switchNamed)},
+            {"clock", into(&Config::processorTime, isProcessorClock)}};
+
+        /** \param section for the message that there is no such key in it */
+        template <class Options>
+        void setByKey(const Keys<Options> &keys, const std::string &section, Options &options, Text key, Text value)
+        {
+            std::vector<std::string> names;
+            for (const auto &[name, set] : keys)
+            {
+                if (name == key)
+                    return set(options, key, value);
+                names.push_back(name);
             }
-            else if (key == "track")
-                config.track = switchNamed(key, value);
-            else if (key == "trajectory")
-                config.trajectory = switchNamed(key, value);
-            else
-                throw Error(unknownName("key of [benchmark]", key, BENCHMARK_KEYS));
+            throw Error(unknownName("key of " + section, key, names));
         }
 
         std::string uniqueName(const BenchmarkConfig &config, const std::string &wanted, std::size_t self)
@@ -122,19 +300,6 @@ namespace parking
                     return name;
                 name = wanted + "_" + std::to_string(number);
             }
-        }
-
-        void checkName(const std::string &name)
-        {
-            // Names become parts of file names, and single words in OMPL's logs.
-            if (name.empty() || name.front() == '.' ||
-                !std::all_of(name.begin(), name.end(),
-                             [](unsigned char c) {
-                                 return std::isalnum(c) != 0 ||
-                                        std::string("_.+-*").find(static_cast<char>(c)) != std::string::npos;
-                             }))
-                throw Error("a name must consist of letters, digits and _ . + - *, and " + inQuotes(name) +
-                            " does not");
         }
 
         /** One line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the latest one. */
@@ -163,8 +328,7 @@ namespace parking
             line.noteOnce(spec.lines, parameter);
             if (parameter == "name")
             {
-                checkName(value);
-                spec.name = value;
+                spec.name = checkedName(value);
                 if (uniqueName(config, value, config.planners.size() - 1) != value)
                     throw Error("there is already a planner called " + inQuotes(value));
             }
@@ -174,17 +338,9 @@ namespace parking
                 throw Error("the scenario cannot be changed for one planner only; '" + key.substr(0, dot) +
                             ".only' says on which of them it is run");
             else if (parameter.compare(0, 8, "problem.") == 0)
-                setProblemOption(spec.problem, parameter.substr(8), value);
+                setByKey(PROBLEM_KEYS, "[problem]", spec.problem, parameter.substr(8), value);
             else
                 spec.settings.emplace_back(parameter, value);
-        }
-
-        /** What a comparison reads once for each experiment and again for the pictures cannot come through a pipe. */
-        void refusePipe(const std::string &file)
-        {
-            std::error_code ignored;
-            if (fs::is_fifo(file, ignored) || fs::is_socket(file, ignored))
-                throw Error(file + ": is a pipe; a comparison reads it more than once, so that it must be a file");
         }
 
         /** Maps and vehicles are YAML files too: a scenario is one that has a start. */
@@ -212,53 +368,79 @@ namespace parking
             return files;
         }
 
-        /** case2 before case10. */
-        bool naturallyBefore(const std::string &a, const std::string &b)
+        void requireWholePoses(const BenchmarkConfig &config, const PlannerSpec &spec)
         {
-            std::size_t i = 0, j = 0;
-            const auto digit = [](char c)
+            for (const bool isStart : {true, false})
             {
-                return std::isdigit(static_cast<unsigned char>(c)) != 0;
-            };
-            while (i < a.size() && j < b.size())
-            {
-                if (!digit(a[i]) || !digit(b[j]))
-                {
-                    if (a[i] != b[j])
-                        return a[i] < b[j];
-                    ++i;
-                    ++j;
+                const std::optional<Pose> &pose = isStart ? spec.problem.start : spec.problem.goal;
+                if (!pose || isFinite(*pose))
                     continue;
-                }
-                const auto skip = [&digit](const std::string &text, std::size_t &at)
-                {
-                    while (at < text.size() && text[at] == '0')
-                        ++at;
-                    const std::size_t begin = at;
-                    while (at < text.size() && digit(text[at]))
-                        ++at;
-                    return text.substr(begin, at - begin);
-                };
-                const std::string first = skip(a, i), second = skip(b, j);
-                if (first != second)
-                    return std::make_tuple(first.size(), first) < std::make_tuple(second.size(), second);
+                const std::string name = isStart ? "start" : "goal", key = "problem." + name;
+                const char *missing = !std::isfinite(pose->x) ? ".x" : !std::isfinite(pose->y) ? ".y" : ".theta";
+                throw Error(config.lineOf(spec, {key + ".x", key + ".y", key + ".theta"}) + name +
+                            " must be given with all of x, y and theta, and " + name + missing + " is missing");
             }
-            return a.size() - i < b.size() - j;
+        }
+
+        void requireVolume(const BenchmarkConfig &config, const PlannerSpec &spec)
+        {
+            const ProblemOptions &p = spec.problem;
+            const auto require =
+                [&](const char *axis, const std::optional<double> &least, const std::optional<double> &most)
+            {
+                const std::string low = std::string("volume.min.") + axis, high = std::string("volume.max.") + axis;
+                if (least && most && !(*least < *most))
+                    throw Error(config.lineOf(spec, {"problem." + high, "problem." + low}) + high +
+                                " must be greater than " + low + ", " + formatNumber(*least) + ", not " +
+                                formatNumber(*most));
+            };
+            require("x", p.minX, p.maxX);
+            require("y", p.minY, p.maxY);
+        }
+
+        /** A radius that no circle has would be ignored. */
+        void requireCircles(const BenchmarkConfig &config)
+        {
+            const std::string key = "problem.circle_radius";
+            const auto isCircle = [](const PlannerSpec &spec)
+            {
+                return spec.problem.settings.footprint == FootprintKind::Circle;
+            };
+            const auto refuse = [](const std::string &line)
+            {
+                throw Error(line +
+                            "circle_radius is the circle's, and the footprint is a rectangle; set footprint = "
+                            "circle, too");
+            };
+            for (const PlannerSpec &spec : config.planners)
+                if (spec.lines.count(key) > 0 && !isCircle(spec))
+                    refuse(spec.lines.at(key));
+            if (const auto common = config.problemLines.find(key);
+                common != config.problemLines.end() &&
+                std::none_of(config.planners.begin(), config.planners.end(), isCircle))
+                refuse(common->second);
+        }
+
+        /** What single keys do not show: does all that is said of the problem, to all planners and to each, go
+            together? */
+        void requireFittingSettings(const BenchmarkConfig &config)
+        {
+            requireCircles(config);
+            for (const PlannerSpec &spec : config.planners)
+            {
+                requireWholePoses(config, spec);
+                requireVolume(config, spec);
+                try
+                {
+                    checkSettings(spec.problem.settings);
+                }
+                catch (const Error &error)
+                {
+                    throw Error(config.lineOf(spec, {"problem.footprint", "problem.space"}) + error.what());
+                }
+            }
         }
     }  // namespace
-
-    bool ProblemOptions::operator==(const ProblemOptions &other) const
-    {
-        const auto poses = [](const std::optional<Pose> &a, const std::optional<Pose> &b)
-        {
-            return a.has_value() == b.has_value() && (!a || (a->x == b->x && a->y == b->y && a->yaw == b->yaw));
-        };
-        return name == other.name && vehicle == other.vehicle && settings.space == other.settings.space &&
-               settings.footprint == other.settings.footprint && settings.circleRadius == other.settings.circleRadius &&
-               poses(start, other.start) && poses(goal, other.goal) && minX == other.minX && minY == other.minY &&
-               maxX == other.maxX && maxY == other.maxY && settings.threshold == other.settings.threshold &&
-               sampler == other.sampler;
-    }
 
     std::string BenchmarkConfig::lineOf(const PlannerSpec &planner, const std::vector<std::string> &keys) const
     {
@@ -270,54 +452,6 @@ namespace parking
         return added == planner.lines.end() ? file + ": " : added->second;
     }
 
-    void setProblemOption(ProblemOptions &options, const std::string &key, const std::string &value)
-    {
-        const auto part = [&](std::optional<Pose> &pose)
-        {
-            if (!pose)
-                pose.emplace(Pose{NAN, NAN, NAN});
-            (key.back() == 'x' ? pose->x : key.back() == 'y' ? pose->y : pose->yaw) = finiteNumber(key, value);
-        };
-        if (key == "name")
-        {
-            checkName(value);
-            options.name = value;
-        }
-        else if (key == "vehicle")
-        {
-            refusePipe(value);
-            if (!value.empty())
-                readVehicle(value);  // so that one that is not known is found here, where its line is
-            options.vehicle = value;
-        }
-        else if (key == "space")
-            options.settings.space = spaceByName(value);
-        else if (key == "footprint")
-            options.settings.footprint = footprintByName(value);
-        else if (key == "circle_radius")
-            options.settings.circleRadius = positiveNumber(key, value);
-        else if (key == "start.x" || key == "start.y" || key == "start.theta")
-            part(options.start);
-        else if (key == "goal.x" || key == "goal.y" || key == "goal.theta")
-            part(options.goal);
-        else if (key == "volume.min.x")
-            options.minX = finiteNumber(key, value);
-        else if (key == "volume.min.y")
-            options.minY = finiteNumber(key, value);
-        else if (key == "volume.max.x")
-            options.maxX = finiteNumber(key, value);
-        else if (key == "volume.max.y")
-            options.maxY = finiteNumber(key, value);
-        else if (key == "objective")
-            choiceNamed(key, value, {"length"});
-        else if (key == "threshold")
-            options.settings.threshold = positiveNumber(key, value);
-        else if (key == "sampler")
-            options.sampler = choiceNamed(key, value, SAMPLERS);
-        else
-            throw Error(unknownName("key of [problem]", key, PROBLEM_KEYS));
-    }
-
     std::vector<std::string> findScenarios(const std::string &name, const std::string &folder)
     {
         if (trimmed(name).empty())
@@ -325,26 +459,20 @@ namespace parking
         const fs::path path = fs::path(name).is_absolute() || folder.empty() ? fs::path(name) : fs::path(folder) / name;
         std::error_code ignored;
         std::vector<std::string> files;
-        if (fs::is_directory(path, ignored))
-            for (const std::string &each : matches((path / "*").string()))
-            {
-                if (fs::is_regular_file(each, ignored) && isScenario(each))
-                    files.push_back(each);
-            }
-        else if (name.find_first_of("*?") != std::string::npos)
-            for (const std::string &each : matches(path.string()))
-            {
-                if (fs::is_regular_file(each, ignored) && isScenario(each))
-                    files.push_back(each);
-            }
-        else
+        const bool isFolder = fs::is_directory(path, ignored);
+        if (!isFolder && name.find_first_of("*?") == std::string::npos)
         {
             refusePipe(path.string());
             return {path.string()};
         }
+        for (const std::string &each : matches((isFolder ? path / "*" : path).string()))
+            if (fs::is_regular_file(each, ignored) && isScenario(each))
+                files.push_back(each);
         if (files.empty())
             throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, or .csv files)");
-        std::sort(files.begin(), files.end(), naturallyBefore);
+        // case2 before case10
+        std::sort(files.begin(), files.end(),
+                  [](const std::string &a, const std::string &b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
         return files;
     }
 
@@ -388,12 +516,12 @@ namespace parking
                     }
                     else if (line.section == "problem")
                     {
-                        setProblemOption(base, line.key, line.value);
+                        setByKey(PROBLEM_KEYS, "[problem]", base, line.key, line.value);
                         line.noteOnce(config.problemLines, "problem." + line.key);
                     }
                     else if (line.section == "benchmark")
                     {
-                        setBenchmarkOption(config, line.key, line.value);
+                        setByKey(BENCHMARK_KEYS, "[benchmark]", config, line.key, line.value);
                         line.noteOnce(benchmarkLines, line.key);
                     }
                     else

@@ -24,9 +24,6 @@ namespace parking
             maxX,                    ///< likewise
             maxY;                    ///< likewise
         std::string sampler;         ///< of valid states: empty, uniform, gaussian, obstacle_based or bridge_test
-
-        /** \brief Do both put a scenario in the same way? */
-        bool operator==(const ProblemOptions &other) const;
     };
 
     /** \brief One planner of a comparison, with its parameters. */
@@ -95,7 +92,4 @@ namespace parking
         those that match a pattern with * or ?. Relative names are looked up in \e folder. Throws parking::Error when
         there is none. */
     std::vector<std::string> findScenarios(const std::string &name, const std::string &folder);
-
-    /** \brief Applies an option of the section [problem]. Throws parking::Error without file and line. */
-    void setProblemOption(ProblemOptions &options, const std::string &key, const std::string &value);
 }  // namespace parking

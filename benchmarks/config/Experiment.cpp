@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -89,6 +90,8 @@ namespace parking
                                formatNumber(options.settings.threshold) + "/" + options.sampler + "/";
             for (const std::optional<double> &bound : {options.minX, options.minY, options.maxX, options.maxY})
                 text += (bound ? formatNumber(*bound) : "") + ",";
+            for (const std::optional<Pose> &pose : {options.start, options.goal})
+                describe(text, pose.value_or(Pose{NAN, NAN, NAN}));
             return text;
         }
 
@@ -295,14 +298,16 @@ namespace parking
                 if (!isWanted(config.planners[i], base, used))
                     continue;
                 const ProblemOptions &options = config.planners[i].problem;
-                const auto known = std::find_if(variants.begin(), variants.end(),
-                                                [&options](const Experiment &each) { return each.options == options; });
+                const std::string text = describe(options);
+                const auto known =
+                    std::find_if(variants.begin(), variants.end(),
+                                 [&text](const Experiment &each) { return describe(each.options) == text; });
                 if (known != variants.end())
                 {
                     known->planners.push_back(i);
                     continue;
                 }
-                const std::string wanted = base + (options == common ? "" : word(suffixOf(options, common)));
+                const std::string wanted = base + (text == describe(common) ? "" : word(suffixOf(options, common)));
                 std::string name = wanted;
                 for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
                     name = wanted + "_" + std::to_string(number);

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from improved_astar import Error, Vehicle
+from improved_astar import Error, Scenario, Vehicle
 
 from .mersenne import Random
 from .scenarios import scenario_of_polygons
@@ -70,14 +70,14 @@ class SlotScene:
         """Obstacles, start and goal of one trial; None where HOPE would draw again."""
         self.goal = self.standing(0.0)
         left, right = self.fill(-1.0), self.fill(1.0)
-        gaps = gap(self.goal, left[:1]), gap(self.goal, right[:1])
+        gaps = [surroundings(side[:1])(self.goal) for side in (left, right)]
         if min(gaps) < LEAST_GAP or not self.least <= sum(gaps) <= self.most:
             return None
         obstacles = [block(-self.half, -1.0, self.half, 0.0), *left, *right]
         edge = max(0.0, *(obstacle[:, 1].max() for obstacle in obstacles)) + LEAST_GAP
         aisle = self.level.aisles[self.is_bay]
         obstacles += self.far_side(edge + aisle)
-        if gap(self.goal, obstacles) <= 0.0:
+        if surroundings(obstacles)(self.goal) <= 0.0:
             return None
         start = self.start_in(obstacles, edge, aisle)
         # Parallel: the car does not have to turn round.
@@ -128,12 +128,12 @@ class SlotScene:
 
     def start_in(self, obstacles, edge, aisle):
         random = self.random
-        everything = [*obstacles, CAR.footprint(self.goal)]
+        gap = surroundings([*obstacles, CAR.footprint(self.goal)])
         for _ in range(TRIALS):
             pose = (random.between(-0.5 * self.half, 0.5 * self.half), random.between(edge + 1.0, edge + aisle - 1.0),
                     random.normal(0.0, math.pi / 6, -0.5 * math.pi, 0.5 * math.pi) +
                     (math.pi if random.chance(0.5) else 0.0))
-            if gap(pose, everything) > 0.0:
+            if gap(pose) > 0.0:
                 return pose
         raise Error('HOPE: no room for a start was found')
 
@@ -159,11 +159,12 @@ def parking_lot(random):
                 obstacles.append(CAR.footprint(standing(row, bay)))
     height = 4.0 * (2.0 * depth + aisle) + aisle
     obstacles += [block(-1.0, -1.0, bays * width + 1.0, 0.0), block(-1.0, height, bays * width + 1.0, height + 1.0)]
+    gap = surroundings(obstacles, -40.0, bays * width + 40.0)
     for _ in range(TRIALS):
         up = random.below(5) * (2.0 * depth + aisle)
         start = (parked[0] + random.between(-30.0, 30.0), up + random.between(2.0, aisle - 2.0),
                  random.normal(0.0, 0.1, -0.3, 0.3) + (math.pi if random.chance(0.5) else 0.0))
-        if abs(start[1] - parked[1]) <= 30.0 and gap(start, obstacles) > 0.3:
+        if abs(start[1] - parked[1]) <= 30.0 and gap(start) > 0.3:
             return obstacles, start, goal
     raise Error('HOPE: no room for a start was found')
 
@@ -178,38 +179,8 @@ def turned_round(pose):
     return x + 2.0 * CENTRE * math.cos(yaw), y + 2.0 * CENTRE * math.sin(yaw), yaw + math.pi
 
 
-def gap(pose, obstacles):
-    """Metres between the car and the obstacles; 0 where they touch."""
-    x, y, yaw = pose
-    turn = np.array([[math.cos(yaw), -math.sin(yaw)], [math.sin(yaw), math.cos(yaw)]])
-    half = np.array([0.5 * CAR.length, 0.5 * CAR.width])
-    corners = half * [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-    begins, ends = [], []  # of edges, seen from the middle of the body
-    for obstacle in obstacles:
-        seen = (obstacle - (x, y)) @ turn - (CENTRE, 0.0)
-        begins.append(seen)
-        ends.append(np.roll(seen, -1, axis=0))
-        if is_inside(begins[-1], ends[-1]):
-            return 0.0
-    begin, end = np.vstack(begins), np.vstack(ends)
-    along = end - begin
-    with np.errstate(divide='ignore', invalid='ignore'):
-        # Where each edge enters and leaves the body: Liang and Barsky's clipping.
-        sides = np.sort(np.stack([(-half - begin) / along, (half - begin) / along]), axis=0)
-    if (np.maximum(0.0, sides[0].max(axis=1)) < np.minimum(1.0, sides[1].min(axis=1))).any():
-        return 0.0
-    ends_away = np.hypot(*np.maximum(0.0, np.abs(begin) - half).T).min()
-    offset = corners[:, None] - begin
-    share = np.clip((offset * along).sum(axis=2) / (along * along).sum(axis=1), 0.0, 1.0)
-    corners_away = np.hypot(*np.moveaxis(offset - share[..., None] * along, 2, 0)).min()
-    return float(min(ends_away, corners_away))
-
-
-def is_inside(begin, end):
-    """Is the origin within the polygon of these edges?"""
-    above = begin[:, 1] > 0.0, end[:, 1] > 0.0
-    crossing = above[0] != above[1]
-    if not crossing.any():
-        return False
-    (x0, y0), (x1, y1) = begin[crossing].T, end[crossing].T
-    return bool(np.count_nonzero(x0 - y0 * (x1 - x0) / (y1 - y0) > 0.0) % 2)
+def surroundings(obstacles, left=-20.0, right=20.0):
+    """The function that returns the metres between the car at a pose and these obstacles; 0 where they touch. Poses are
+    between left and right."""
+    world = Scenario.from_polygons(obstacles, (left, 0.0, 0.0), (right, 0.0, 0.0), vehicle=CAR)
+    return lambda pose: world.clearance_at([pose])[0]

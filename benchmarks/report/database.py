@@ -9,11 +9,9 @@ import sqlite3
 
 import numpy
 
+from program import ReportError
+
 FILE = 'benchmark.db'  # in a folder of results
-
-
-class ReportError(Exception):
-    """Bad input; its text is one line that names the file."""
 
 
 @dataclasses.dataclass

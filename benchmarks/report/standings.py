@@ -8,9 +8,13 @@ import math
 import os
 import re
 
-from database import ReportError
+import numpy
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
 from planner_statistics import (LEVEL, critical_difference, friedman, groups, holm, mean_ranks, median, sign_test, wilcoxon,
                                 wilson)
+from program import ReportError
 
 MEASURES = {'time': 'time to the first solution', 'length': 'length of the path'}
 WITHIN = {'time': (1.0, 2.0, 10.0), 'length': (1.0, 1.01, 1.1)}  # ratios to the virtual best that the tables have
@@ -199,15 +203,12 @@ def _pairs(results, scores):
 
 def _families(pairs):
     """Pairs whose planners are connected by pairs, together."""
-    home = {}
-    for pair in pairs:
-        first, second = home.setdefault(pair.first, {pair.first}), home.setdefault(pair.second, {pair.second})
-        if first is not second:
-            first |= second
-            home.update(dict.fromkeys(second, first))
+    count = 1 + max((pair.second for pair in pairs), default=0)
+    links = coo_matrix((numpy.ones(len(pairs)), ([pair.first for pair in pairs], [pair.second for pair in pairs])), (count, count))
+    _, family_of = connected_components(links, directed=False)
     found = {}
     for pair in pairs:
-        found.setdefault(id(home[pair.first]), []).append(pair)
+        found.setdefault(family_of[pair.first], []).append(pair)
     return found.values()
 
 

@@ -165,17 +165,12 @@ namespace
     std::string sources()
     {
         std::string text;
-        std::vector<std::string> said;
         for (const Standard &standard : STANDARDS)
         {
-            const std::string line = std::string(standard.country) + ", " + standard.name + ": " + standard.source;
-            bool known = false;
-            for (const std::string &other : said)
-                known = known || other == line;
-            if (known)
-                continue;
-            said.push_back(line);
-            text += "- " + line + "\n";
+            const std::string line =
+                std::string("- ") + standard.country + ", " + standard.name + ": " + standard.source + "\n";
+            if (text.find(line) == std::string::npos)
+                text += line;
         }
         return text;
     }

@@ -59,12 +59,6 @@ namespace
             ++counts_[std::min(static_cast<std::size_t>(place), CLASSES - 1)];
         }
 
-        LatencyCounts &operator+=(const LatencyCounts &other)
-        {
-            std::transform(counts_.begin(), counts_.end(), other.counts_.begin(), counts_.begin(), std::plus<>());
-            return *this;
-        }
-
         /** The duration in seconds, rounded up by at most 5 %, that a \e share of all does not exceed; 0 of none. */
         double quantile(double share) const
         {
@@ -86,46 +80,24 @@ namespace
         std::array<std::uint64_t, CLASSES> counts_{};
     };
 
-    /** What a worker has done. */
+    /** What all workers have done; they count together. */
     struct SoakFigures
     {
-        using Count = unsigned long long;
+        using Count = std::atomic<unsigned long long>;
 
-        Count worlds{0};                         ///< random worlds that were planned in
-        Count queries{0};                        ///< random queries put to plan()
-        Count solved{0};                         ///< of these, with a path to a goal
-        Count replanned{0};                      ///< queries from half way, with a new obstacle on the rest of the path
-        Count repeated{0};                       ///< queries put twice: the path must be the same
-        Count seenByOracle{0};                   ///< paths that the oracle of the tests has looked at
-        Count byOthers{0};                       ///< queries put to planners behind OMPL, this project's among them
-        Count refusedOfOthers{0};                ///< exact paths of OMPL's planners that the referee does not accept
+        Count worlds{0};           ///< random worlds that were planned in
+        Count queries{0};          ///< random queries put to plan()
+        Count solved{0};           ///< of these, with a path to a goal
+        Count replanned{0};        ///< queries from half way, with a new obstacle on the rest of the path
+        Count repeated{0};         ///< queries put twice: the path must be the same
+        Count seenByOracle{0};     ///< paths that the oracle of the tests has looked at
+        Count byOthers{0};         ///< queries put to planners behind OMPL, this project's among them
+        Count refusedOfOthers{0};  ///< exact paths of OMPL's planners that the referee does not accept
+        Count disagreed{0};        ///< answers that are wrong
+
+        std::mutex mutex;                        ///< of what follows
         LatencyCounts planning;                  ///< processor time of the queries put to plan()
-        Count disagreed{0};                      ///< answers that are wrong
         std::vector<std::string> disagreements;  ///< a line for each of the first hundred
-
-        void disagree(const std::string &what)
-        {
-            constexpr std::size_t MOST = 100;
-            ++disagreed;
-            if (disagreements.size() < MOST)
-                disagreements.push_back(what);
-        }
-
-        SoakFigures &operator+=(const SoakFigures &other)
-        {
-            worlds += other.worlds;
-            queries += other.queries;
-            solved += other.solved;
-            replanned += other.replanned;
-            repeated += other.repeated;
-            seenByOracle += other.seenByOracle;
-            byOthers += other.byOthers;
-            refusedOfOthers += other.refusedOfOthers;
-            planning += other.planning;
-            disagreed += other.disagreed;
-            disagreements.insert(disagreements.end(), other.disagreements.begin(), other.disagreements.end());
-            return *this;
-        }
     };
 
     /** What a worker plans. */
@@ -192,28 +164,18 @@ namespace
         return world;
     }
 
-    /** Plans in random worlds, one after the other, and has every answer judged by the referee.
-
-        One thread each; the figures may be read while it works. */
+    /** Plans in random worlds, one after the other, and has every answer judged by the referee; one thread each. */
     class SoakWorker
     {
     public:
-        /** \param seed of all that is random in this worker \param queries counts those of all workers; must outlive
-            them */
-        SoakWorker(const SoakSettings &settings, std::uint64_t seed, std::atomic<std::uint64_t> &queries)
+        /** \param seed of all that is random in this worker \param figures of all workers; must outlive them */
+        SoakWorker(const SoakSettings &settings, std::uint64_t seed, SoakFigures &figures)
           : settings_(settings),
             seed_(seed),
-            all_(queries),
+            figures_(figures),
             random_(seed),
             registry_(PlannerRegistry::builtIn())
         {
-        }
-
-        /** What has been done so far. */
-        SoakFigures figures() const
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            return figures_;
         }
 
         /** Works until \e stop. */
@@ -221,30 +183,27 @@ namespace
         {
             const auto isOver = [&]
             {
-                return stop || (settings_.most > 0 && all_ >= settings_.most);
+                return stop || (settings_.most > 0 && figures_.queries >= settings_.most);
             };
             while (!isOver())
             {
                 world_ = std::make_unique<World>(randomWorld(random_, settings_.small));
                 checker_ = std::make_unique<FootprintChecker>(world_->obstacles, world_->scenario.vehicle);
-                count(&SoakFigures::worlds);
+                ++figures_.worlds;
                 for (std::size_t i = 0; i < settings_.perWorld && !isOver(); ++i)
                     query();
             }
         }
 
     private:
-        void count(SoakFigures::Count SoakFigures::*figure)
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            ++(figures_.*figure);
-        }
-
         void disagree(const std::string &what)
         {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            figures_.disagree("worker " + std::to_string(seed_) + ", query " + std::to_string(figures_.queries) + ", " +
-                              world_->name + ": " + what);
+            constexpr std::size_t MOST = 100;
+            ++figures_.disagreed;
+            const std::lock_guard<std::mutex> lock(figures_.mutex);
+            if (figures_.disagreements.size() < MOST)
+                figures_.disagreements.push_back("worker " + std::to_string(seed_) + ", query " +
+                                                 std::to_string(queries_) + ", " + world_->name + ": " + what);
         }
 
         Pose anyGoal()
@@ -279,7 +238,8 @@ namespace
             scenario.goals = {anyGoal()};
             if (random_.chance(0.1))
                 scenario.goals.push_back(anyGoal());
-            ++all_;
+            ++queries_;
+            ++figures_.queries;
             const std::uint64_t mostExpansions = !settings_.small      ? MOST_EXPANSIONS
                                                  : random_.chance(0.1) ? MOST_OF_SOME
                                                                        : MOST_WHEN_SMALL;
@@ -287,18 +247,17 @@ namespace
             const search::PlanResult result = planned(scenario, *checker_, mostExpansions);
             const double time = threadProcessorTime() - begin;
             const bool solved = result.outcome == search::PlanOutcome::Solved;
+            figures_.solved += solved ? 1 : 0;
             {
-                const std::lock_guard<std::mutex> lock(mutex_);
-                ++figures_.queries;
+                const std::lock_guard<std::mutex> lock(figures_.mutex);
                 figures_.planning.add(time);
-                figures_.solved += solved ? 1 : 0;
             }
             judge(scenario, *checker_, result);
             if (solved && random_.chance(0.05))
                 askOracle(scenario, result.path);
             if (random_.chance(0.01))
             {
-                count(&SoakFigures::repeated);
+                ++figures_.repeated;
                 if (!equal(planned(scenario, *checker_, mostExpansions).path, result.path))
                     disagree("another path when asked again");
             }
@@ -335,7 +294,7 @@ namespace
         {
             constexpr double STEP = 0.005;    // metres between two looks
             constexpr double OVERLAP = 1e-7;  // metres that count as touching, which is free
-            count(&SoakFigures::seenByOracle);
+            ++figures_.seenByOracle;
             if (!world_->oracle.isPathFree(path, scenario.vehicle, STEP, -OVERLAP))
                 disagree("the oracle says that it touches something");
         }
@@ -354,7 +313,7 @@ namespace
             changed.polygons.push_back(parking_test::rectangle(length, width, {at.x, at.y, random_.between(-PI, PI)}));
             const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
             judge(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
-            count(&SoakFigures::replanned);
+            ++figures_.replanned;
         }
 
         void askOthers(const Scenario &scenario)
@@ -365,7 +324,7 @@ namespace
             static const std::array<const char *, 6> NAMES{"improved_astar", "RRTConnect", "reeds_shepp", "PRM",
                                                            "BKPIECE1",       "SBL"};
             const char *name = NAMES[turn_++ % NAMES.size()];
-            count(&SoakFigures::byOthers);
+            ++figures_.byOthers;
             std::string wrong;
             try
             {
@@ -383,20 +342,18 @@ namespace
             if (!wrong.empty() && name == NAMES.front())
                 disagree(std::string(name) + ": " + wrong);
             else if (!wrong.empty())
-                count(&SoakFigures::refusedOfOthers);
+                ++figures_.refusedOfOthers;
         }
 
         SoakSettings settings_;
         std::uint64_t seed_;
-        std::atomic<std::uint64_t> &all_;
+        SoakFigures &figures_;
+        std::uint64_t queries_{0};  // of this worker
         Random random_;
         PlannerRegistry registry_;
         std::size_t turn_{0};  // of the other planners
         std::unique_ptr<World> world_;
         std::unique_ptr<FootprintChecker> checker_;
-
-        mutable std::mutex mutex_;
-        SoakFigures figures_;
     };
 
     /** MB of memory that this process has in use; 0 where nobody says. */
@@ -413,19 +370,24 @@ namespace
         return std::chrono::duration<double>(Clock::now() - begin).count();
     }
 
-    std::string line(const SoakFigures &figures, double time, double memory)
+    std::string line(SoakFigures &figures, double time, double memory)
     {
+        const auto count = [](const SoakFigures::Count &each)
+        {
+            return each.load();
+        };
+        const std::lock_guard<std::mutex> lock(figures.mutex);
+        const double share = static_cast<double>(figures.solved) / std::max(1.0, static_cast<double>(figures.queries));
         char text[400];
         std::snprintf(
             text, sizeof text,
             "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, put to the oracle "
             "%llu, others %llu (%llu refused) | "
             "%.2f ms median, %.1f ms 99 %%, %.1f ms 99.9 %% | %.0f MB | %llu disagreements",
-            time, figures.queries,
-            100.0 * static_cast<double>(figures.solved) / std::max(1.0, static_cast<double>(figures.queries)),
-            figures.worlds, figures.replanned, figures.repeated, figures.seenByOracle, figures.byOthers,
-            figures.refusedOfOthers, 1e3 * figures.planning.quantile(0.5), 1e3 * figures.planning.quantile(0.99),
-            1e3 * figures.planning.quantile(0.999), memory, figures.disagreed);
+            time, count(figures.queries), 100.0 * share, count(figures.worlds), count(figures.replanned),
+            count(figures.repeated), count(figures.seenByOracle), count(figures.byOthers),
+            count(figures.refusedOfOthers), 1e3 * figures.planning.quantile(0.5), 1e3 * figures.planning.quantile(0.99),
+            1e3 * figures.planning.quantile(0.999), memory, count(figures.disagreed));
         return text;
     }
 
@@ -461,43 +423,32 @@ namespace
             given.whole("threads", 1, 1024).value_or(std::max(1U, std::thread::hardware_concurrency()));
         const std::uint64_t seed = given.whole("seed", 1, 1000000000).value_or(1);
 
-        std::atomic<std::uint64_t> queries{0};
+        SoakFigures figures;
         std::atomic<bool> stop{false};
-        std::vector<std::unique_ptr<SoakWorker>> workers;
-        for (std::size_t i = 0; i < threads; ++i)
-            workers.push_back(std::make_unique<SoakWorker>(settings, 1000 * seed + i, queries));
         const Clock::time_point begin = Clock::now();
         std::vector<std::thread> running;
-        running.reserve(threads);
-        for (const std::unique_ptr<SoakWorker> &worker : workers)
-            running.emplace_back([&worker, &stop] { worker->work(stop); });
-
-        const auto all = [&workers]
-        {
-            SoakFigures sum;
-            for (const std::unique_ptr<SoakWorker> &worker : workers)
-                sum += worker->figures();
-            return sum;
-        };
+        for (std::size_t i = 0; i < threads; ++i)
+            running.emplace_back([&settings, &figures, &stop, worker = 1000 * seed + i]
+                                 { SoakWorker(settings, worker, figures).work(stop); });
         double settled = 0.0, most = 0.0, said = 0.0;
-        for (double now = 0.0; now < limit && (settings.most == 0 || queries < settings.most); now = seconds(begin))
+        for (double now = 0.0; now < limit && (settings.most == 0 || figures.queries < settings.most);
+             now = seconds(begin))
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(200));
             const double memory = memoryInUse();
             most = std::max(most, memory);
-            const bool begins = settings.most > 0 ? queries < settings.most / 10 : now < 0.1 * limit;
+            const bool begins = settings.most > 0 ? figures.queries < settings.most / 10 : now < 0.1 * limit;
             if (begins)
                 settled = std::max(settled, memory);
             if (now - said >= every)
             {
                 said = now;
-                std::cerr << line(all(), now, memory) << std::endl;
+                std::cerr << line(figures, now, memory) << std::endl;
             }
         }
         stop = true;
         for (std::thread &each : running)
             each.join();
-        const SoakFigures figures = all();
         std::cout << line(figures, seconds(begin), memoryInUse()) << "\n";
         std::printf("memory: %.0f MB at most in the first tenth, %.0f MB at most in all; %zu threads\n", settled, most,
                     threads);

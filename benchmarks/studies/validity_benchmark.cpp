@@ -3,7 +3,6 @@
 // that of the set. Counters say which tier decided how many poses, and how many answers were wrong. Ratios are worth
 // more than times: --benchmark_enable_random_interleaving=true puts both sides of a ratio into the same conditions.
 
-#include "benchmarks/system/OmplBenchmarkCompatibility.h"
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/io/ScenarioReader.h"
@@ -226,7 +225,6 @@ namespace
             si->setup();
             swept = std::make_shared<SweptMotionValidator>(si);
             discrete = std::make_shared<ob::DiscreteMotionValidator>(si);
-            curveOnce = ompl_compatibility::reedsSheppValidator(si);
             plainSi = std::make_shared<ob::SpaceInformation>(space);
             plainSi->setStateValidityChecker([this, plain = std::make_shared<const PlainFclChecker>(
                                                         world.obstacles, vehicle)](const ob::State *state)
@@ -251,7 +249,7 @@ namespace
         std::shared_ptr<EvenlyCheckedSpace> space;
         ob::SpaceInformationPtr si, plainSi;
         std::shared_ptr<SweptMotionValidator> swept;
-        ob::MotionValidatorPtr discrete, curveOnce, discreteFcl;
+        ob::MotionValidatorPtr discrete, discreteFcl;
         std::vector<std::pair<ob::ScopedState<>, ob::ScopedState<>>> ends;
     };
 
@@ -259,7 +257,6 @@ namespace
     {
         Swept,
         Discrete,    ///< OMPL's, every 2 cm, with the two-tier state checks
-        CurveOnce,   ///< OMPL's for Reeds-Shepp spaces, the same but that it keeps the curve between two looks
         DiscreteFcl  ///< OMPL's with plain FCL
     };
 
@@ -271,8 +268,6 @@ namespace
                 return *motions.swept;
             case Validator::Discrete:
                 return *motions.discrete;
-            case Validator::CurveOnce:
-                return *motions.curveOnce;
             default:
                 return *motions.discreteFcl;
         }
@@ -453,7 +448,6 @@ namespace
         }
         for (const auto &[name, kind] : {std::pair("swept", Validator::Swept),
                                          {"discrete_2cm", Validator::Discrete},
-                                         {"curve_once_2cm", Validator::CurveOnce},
                                          {"discrete_2cm_plain_fcl", Validator::DiscreteFcl}})
         {
             for (const bool valid : {false, true})

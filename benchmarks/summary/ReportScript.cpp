@@ -1,12 +1,16 @@
 #include "benchmarks/summary/ReportScript.h"
 
-#include "benchmarks/system/Subprocess.h"
+#include "benchmarks/system/Isolation.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/Text.h"
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <limits>
 #include <system_error>
+
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -39,13 +43,22 @@ namespace parking
         const std::string script = findScript();
         if (script.empty())
             return withoutReport("the script make_report is not installed");
-        if (!isProgram("python3"))
-            return withoutReport("python3 is not installed");
-        const ProcessResult result = runProcess({"python3", script, folder});
+        constexpr double PATIENT = std::numeric_limits<double>::infinity();
+        const std::atomic<bool> neverStops{false};
+        // A process that ends with this one: it must not write any more when this one's successor writes the same.
+        const IsolatedResult result = runIsolated(
+            [&](const std::function<void()> & /*halfDone*/) -> std::string
+            {
+                execlp("python3", "python3", script.c_str(), folder.c_str(), nullptr);
+                throw Error("python3 is not installed");
+            },
+            {PATIENT, PATIENT, 0.0}, neverStops);
+        if (result.end == IsolatedResult::End::Exception)
+            return withoutReport(result.text);
         if (result.status == PACKAGES_MISSING)
-            return withoutReport(lastLine(result.errors));
+            return withoutReport(result.errors);
         if (result.status != 0)
-            throw Error(report + ": cannot be made: " + lastLine(result.errors));
+            throw Error(report + ": cannot be made: " + (result.errors.empty() ? result.text : result.errors));
         return report;
     }
 }  // namespace parking

@@ -28,18 +28,15 @@ namespace parking
         const std::size_t count = values.size();
         const boost::math::binomial below(static_cast<double>(count), 0.5);
         // Ranks r and n + 1 - r (from 1) enclose the median with certainty 1 - 2 P(B <= r - 1).
-        std::size_t rank = 0;
-        double certainty = 0.0;
-        for (std::size_t r = 1; 2 * r <= count; ++r)
+        const auto certainty = [&below](std::size_t rank)
         {
-            const double candidate = 1.0 - 2.0 * boost::math::cdf(below, static_cast<double>(r - 1));
-            if (candidate < level)
-                break;
-            rank = r;
-            certainty = candidate;
-        }
+            return 1.0 - 2.0 * boost::math::cdf(below, static_cast<double>(rank) - 1.0);
+        };
+        auto rank = static_cast<std::size_t>(boost::math::quantile(below, 0.5 * (1.0 - level))) + 1;
+        while (rank > 0 && (2 * rank > count || certainty(rank) < level))
+            --rank;
         if (rank == 0)
             return {values.front(), values.back(), 0.0};
-        return {values[rank - 1], values[count - rank], certainty};
+        return {values[rank - 1], values[count - rank], certainty(rank)};
     }
 }  // namespace parking

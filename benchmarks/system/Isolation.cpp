@@ -1,6 +1,5 @@
 #include "benchmarks/system/Isolation.h"
 
-#include "benchmarks/system/Subprocess.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
 
@@ -172,17 +171,27 @@ namespace parking
                    (name != nullptr ? std::string(" (") + name + ")" : "");
         }
 
+        /** The last line that is not blank: where Python's errors say what is wrong. */
+        std::string lastLine(const std::string &text)
+        {
+            const std::size_t last = text.find_last_not_of(" \r\n");
+            if (last == std::string::npos)
+                return "";
+            const std::size_t first = text.rfind('\n', last) + 1;
+            return oneLine(text.substr(first, last + 1 - first));
+        }
+
         /** Of a process that ended without a last word. */
         IsolatedResult endOf(int status, const std::string &errors)
         {
-            const std::string last =
-                errors.find_first_not_of(" \r\n") == std::string::npos ? "" : ": " + lastLine(errors);
+            const std::string last = lastLine(errors), more = last.empty() ? "" : ": " + last;
             if (!WIFSIGNALED(status))
-                return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + last};
+                return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + more,
+                        WEXITSTATUS(status), last};
             // Nobody but the system does that.
             if (WTERMSIG(status) == SIGKILL)
                 return {End::OutOfMemory, "killed by the system, as it is when memory runs out"};
-            return {End::Died, signalText(WTERMSIG(status)) + last};
+            return {End::Died, signalText(WTERMSIG(status)) + more, -1, last};
         }
 
         IsolatedResult readAnswer(const std::string &said, std::size_t begin)

@@ -27,8 +27,10 @@ namespace parking
             OutOfMemory,  ///< it took more memory than it may
             Stopped       ///< it was told to stop
         };
-        End end{End::Died};  ///< how it ended
-        std::string text;    ///< the answer, or one line on what happened
+        End end{End::Died};    ///< how it ended
+        std::string text;      ///< the answer, or one line on what happened
+        int status{-1};        ///< exit status of a process that ended itself
+        std::string errors{};  ///< the last line that it wrote to standard error, if it died
     };
 
     /** \brief Does work in a process of its own, a copy of this one, and waits for its answer: whatever the work does

@@ -112,19 +112,6 @@ rrt=
         EXPECT_FALSE(config.track);
     }
 
-    TEST_F(BenchmarkConfigTest, ErrorsNameFileAndLine)
-    {
-        expectError([&] { read("[problem]\n\n# x\nscenarios = a\n[planner]\nprm=\n"); },
-                    {"set.cfg:4:", "did you mean 'scenario'"});
-        expectError([&] { read("[planner]\nprm=\n[benchmark]\nrun_count = 0\n"); }, {"set.cfg:4:", "run_count"});
-        expectError([&] { read("[planner]\nprm=\nrrt.range=3\n"); }, {"set.cfg:3:", "rrt="});
-        expectError([&] { read("[planner]\nrrt=\nrrt.=3\n"); }, {"set.cfg:3:", "names no parameter"});
-        expectError([&] { read("[problem]\nscenario = a\nvehicle = x\n[planner]\nprm=\n"); }, {"set.cfg:3:", "'x'"});
-        expectError([&] { read("[problem]\nscenario =\n[planner]\nprm=\n"); }, {"set.cfg:2:", "empty"});
-        expectError([&] { read("scenario = a\n"); }, {"set.cfg:1:", "no section"});
-        expectError([&] { read("[problem]\nscenario = a.yaml\n"); }, {"set.cfg", "no planner"});
-    }
-
     TEST_F(BenchmarkConfigTest, AKeyIsGivenOnce)
     {
         const auto expectTwice = [&](const std::string &text, const std::string &key, int first, int second)

@@ -1,14 +1,21 @@
-// The database of a comparison: what is added stays, what is not of use is kept, what is something else is refused.
+// A run's figures are those of the columns; runs go from one process to another as text, and into the database of a
+// comparison: what is added stays, what is not of use is kept, what is something else is refused.
 
+#include "benchmarks/compare/UnitRunner.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/store/RunStore.h"
+#include "benchmarks/summary/ComparisonPictures.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -46,6 +53,22 @@ namespace
         return record;
     }
 
+    RunRecord bareRecord(const std::string &planner = "b", std::size_t run = 1)
+    {
+        RunRecord record;
+        record.experiment = "garage";
+        record.planner = planner;
+        record.fingerprint = "2";
+        record.set("run", run);
+        record.set("seed", 4000000000U);
+        return record;
+    }
+
+    RunRecord throughText(const RunRecord &record)
+    {
+        return RunRecord::fromJson(nlohmann::json::parse(record.toJson().dump()));
+    }
+
     Row experimentOf(const std::string &date = "2026-01-01", const std::string &host = "here")
     {
         return {{"name", "garage"}, {"hostname", host}, {"date", date}, {"cores", std::int64_t(2)}};
@@ -57,6 +80,121 @@ namespace
         for (const RunRecord &record : records)
             result.push_back(record.toJson().dump());
         return result;
+    }
+
+    TEST(RunColumns, HaveNamesOfTheirOwnAndMeanings)
+    {
+        std::set<std::string> names;
+        for (const RunColumn &column : runColumns())
+        {
+            EXPECT_TRUE(names.insert(column.name).second) << column.name;
+            EXPECT_FALSE(std::string(column.text).empty()) << column.name;
+            EXPECT_EQ(&runColumn(column.name), &column);
+        }
+        expectError([] { runColumn("colour"); }, {"colour"});
+    }
+
+    TEST(RunRecord, GoesThroughText)
+    {
+        const RunRecord record = recordOf("a", 0), back = throughText(record);
+        EXPECT_EQ(back.figures, record.figures);
+        EXPECT_EQ(back.toJson(), record.toJson());
+        EXPECT_TRUE(back.exact);
+        EXPECT_EQ(back.path.pieces.size(), 4U);
+        EXPECT_EQ(back.path.pieces[2].sharpness, 0.1);
+        EXPECT_EQ(back.path.pieces[3].turn, 0.7);
+    }
+
+    TEST(RunRecord, WhatWasNotMeasuredStaysSo)
+    {
+        const RunRecord back = throughText(bareRecord());
+        EXPECT_EQ(back.figures.size(), 2U);
+        EXPECT_EQ(back.run(), 1U);
+        EXPECT_TRUE(std::isnan(back.number("path length")));
+        EXPECT_FALSE(back.isSuccess() || back.hasPath || back.outcome());
+    }
+
+    TEST(RunRecord, RefusesWhatAColumnCannotHold)
+    {
+        RunRecord record;
+        const auto refuse =
+            [&record](const std::string &column, const FigureValue &value, const std::vector<std::string> &parts)
+        {
+            SCOPED_TRACE(column);
+            expectError([&] { record.setFigure(column, value); }, parts);
+        };
+        refuse("cusps", 1.5, {"cusps", "INTEGER", "1.5"});
+        refuse("cusps", std::int64_t(-1), {"cusps", "-1"});
+        refuse("success", std::int64_t(1), {"success", "BOOLEAN"});
+        refuse("path length", true, {"path length", "REAL"});
+        refuse("outcome", std::int64_t(11), {"outcome", "11"});
+        refuse("colour", 1.0, {"colour"});
+        EXPECT_TRUE(record.figures.empty());
+    }
+
+    TEST(RunRecord, RefusesTextThatIsNoRun)
+    {
+        RunRecord record = bareRecord();
+        record.hasPath = true;
+        record.path = {{}, {{0.0, 1.0}}};
+        const std::string whole = record.toJson().dump();
+        EXPECT_NO_THROW(RunRecord::fromJson(nlohmann::json::parse(whole)));
+        for (const auto &[part, instead] :
+             std::vector<std::pair<std::string, std::string>>{{R"("run":1,)", ""},
+                                                              {R"("run":1)", R"("run":true)"},
+                                                              {R"("run":1)", R"("run":1,"outcome":"x")"},
+                                                              {"[0.0,1.0]", "[]"},
+                                                              {"[0.0,1.0]", "[1,2,3,4]"},
+                                                              {"[0.0,1.0]", "7"},
+                                                              {R"("exact":false)", R"("exact":0)"},
+                                                              {R"("progress":[])", R"("progress":[[1]])"},
+                                                              {R"("planner":"b")", R"("planner":[])"}})
+        {
+            std::string text = whole;
+            ASSERT_NE(text.find(part), std::string::npos) << part;
+            text.replace(text.find(part), part.size(), instead);
+            EXPECT_ANY_THROW(RunRecord::fromJson(nlohmann::json::parse(text))) << text;
+        }
+    }
+
+    TEST(RunRecord, WhatWasMeasuredIsKeptOverOmpls)
+    {
+        RunRecord record;
+        record.set("time", 0.5);
+        takeOmplProperties(record, {{"time REAL", "0.6"},
+                                    {"memory REAL", "3"},
+                                    {"graph states INTEGER", "7"},
+                                    {"solved BOOLEAN", "x"},
+                                    {"approximate solution BOOLEAN", "1"},
+                                    {"odd", "1"},
+                                    {"best_cost REAL", "inf"},
+                                    {"cusps REAL", "1"}});
+        const std::map<std::string, FigureValue> expected{{"time", 0.5},
+                                                          {"memory", 3.0},
+                                                          {"graph states", std::int64_t(7)},
+                                                          {"approximate solution", true},
+                                                          {"best cost", INFINITE}};
+        EXPECT_EQ(record.figures, expected);
+    }
+
+    TEST(RunRecord, TheBestRunIsTheShortestThatIsSolved)
+    {
+        const auto run = [](bool success, bool exact, double length)
+        {
+            RunRecord record;
+            record.hasPath = true;
+            record.exact = exact;
+            record.set("success", success);
+            record.set("path length", length);
+            return record;
+        };
+        const RunRecord near = run(false, false, 1.0), invalid = run(false, true, 2.0), longer = run(true, true, 9.0),
+                        shorter = run(true, true, 8.0);
+        RunRecord nothing;
+        EXPECT_EQ(bestRun({&near, &longer, &invalid, &nothing, &shorter}), &shorter);
+        EXPECT_EQ(bestRun({&near, &invalid}), &invalid);
+        EXPECT_EQ(bestRun({&nothing, &near}), &near);
+        EXPECT_EQ(bestRun({&nothing}), nullptr);
     }
 
     class RunStoreTest : public ::testing::Test
@@ -85,13 +223,7 @@ namespace
 
     TEST_F(RunStoreTest, WhatIsAddedIsReadBack)
     {
-        RunRecord bare;
-        bare.experiment = "garage";
-        bare.planner = "b";
-        bare.fingerprint = "2";
-        bare.set("run", 1);
-        bare.set("seed", 1);
-        const std::vector<RunRecord> records{recordOf("a", 0), recordOf("a", 1), bare};
+        const std::vector<RunRecord> records{recordOf("a", 0), recordOf("a", 1), bareRecord()};
         add(records);
         const StoredRuns stored = RunStore::readFile(file_);
         EXPECT_EQ(texts(stored.records), texts(records));
@@ -109,10 +241,7 @@ namespace
 
     TEST_F(RunStoreTest, NamesOfPlannersFiguresAreOnlyNames)
     {
-        RunRecord odd = recordOf("a", 0);
-        odd.figures.clear();
-        odd.set("run", 0);
-        odd.set("seed", 1);
+        RunRecord odd = bareRecord();
         odd.figures.insert({{"a\"b select", 1.0},
                             {"order", true},
                             {"'; DROP TABLE runs; --", 2.0},

@@ -67,8 +67,8 @@ class MatlabTest(unittest.TestCase):
             return str(error)
 
     def test_reads_what_it_writes(self):
-        value = {'row': np.array([[1.0, -2.5, 1e300]]), 'yes': np.bool_(True), 'text': 'a text', 'none': np.empty((0, 0)),
-                 'list': matlab.cells([3.0, ''])}
+        value = {'row': np.array([[1.0, -2.5, 1e300]]), 'yes': True, 'text': 'a text', 'none': np.empty((0, 0)),
+                 'list': [3.0, '']}
         read = matlab.read('a.mat', matlab.content_of('v', value), 'v')
         self.assertEqual(list(read), list(value))
         self.assertEqual(read['row'].tolist(), [[1.0, -2.5, 1e300]])

@@ -1,7 +1,6 @@
 """parking_benchmark from a .cfg file to its results: files, database, interrupting and going on, shards."""
 
 import csv
-import fcntl
 import glob
 import math
 import os
@@ -140,21 +139,17 @@ class Results(BenchmarkTest):
         for ours, theirs in zip(tables('out/benchmark.db'), tables('out/theirs.db')):
             self.assertEqual(ours, theirs)
 
-    def test_time_outs_count_as_infinite(self):
-        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'reeds_shepp')
+    def test_time_outs_count_as_infinite_and_cost_falls_over_time(self):
+        self.write('set.cfg', CONFIG.replace('improved_astar.xy_resolution=0.3', 'RRTstar='))
+        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'RRTstar', '--planner', 'reeds_shepp', '--time', 0.5)
         with open(self.path('out/summary.csv')) as stream:
             for row in csv.DictReader(stream):
-                self.assertEqual((row['planner'], row['runs'], row['solved']), ('reeds_shepp', '2', '0'))
-                self.assertEqual(row['first_solution_median_s'], '')
-
-    def test_cost_over_time_is_in_the_database(self):
-        self.write('set.cfg', CONFIG.replace('improved_astar.xy_resolution=0.3', 'RRTstar='))
-        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--planner', 'RRTstar', '--time', 0.5, '--runs', 1)
-        rows = self.query('out/benchmark.db', 'SELECT runid, time, best_cost FROM progress ORDER BY runid, time')
+                if row['planner'] == 'reeds_shepp':
+                    self.assertEqual((row['runs'], row['solved'], row['first_solution_median_s']), ('2', '0', ''))
         costs = {}
-        for run, _, cost in rows:
-            if cost is not None:
-                costs.setdefault(run, []).append(cost)
+        for run, cost in self.query('out/benchmark.db', '''SELECT runid, best_cost FROM progress WHERE best_cost IS NOT NULL
+                                    ORDER BY runid, time'''):
+            costs.setdefault(run, []).append(cost)
         self.assertTrue(costs)
         for each in costs.values():
             self.assertEqual(each, sorted(each, reverse=True))
@@ -183,40 +178,22 @@ improved_astar.problem.footprint=circle
                           ('underground_garage_se2_circle', 'grid16')])
         self.assertEqual([run['figures']['success'] for run in runs], [True, True, True])
 
-    def test_simplified_and_driven_paths_are_reported_beside(self):
-        self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\n[planner]'))
-        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect')
-        for run in self.records('out/benchmark.db'):
-            for name in ('simplified path length', 'simplified densely valid',
-                         'driven to the end', 'mean acceleration', 'mean steering angle'):
-                self.assertIn(name, run['figures'])
-            self.assertLessEqual(run['figures']['simplified path length'],
-                                 run['figures']['path length'] + 1e-6)
-
-    def test_trajectories_are_reported_with_their_cost(self):
-        self.write('set.cfg', CONFIG.replace('[planner]', 'trajectory = yes\n[planner]'))
+    def test_simplified_driven_and_timed_paths_are_reported_beside(self):
+        self.write('set.cfg', CONFIG.replace('[planner]', 'simplify = yes\ntrack = yes\ntrajectory = yes\n[planner]'))
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--planner', 'RRTConnect', '--planner',
                        'improved_astar')
         runs = [run['figures'] for run in self.records('out/benchmark.db')]
         self.assertEqual(len(runs), 4)
         for run in runs:
+            for name in ('simplified densely valid', 'driven to the end', 'mean acceleration', 'mean steering angle'):
+                self.assertIn(name, run)
+            self.assertLessEqual(run['simplified path length'], run['path length'] + 1e-6)
             time = run['trajectory duration']
             # TPCAP's cost; the trajectory stays near the path, and no car drives it faster than 2.5 m/s.
             cost = (100 * time + 10 * (run['trajectory control effort'] + run['trajectory steering integral']) +
                     5 * run['trajectory gear changes'])
             self.assertAlmostEqual(run['trajectory cost'], cost, delta=1e-6 * cost)
             self.assertLess(0.5 * run['path length'] / 2.5, time)
-
-    def test_a_folder_of_scenarios(self):
-        os.mkdir(self.path('cases'))
-        shutil.copy(bundled('angled45'), self.path('cases/b.yaml'))
-        self.write('cases/a10.csv', '0,0,0,5,0,0,0\n')
-        self.write('cases/a9.csv', '0,0,0,7,0,0,1,3,90,90,91,90,91,91\n')
-        self.write('cases/vehicle.yaml', 'wheelbase: 3\n')
-        self.benchmark('set.cfg', '--scenarios', 'cases', '--output', 'out', '--quiet', '--runs', 1, '--planner',
-                       'improved_astar')
-        runs = self.records('out/benchmark.db')
-        self.assertEqual({run['experiment'] for run in runs}, {'a9', 'a10', 'b'})
 
 
 class GoingOn(BenchmarkTest):
@@ -266,57 +243,35 @@ class GoingOn(BenchmarkTest):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet')
         self.assertEqual(self.records('out/benchmark.db', clock=True), after)
 
-    def test_what_is_finished_is_not_done_again(self):
-        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        before = self.records('out/benchmark.db', clock=True)
-        os.remove(self.path('out/angled45.log'))
-        done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1)
-        self.assertIn('All %d runs are already finished; --fresh' % (RUNS // 2), done.stderr)
-        self.assertEqual(self.records('out/benchmark.db', clock=True), before)
-        self.assertTrue(os.path.exists(self.path('out/angled45.log')))
-
     def test_what_is_different_is_kept_and_comes_back(self):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
         first = self.records('out/benchmark.db', clock=True)
+        os.remove(self.path('out/angled45.log'))
         for arguments, isThere in ((['--seed', 9], False), ([], True), (['--seed', 9], True), (['--fresh'], False)):
             with self.subTest(arguments):
                 done = self.benchmark('set.cfg', '--output', 'out', '--runs', 1, *arguments)
-                self.assertEqual('All 8 runs are already finished' in done.stderr, isThere)
+                self.assertEqual('All 8 runs are already finished; --fresh' in done.stderr, isThere)
+                self.assertTrue(os.path.exists(self.path('out/angled45.log')))
                 self.assertEqual(self.records('out/benchmark.db', clock=True) == first, arguments == [])
         self.assertEqual(self.query('out/benchmark.db', 'SELECT COUNT(*) FROM all_runs'), [(3 * RUNS // 2,)])
 
-    def test_two_at_a_time_are_refused(self):
-        self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
-        with open(self.path('out/benchmark.db'), 'r+') as stream:
-            fcntl.lockf(stream, fcntl.LOCK_EX, 1, 1 << 62)
-            self.refused_benchmark('set.cfg', '--output', 'out', '--runs', 2, '--quiet', parts=['another'])
-
 
 class Shards(BenchmarkTest):
-    def test_shards_merged_are_one_run(self):
+    def test_shards_merged_are_one_run_with_and_without_isolation(self):
         self.benchmark('set.cfg', '--output', 'whole', '--quiet')
-        for i in (1, 2, 3):
-            done = self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--shard', '%d/3' % i)
-            self.assertIn('--merge', done.stdout)
-        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/benchmark-*.db')))
-        self.assertEqual(parts, ['parts/benchmark-%d-of-3.db' % i for i in (1, 2, 3)])
-        counts = [len(self.records(part)) for part in parts]
-        self.assertEqual(sum(counts), RUNS)
-        self.assertLessEqual(max(counts) - min(counts), 1)
-        self.benchmark('set.cfg', '--output', 'parts', '--merge')
-        self.assertEqual(self.records(*parts), self.records('whole/benchmark.db'))
-        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
-
-    def test_shards_with_isolation_are_one_run_too(self):
-        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
-        self.benchmark('set.cfg', '--output', 'apart', '--quiet', '--isolate')
-        for i in (1, 2, 3):
-            self.benchmark('set.cfg', '--output', 'parts', '--quiet', '--isolate', '--shard', '%d/3' % i)
-        self.benchmark('set.cfg', '--output', 'parts', '--merge')
-        parts = sorted(os.path.relpath(name, self.folder) for name in glob.glob(self.path('parts/benchmark-*.db')))
-        self.assertEqual(self.records(*parts), self.records('apart/benchmark.db'))
-        self.assertEqual(self.records('parts/benchmark.db'), self.records('apart/benchmark.db'))
-        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
+        whole = self.records('whole/benchmark.db')
+        for isolation in ([], ['--isolate']):
+            folder = 'parts' + ''.join(isolation)
+            for i in (1, 2, 3):
+                done = self.benchmark('set.cfg', '--output', folder, '--quiet', '--shard', '%d/3' % i, *isolation)
+                self.assertIn('--merge', done.stdout)
+            parts = [folder + '/benchmark-%d-of-3.db' % i for i in (1, 2, 3)]
+            counts = [len(self.records(part)) for part in parts]
+            self.assertEqual(sum(counts), RUNS)
+            self.assertLessEqual(max(counts) - min(counts), 1)
+            self.benchmark('set.cfg', '--output', folder, '--merge')
+            self.assertEqual(self.records(*parts), whole)
+            self.assertEqual(self.records(folder + '/benchmark.db'), whole)
 
     def test_a_shard_that_is_missing(self):
         self.benchmark('set.cfg', '--output', 'out', '--quiet', '--shard', '1/2')
@@ -332,45 +287,26 @@ class Shards(BenchmarkTest):
         self.refused_benchmark('set.cfg', '--output', 'all', '--merge', '--from', 'host1', '--seed', 8,
                                parts=['another comparison'])
 
-    @unittest.skipUnless(shutil.which('parallel'), 'GNU parallel is not installed')
-    def test_shards_under_gnu_parallel(self):
+    def test_shards_at_the_same_time_as_tasks_of_a_slurm_job_array(self):
         self.benchmark('set.cfg', '--output', 'whole', '--quiet')
-        done = self.run_program('parallel', '--no-notice', '--will-cite', BENCHMARK, 'set.cfg', '--output', 'parts',
-                                '--quiet', '--no-report', '--shard', '{}/4', ':::', 1, 2, 3, 4)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
-        self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
-
-    def test_shards_as_a_slurm_job_array(self):
-        here = os.path.dirname(os.path.abspath(__file__))
-        started = self.run_program(os.path.join(here, 'start_slurm'), self.path('slurm'))
-        self.addCleanup(self.stop_slurm)
-        if started.returncode == 77:
-            self.skipTest(started.stderr.strip())
-        self.assertEqual(started.returncode, 0, started.stderr)
-        environment = dict(os.environ, SLURM_CONF=self.path('slurm/slurm.conf'), PARKING_BENCHMARK=BENCHMARK)
-        done = self.run_program('sbatch', '--array=3-6', '--wait', '--output=task-%a.txt',
-                                os.path.join(SOURCE, 'benchmarks', 'slurm_array'), 'set.cfg', 'parts', env=environment)
-        said = ''.join(self.read(name) for name in os.listdir(self.folder) if name.startswith('task-'))
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr + said)
+        script = os.path.join(SOURCE, 'benchmarks', 'slurm_array')
+        array = dict(os.environ, PARKING_BENCHMARK=BENCHMARK, SLURM_ARRAY_TASK_MIN='3', SLURM_ARRAY_TASK_STEP='2',
+                     SLURM_ARRAY_TASK_COUNT='4')
+        tasks = [subprocess.Popen([script, 'set.cfg', 'parts', '--no-report'], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                  env=dict(array, SLURM_ARRAY_TASK_ID=task)) for task in ('3', '5', '7', '9')]
+        self.assertEqual([task.wait(120) for task in tasks], [0] * 4)
         self.assertEqual(len(glob.glob(self.path('parts/benchmark-*-of-4.db'))), 4)
         self.benchmark('set.cfg', '--output', 'parts', '--merge', '--quiet')
-        self.benchmark('set.cfg', '--output', 'whole', '--quiet')
         self.assertEqual(self.records('parts/benchmark.db'), self.records('whole/benchmark.db'))
-
-    def stop_slurm(self):
-        """Ends the processes that start_slurm has started, and only these; Slurm's own children end with them."""
-        if not os.path.exists(self.path('slurm/pids')):
-            return
-        pids = [int(pid) for pid in self.read('slurm/pids').split()]
-        for pid in reversed(pids):
-            try:
-                os.kill(pid, signal.SIGTERM)
-            except ProcessLookupError:
-                pass
-        deadline = time.monotonic() + 10
-        while time.monotonic() < deadline and any(os.path.exists('/proc/%d' % pid) for pid in pids):
-            time.sleep(0.1)
+        # A signal to the job reaches the program.
+        job = subprocess.Popen([script, 'set.cfg', 'long', '--runs', '1000'], cwd=self.folder, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True, env=dict(array, SLURM_ARRAY_TASK_ID='3'))
+        time.sleep(1.0)
+        job.send_signal(signal.SIGTERM)
+        _, errors = job.communicate(timeout=60)
+        self.assertEqual((job.returncode, 'goes on from there' in errors), (130, True), errors)
+        done = self.run_program(script, 'set.cfg')
+        self.assertEqual((done.returncode, done.stderr.count('usage: sbatch')), (2, 1))
 
 
 if __name__ == '__main__':

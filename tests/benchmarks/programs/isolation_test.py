@@ -93,31 +93,6 @@ class Outcomes(IsolationTest):
         expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
         self.assert_reasons(self.compare(list(expected), '--no-isolate'), expected)
 
-    def test_with_and_without_isolation_results_agree(self):
-        self.compare(['RRTConnect', 'fine'], '--isolate', '--quiet')
-        apart = self.records('out/benchmark.db')
-        os.rename(self.path('out'), self.path('apart'))
-        self.compare(['RRTConnect', 'fine'], '--no-isolate', '--quiet')
-        self.assertEqual(len(apart), 8)
-        self.assertEqual(self.records('out/benchmark.db'), apart)
-
-    def test_taking_the_culprit_out_costs_nothing(self):
-        # The suite as a whole is killed in the middle of its run, and goes on without it.
-        self.write('set.cfg', CONFIG.format(time=100, planners='hangs=\n'))
-        process = subprocess.Popen([BENCHMARK, 'set.cfg', '--output', 'out', '--plugin', PLUGIN, '--quiet'],
-                                   cwd=self.folder)
-        deadline = time.monotonic() + 60
-        while time.monotonic() < deadline and not os.path.exists(self.path('out/benchmark.db')):
-            time.sleep(0.05)
-        time.sleep(1.5)
-        process.kill()
-        process.wait()
-        kept = len(self.records('out/benchmark.db'))
-        done = self.compare([], limit=100)
-        if kept > 0:
-            self.assertIn('Going on: %d of 4' % kept, done.stderr)
-        self.assert_others_finished(self.outcomes())
-
     def test_settings_are_refused_as_ever(self):
         self.write('set.cfg', CONFIG.format(time=5, planners='fine=\nfine.speed=3\n'))
         for option in ('--isolate', '--no-isolate'):

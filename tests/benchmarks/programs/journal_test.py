@@ -233,13 +233,6 @@ class Changes(JournalTest):
                                            parts=['out/benchmark.db: ', part, 'move it away, or name another'])
                     self.assertEqual(self.content(), content)
 
-    def test_results_of_earlier_versions(self):
-        self.write('out/runs.jsonl', '{"parking_benchmark": 2}\n')
-        for arguments in ([], ['--merge']):
-            self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=['out/runs.jsonl', 'earlier version', '--fresh'])
-        self.benchmark('set.cfg', '--output', 'out', '--quiet', '--runs', 1, '--fresh')
-        self.assertEqual(self.finished(CONFIG), 2)
-
 
 if __name__ == '__main__':
     main()

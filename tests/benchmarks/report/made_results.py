@@ -1,8 +1,4 @@
-"""Results of comparisons that never took place, for tests of the report.
-
-usage: made_results.py FOLDER [--runs N] [--problems N] [--planners N]   writes a database and OMPL logs there
-"""
-import argparse
+"""Results of comparisons that never took place, for tests of the report."""
 import json
 import os
 import random
@@ -15,9 +11,9 @@ import unittest
 REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', '..', 'benchmarks', 'report')
 MAKE_REPORT = os.path.join(REPORT, 'make_report')
 sys.path.insert(0, REPORT)
-import needs  # noqa: E402
+import program  # noqa: E402
 
-needs.require_packages('tests of the report')
+program.require_packages('tests of the report')
 
 TIME_LIMIT = 2.0
 TYPES = {bool: 'BOOLEAN', int: 'INTEGER', float: 'REAL'}
@@ -111,46 +107,3 @@ def random_records(problems, planners, runs, seed=1):
                 made.append(record(f'problem_{problem}', f'planner_{planner}', run, outcome, time, length,
                                    better if outcome in ('solved', 'invalid') else [], **more))
     return made
-
-
-def shown(value):
-    return str(int(value) if isinstance(value, bool) else value)
-
-
-def log_text(problem, records):
-    """The log that OMPL's benchmark would have written."""
-    planners = list(dict.fromkeys(each['planner'] for each in records))
-    runs = max(each['figures']['run'] for each in records) + 1
-    lines = ['OMPL version 1.5.2', f'Experiment {problem}', 'Running on somewhere',
-             'Starting at 2024-01-01 00:00:00.000000', '<<<|', 'made', '|>>>', '<<<|', 'Some Processor', '|>>>',
-             '1 is the random seed', f'{TIME_LIMIT} seconds per run', '4096 MB per run', f'{runs} runs per planner',
-             '1 seconds spent to collect the data', '0 enum types', f'{len(planners)} planners']
-    for planner in planners:
-        own = [each for each in records if each['planner'] == planner]
-        types = {name: TYPES[type(value)] for each in own for name, value in each['figures'].items()}
-        lines += [f'geometric_{planner}', '1 common properties', 'range = 1', f'{len(types)} properties for each run']
-        lines += [f'{name} {kind}' for name, kind in types.items()] + [f'{len(own)} runs']
-        lines += ['; '.join(shown(each['figures'].get(name, '')) for name in types) + '; ' for each in own]
-        lines += ['2 progress properties for each run', 'best cost REAL', 'time REAL', f'{len(own)} runs']
-        lines += [''.join(f'{cost},{time},;' for time, cost in each['progress']) for each in own]
-        lines.append('.')
-    return '\n'.join(lines) + '\n'
-
-
-def main():
-    parser = argparse.ArgumentParser(description='Writes a database and OMPL logs of made-up results.')
-    parser.add_argument('folder')
-    parser.add_argument('--problems', type=int, default=20)
-    parser.add_argument('--planners', type=int, default=10)
-    parser.add_argument('--runs', type=int, default=50)
-    options = parser.parse_args()
-    records = random_records(options.problems, options.planners, options.runs)
-    write(options.folder, records)
-    for problem in dict.fromkeys(each['experiment'] for each in records):
-        with open(os.path.join(options.folder, problem + '.log'), 'w', encoding='utf-8') as stream:
-            stream.write(log_text(problem, [each for each in records if each['experiment'] == problem]))
-    print(f'{len(records)} runs')
-
-
-if __name__ == '__main__':
-    sys.exit(main())
