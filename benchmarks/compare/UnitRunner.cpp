@@ -118,8 +118,8 @@ namespace parking
             try
             {
                 const CuspToCusp profile = cuspToCusp(planned.path, problem.scenario().vehicle);
-                record.set("cusp to cusp time", profile.time);
-                record.set("cusp to cusp cost", profile.cost());
+                record.set("cusp to cusp time", profile.cost.time);
+                record.set("cusp to cusp cost", profile.cost.total());
                 record.set("cusp to cusp jerk", profile.meanJerk);
                 record.set("steerings at standstill", profile.standingSteerings);
                 record.set("steering at standstill time", profile.standingSteeringTime);
