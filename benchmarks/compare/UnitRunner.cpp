@@ -4,8 +4,7 @@
 #include "benchmarks/metrics/DriveMetrics.h"
 #include "benchmarks/metrics/PathMetrics.h"
 #include "benchmarks/metrics/PeakMemory.h"
-#include "benchmarks/plan/PathDrive.h"
-#include "benchmarks/planners/SettingError.h"
+#include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "benchmarks/system/QuietChildren.h"
@@ -157,7 +156,7 @@ namespace parking
             record.set("driven to the end", false);
             try
             {
-                const DriveResult drive = drivePath(problem, path);
+                const DriveResult drive = problem.closedLoop().drive(path.path);
                 const Evaluation &figures = drive.evaluation;
                 record.set("driven to the end", drive.arrived);
                 record.set("travel time", figures.travelTime);
@@ -256,7 +255,7 @@ namespace parking
         isolation_(isolation),
         stop_(stop)
     {
-        SolveRecord::Clock::countProcessorTime(config.processorTime);
+        SolveRecord::countProcessorTime(config.processorTime);
     }
 
     const Problem &UnitRunner::problem(std::size_t experiment)
@@ -386,7 +385,7 @@ namespace parking
         catch (...)
         {
             const PlannerFailure failure = currentFailure("it");
-            return failedRun(recordOf(unit), statusOf(failure.kind), failure.text);
+            return failedRun(recordOf(unit), failure.status, failure.text);
         }
         return record;
     }
@@ -429,11 +428,8 @@ namespace parking
         seedRandomNumbers(seed);
         const PreparedPlanner prepared = world.prepare(registry_.find(spec.planner), spec.settings);
         prepared.planner->setName(spec.name);
-        if (prepared.measured != nullptr)
-        {
-            prepared.measured->setTimeLimit(config_.timeLimit);
-            prepared.measured->setStop(&stop_);
-        }
+        prepared.planner->setTimeLimit(config_.timeLimit);
+        prepared.planner->setStop(&stop_);
 
         // Not while the planner is at work: what it starts may have something to say.
         std::optional<QuietChildren> quiet(std::in_place);
@@ -485,15 +481,12 @@ namespace parking
         const auto status = record.figures.count("status") > 0
                                 ? static_cast<ob::PlannerStatus::StatusType>(record.number("status"))
                                 : ob::PlannerStatus::UNKNOWN;
-        const PlanRun run = evaluateRun(world, prepared, status, config_.timeLimit);
+        const PlanRun run = evaluateRun(world, prepared, status);
         putOutcome(record, world, run, config_.timeLimit);
-        if (prepared.measured != nullptr)
-        {
-            // Without the millisecond that OMPL's own clock takes to notice the end.
-            record.set("time", run.planningTime + run.mapLoadingTime);
-            record.set("cpu time", run.cpuTime);
-            record.progress = prepared.measured->record()->improvements();
-        }
+        // Without the millisecond that OMPL's own clock takes to notice the end.
+        record.set("time", run.planningTime + run.mapLoadingTime);
+        record.set("cpu time", run.cpuTime);
+        record.progress = prepared.planner->record()->improvements();
         if (!run.path)
             return;
         putPath(record, "", *run.path);
