@@ -141,6 +141,7 @@ namespace parking
         controls_->setPropagationStepSize(step_);
         controls_->setMinMaxControlDuration(1, LONGEST_CONTROL);
         controls_->setup();
+        si_->setup();  // the space has other projections since, and its old ones are gone, which settings print
         planner_->setProblemDefinition(problem);
         planner_->clear();
         planner_->setup();

@@ -9,6 +9,7 @@
 #include "tests/parking_geometry/TemporaryFolder.h"
 
 #include <memory>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -100,6 +101,19 @@ namespace
         const PlanRun run = plan("PRM", 60.0);
         EXPECT_EQ(run.status, PlanStatus::Exact);
         EXPECT_LT(run.planningTime, 30.0);
+    }
+
+    TEST_F(Planners, OfControlsLeaveTheSettingsOfTheSpaceAsTheyAre)
+    {
+        const auto settings = [this]
+        {
+            std::ostringstream text;
+            field_.spaceInformation()->printSettings(text);
+            return text.str();
+        };
+        const std::string before = settings();
+        EXPECT_EQ(plan("control_RRT", 20.0).status, PlanStatus::Exact);
+        EXPECT_EQ(settings(), before);
     }
 
     TEST_F(Planners, AnswerRemovedParametersWithWhatToUseInsteadWhereTheyHadThem)
