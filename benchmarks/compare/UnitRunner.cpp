@@ -4,8 +4,7 @@
 #include "benchmarks/metrics/DriveMetrics.h"
 #include "benchmarks/metrics/PathMetrics.h"
 #include "benchmarks/metrics/PeakMemory.h"
-#include "benchmarks/plan/PathDrive.h"
-#include "benchmarks/planners/SettingError.h"
+#include "benchmarks/planners/PlannerRegistry.h"
 #include "benchmarks/store/RunColumns.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
@@ -97,8 +96,8 @@ namespace parking
             try
             {
                 const CuspToCusp profile = cuspToCusp(planned.path, problem.scenario().vehicle);
-                record.set("cusp to cusp time", profile.time);
-                record.set("cusp to cusp cost", profile.cost());
+                record.set("cusp to cusp time", profile.cost.time);
+                record.set("cusp to cusp cost", profile.cost.total());
                 record.set("cusp to cusp jerk", profile.meanJerk);
                 record.set("steerings at standstill", profile.standingSteerings);
                 record.set("steering at standstill time", profile.standingSteeringTime);
@@ -136,7 +135,7 @@ namespace parking
             record.set("driven to the end", false);
             try
             {
-                const DriveResult drive = drivePath(problem, path);
+                const DriveResult drive = problem.closedLoop().drive(path.path);
                 const Evaluation &figures = drive.evaluation;
                 record.set("driven to the end", drive.arrived);
                 record.set("travel time", figures.travelTime);
@@ -235,7 +234,7 @@ namespace parking
         isolation_(isolation),
         stop_(stop)
     {
-        SolveRecord::Clock::countProcessorTime(config.processorTime);
+        SolveRecord::countProcessorTime(config.processorTime);
     }
 
     const Problem &UnitRunner::problem(std::size_t experiment)
@@ -365,7 +364,7 @@ namespace parking
         catch (...)
         {
             const PlannerFailure failure = currentFailure("it");
-            return failedRun(recordOf(unit), statusOf(failure.kind), failure.text);
+            return failedRun(recordOf(unit), failure.status, failure.text);
         }
         return record;
     }
@@ -408,11 +407,8 @@ namespace parking
         seedRandomNumbers(seed);
         const PreparedPlanner prepared = world.prepare(registry_.find(spec.planner), spec.settings);
         prepared.planner->setName(spec.name);
-        if (prepared.measured != nullptr)
-        {
-            prepared.measured->setTimeLimit(config_.timeLimit);
-            prepared.measured->setStop(&stop_);
-        }
+        prepared.planner->setTimeLimit(config_.timeLimit);
+        prepared.planner->setStop(&stop_);
 
         ompl::tools::Benchmark benchmark(*prepared.setup, record.experiment);
         benchmark.addPlanner(prepared.planner);
@@ -459,15 +455,12 @@ namespace parking
         const auto status = record.figures.count("status") > 0
                                 ? static_cast<ob::PlannerStatus::StatusType>(record.number("status"))
                                 : ob::PlannerStatus::UNKNOWN;
-        const PlanRun run = evaluateRun(world, prepared, status, config_.timeLimit);
+        const PlanRun run = evaluateRun(world, prepared, status);
         putOutcome(record, world, run, config_.timeLimit);
-        if (prepared.measured != nullptr)
-        {
-            // Without the millisecond that OMPL's own clock takes to notice the end.
-            record.set("time", run.planningTime + run.mapLoadingTime);
-            record.set("cpu time", run.cpuTime);
-            record.progress = prepared.measured->record()->improvements();
-        }
+        // Without the millisecond that OMPL's own clock takes to notice the end.
+        record.set("time", run.planningTime + run.mapLoadingTime);
+        record.set("cpu time", run.cpuTime);
+        record.progress = prepared.planner->record()->improvements();
         if (!run.path)
             return;
         putPath(record, "", *run.path);

@@ -1,6 +1,6 @@
 #include "benchmarks/config/Experiment.h"
 
-#include "benchmarks/planners/SettingError.h"
+#include "benchmarks/planners/PlannerRegistry.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "parking_geometry/text/NearestName.h"

@@ -129,14 +129,14 @@ namespace parking
                 const double from = length * k / parts, to = length * (k + 1.0) / parts, middle = 0.5 * (from + to);
                 const double time = profile.timeAt(place + to) - profile.timeAt(place + from);
                 const double angle = vehicle.steeringAngle(piece.curvatureAt(middle));
-                figures.steeringIntegral += angle * angle * time;
+                figures.cost.steeringIntegral += angle * angle * time;
                 if (piece.sharpness == 0.0)
                     continue;
                 const double perMetre =
                     (vehicle.steeringAngle(piece.curvatureAt(to)) - vehicle.steeringAngle(piece.curvatureAt(from))) /
                     (to - from);
                 const double speed = profile.speedAt(place + middle);
-                figures.controlEffort += std::pow(speed * speed * perMetre, 2.0) * time;
+                figures.cost.controlEffort += std::pow(speed * speed * perMetre, 2.0) * time;
             }
         }
 
@@ -208,7 +208,7 @@ namespace parking
         if (stretches.empty())
             throw Error("speed profile: the path never drives");
         CuspToCusp figures;
-        figures.gearChanges = stretches.size() - 1;
+        figures.cost.gearChanges = stretches.size() - 1;
         const PathPiece *before = nullptr;
         double changes = 0.0;  // of the acceleration, signed as the speed is
         double acceleration = 0.0;
@@ -221,8 +221,8 @@ namespace parking
         {
             const double length = path.part(stretch.first, stretch.last).length();
             const RestToRest profile(length, vehicle);
-            figures.time += profile.duration();
-            figures.controlEffort += profile.effort();
+            figures.cost.time += profile.duration();
+            figures.cost.controlEffort += profile.effort();
             changeTo(stretch.direction * vehicle.maxAcceleration);
             if (length > vehicle.maxSpeed * vehicle.maxSpeed / vehicle.maxAcceleration)
                 changeTo(0.0);
@@ -241,7 +241,7 @@ namespace parking
             }
         }
         changeTo(0.0);
-        figures.meanJerk = changes / figures.time;
+        figures.meanJerk = changes / figures.cost.time;
         return figures;
     }
 }  // namespace parking

@@ -2,6 +2,7 @@
 
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
+#include "path_tracking/trajectory/TimedMotion.h"
 
 #include <cstddef>
 #include <functional>
@@ -46,20 +47,10 @@ namespace parking
         What the steering would take is told apart: a car has to stand still wherever the curvature jumps. */
     struct CuspToCusp
     {
-        double time{0.0};                  ///< seconds, of the profile alone
-        double controlEffort{0.0};         ///< integral of a^2 + (v w)^2, with the steering rate w; jumps are not in it
-        double steeringIntegral{0.0};      ///< integral of the squared steering angle
-        std::size_t gearChanges{0};        ///< changes of direction
+        TpcapCost cost;  ///< of the profile alone; what wheels do where the curvature jumps is not in it
         std::size_t standingSteerings{0};  ///< places where the curvature jumps, at cusps or between them
-        double standingSteeringTime{0.0};  ///< seconds in which the wheels turn there; not in \e time
+        double standingSteeringTime{0.0};  ///< seconds in which the wheels turn there; not in the cost's time
         double meanJerk{0.0};              ///< m/s^3, mean of the absolute value over the time
-
-        /** \brief TPCAP's J = 100 T + 10 effort + 10 steering + 5 gear changes, of the profile alone. */
-        double cost() const
-        {
-            return 100.0 * time + 10.0 * controlEffort + 10.0 * steeringIntegral +
-                   5.0 * static_cast<double>(gearChanges);
-        }
     };
 
     /** \brief The profile of \e path with the limits of \e vehicle.

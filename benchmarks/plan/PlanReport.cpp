@@ -3,7 +3,6 @@
 #include "automatic_parking/ParkingWorld.h"
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "automatic_parking/drawing/DriveFigure.h"
-#include "benchmarks/plan/PathDrive.h"
 #include "benchmarks/system/Counted.h"
 #include "benchmarks/system/ProcessorTime.h"
 #include "parking_geometry/Error.h"
@@ -52,6 +51,19 @@ namespace parking
             return {{"x", pose.x}, {"y", pose.y}, {"yaw", pose.yaw}};
         }
 
+        json pathJson(const Scenario &scenario, const SampledPath &path)
+        {
+            json states = json::array();
+            for (const PathState &state : path)
+            {
+                json each = poseJson(scenario, state.pose);
+                each["direction"] = state.direction;
+                each["curvature"] = state.curvature;
+                states.push_back(std::move(each));
+            }
+            return states;
+        }
+
         /** JSON knows no infinity: what is not finite is null. */
         json number(double value)
         {
@@ -86,6 +98,13 @@ namespace parking
                     {"collisions", figures.collisions}};
         }
 
+        /** "1.20 m, 2 changes of direction, least clearance 0.123 m" */
+        std::string pathText(const PlannedPath &path)
+        {
+            return formatNumber(path.length, 2) + " m, " + counted(path.cusps, "change") +
+                   " of direction, least clearance " + formatNumber(path.clearance, 3) + " m";
+        }
+
         json trajectoryJson(const Scenario &scenario, const Trajectory &trajectory, bool withSteeringRate)
         {
             json samples = json::array();
@@ -105,7 +124,7 @@ namespace parking
 
         void addTrajectoryTo(json &text, const Scenario &scenario, const PlanReport &result)
         {
-            text["planned_trajectory"] = json::array();
+            text["planned_trajectory"] = trajectoryJson(scenario, result.samples, true);
             if (!result.trajectory)
             {
                 text["trajectory_optimization"] = {{"message", result.trajectoryError}};
@@ -113,8 +132,6 @@ namespace parking
             }
             const OptimizedTrajectory &optimized = result.trajectory->trajectory;
             const TpcapCost cost = tpcapCost(optimized.motion);
-            text["planned_trajectory"] =
-                trajectoryJson(scenario, sample(optimized.motion, scenario.vehicle, TRAJECTORY_STEP), true);
             text["trajectory_optimization"] = {{"duration_s", optimized.motion.duration()},
                                                {"time_ms", MS * result.trajectoryTime},
                                                {"fallback", optimized.fallback},
@@ -166,13 +183,6 @@ namespace parking
                         formatNumber(figures.cornerDeviation, 2) + " m)";
             return text;
         }
-
-        /** The planned trajectory in the scenario's coordinates; empty without one. */
-        Trajectory plannedSamples(const Scenario &scenario, const PlanReport &result)
-        {
-            return result.trajectory ? sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP)
-                                     : Trajectory();
-        }
     }  // namespace
 
     json parametersJson(const ompl::base::Planner &planner)
@@ -194,19 +204,6 @@ namespace parking
                 result[name] = value;
         }
         return result;
-    }
-
-    json pathJson(const Scenario &scenario, const SampledPath &path)
-    {
-        json states = json::array();
-        for (const PathState &state : path)
-        {
-            json each = poseJson(scenario, state.pose);
-            each["direction"] = state.direction;
-            each["curvature"] = state.curvature;
-            states.push_back(std::move(each));
-        }
-        return states;
     }
 
     int exitStatus(const PlanRun &run, bool isAllWritten)
@@ -307,8 +304,7 @@ namespace parking
         }
         if (run.path)
         {
-            text += "  " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
-                    " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
+            text += "  " + pathText(*run.path);
             if (run.status == PlanStatus::Approximate)
                 text += ", ends " + formatNumber(run.goalDistance, 2) + " m from the goal";
             text += run.hasValidPath()
@@ -339,20 +335,18 @@ namespace parking
         std::string subtitle =
             result.planner + ", " + statusOf(run) + ", " + formatNumber(MS * run.planningTime, 1) + " ms";
         if (run.path)
-            subtitle += ", path of " + formatNumber(run.path->length, 2) + " m, " + counted(run.path->cusps, "change") +
-                        " of direction, least clearance " + formatNumber(run.path->clearance, 3) + " m";
+            subtitle += ", path of " + pathText(*run.path);
         if (result.trajectory)
             subtitle += ", trajectory of " + formatNumber(result.trajectory->trajectory.motion.duration(), 2) + " s";
         if (result.drive)
             subtitle += ", driven in " + formatNumber(result.drive->evaluation.travelTime, 1) + " s";
         SvgFigure figure(scenario.name, subtitle);
-        const Trajectory planned = plannedSamples(scenario, result);
         const Trajectory driven = result.drive ? result.drive->trajectory : Trajectory();
-        figure.setMap(driveMap(scenario, path, planned, driven));
+        figure.setMap(driveMap(scenario, path, result.samples, driven));
         if (path.size() > 1)
             figure.addPlot(curvaturePlot(path, scenario.vehicle));
-        if (!driven.empty() || !planned.empty())
-            for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle, planned))
+        if (!driven.empty() || !result.samples.empty())
+            for (const SvgPlot &plot : drivePlots(driven, scenario.vehicle, result.samples))
                 figure.addPlot(plot);
         return figure.toString();
     }
@@ -378,6 +372,7 @@ namespace parking
             }
             result.trajectory =
                 quickestTrajectory(problem.footprint(), problem.scenario().bounds, run.path->path, options);
+            result.samples = sample(result.trajectory->trajectory.motion, problem.scenario().vehicle, TRAJECTORY_STEP);
         }
         catch (const Error &error)
         {
@@ -386,19 +381,16 @@ namespace parking
         result.trajectoryTime = processorTime() - begin;
     }
 
-    Trajectory resultTrajectory(const Problem &problem, const PlanReport &result)
+    std::string resultCsv(const Problem &problem, const PlanReport &result)
     {
-        if (!result.trajectory)
-            return {};
-        const Scenario &scenario = problem.scenario();
-        Trajectory trajectory = sample(result.trajectory->trajectory.motion, scenario.vehicle, TRAJECTORY_STEP);
+        Trajectory trajectory = result.samples;
         for (TrajectoryPoint &point : trajectory)
         {
-            const Pose pose = scenario.toWorld({point.x, point.y, point.yaw});
+            const Pose pose = problem.scenario().toWorld({point.x, point.y, point.yaw});
             point.x = pose.x;
             point.y = pose.y;
         }
-        return trajectory;
+        return toCsv(trajectory);
     }
 
     void addDrive(const Problem &problem, PlanReport &result)
@@ -414,8 +406,9 @@ namespace parking
         }
         try
         {
-            result.drive = result.trajectory ? driveMotion(problem, result.trajectory->trajectory.motion)
-                                             : drivePath(problem, *run.path);
+            const ClosedLoop loop = problem.closedLoop();
+            result.drive =
+                result.trajectory ? loop.follow(result.trajectory->trajectory.motion) : loop.drive(run.path->path);
         }
         catch (const Error &error)
         {
@@ -433,6 +426,6 @@ namespace parking
                               result.planner + ", " + formatNumber(figures.drivenLength, 1) + " m in " +
                                   formatNumber(figures.travelTime, 1) + " s, ends " +
                                   formatNumber(100.0 * figures.finalPositionError, 1) + " cm from the end of the path",
-                              plannedSamples(scenario, result));
+                              result.samples);
     }
 }  // namespace parking

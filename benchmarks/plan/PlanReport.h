@@ -23,6 +23,7 @@ namespace parking
         std::string driveError;            ///< why the path cannot be driven; empty otherwise
         /** With PlanOptions::trajectory, unless trajectoryError says why not. */
         std::optional<QuickestTrajectory> trajectory;
+        Trajectory samples;           ///< of the trajectory; empty if there is none
         std::string trajectoryError;  ///< why there is no trajectory; empty otherwise
         double trajectoryTime{0.0};   ///< seconds of processor time
 
@@ -35,10 +36,6 @@ namespace parking
 
     /** \brief All parameters of a planner, with numbers and switches as such. */
     nlohmann::json parametersJson(const ompl::base::Planner &planner);
-
-    /** \brief A path as in results: x, y, yaw, direction, curvature of each state, in the coordinates of the scenario's
-        file. */
-    nlohmann::json pathJson(const Scenario &scenario, const SampledPath &path);
 
     /** \brief What parking_plan exits with: 0 for an exact solution, 3 for only an approximate one, 4 for none that the
         referee accepts, and where not all files could be written that were asked for. */
@@ -64,9 +61,8 @@ namespace parking
         the path keeps twice that, and else half of what the path keeps */
     void addTrajectory(const Problem &problem, PlanReport &result, bool isDriven);
 
-    /** \brief The optimised trajectory in samples, in the coordinates of the scenario's file; empty if there is none.
-     */
-    Trajectory resultTrajectory(const Problem &problem, const PlanReport &result);
+    /** \brief The optimised trajectory as a table, in the coordinates of the scenario's file. */
+    std::string resultCsv(const Problem &problem, const PlanReport &result);
 
     /** \brief Drives the trajectory of the first run in closed loop, or its path when none was asked for. What cannot
         be driven is told in the result; so is a trajectory that there should be and is not. */

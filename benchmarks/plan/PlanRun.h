@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -23,36 +22,6 @@ namespace parking
         std::optional<std::uint64_t> openListOperations;   ///< entries pushed and popped; of improved A* only
         std::optional<std::uint64_t> openListComparisons;  ///< of entries with each other; of improved A* only
     };
-
-    /** \brief How a run ended. */
-    enum class PlanStatus
-    {
-        Exact,         ///< a path to a goal
-        Approximate,   ///< a path that ends short of the goals
-        Timeout,       ///< nothing found until the time was up
-        InvalidStart,  ///< no start is free
-        InvalidGoal,   ///< no goal is free
-        Infeasible,    ///< the planner came to an end without having been stopped: there is nothing that it could still
-                       ///< try
-        Exception,     ///< the planner threw
-        Crash,         ///< a signal ended it, or it ended its process
-        Hang,          ///< it did not come back
-        Memory,        ///< it took too much memory
-        Nonsense       ///< its answer is none: no path, or states that are nowhere
-    };
-
-    /** \brief Number of values that a PlanStatus has. */
-    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
-
-    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception,
-       crash, hang, memory, nonsense. */
-    std::string toString(PlanStatus status);
-
-    /** \brief Did the planner itself fail, whatever the problem? */
-    bool isFailure(PlanStatus status);
-
-    /** \brief How a run ended in which the planner failed so; Timeout where it did not. */
-    PlanStatus statusOf(PlannerFailure::Kind failure);
 
     /** \brief One run of a planner. */
     struct PlanRun
@@ -83,9 +52,8 @@ namespace parking
         }
     };
 
-    /** \brief Status, figures and path of a planner that has just been run. \param timeLimit seconds */
-    PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ompl::base::PlannerStatus status,
-                        double timeLimit);
+    /** \brief Status, figures and path of a planner that has just been run. */
+    PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ompl::base::PlannerStatus status);
 
     /** \brief Runs a new instance of a planner once, from seed \e seed.
 

@@ -101,44 +101,6 @@ namespace parking
             }
             return result;
         }
-
-        /** Straight lines from state to state; the arcs that would join them tell direction and curvature. */
-        SampledPath chordPath(const og::PathGeometric &path, double sampling)
-        {
-            const std::vector<const ompl::base::State *> states = statesOf(path);
-            SampledPath result;
-            PathState state;
-            state.pose = poseOf(states.front());
-            result.push_back(state);
-            for (std::size_t i = 1; i < states.size(); ++i)
-            {
-                const Pose from = poseOf(states[i - 1]), to = poseOf(states[i]);
-                const double length = positionDistance(to, from);
-                const double turn = wrapAngle(to.yaw - from.yaw);
-                if (length < SHORTEST_PIECE && std::abs(turn) < SHORTEST_PIECE)
-                    continue;
-                const Arc arc = arcBetween(from, to);
-                const double begin = result.back().arcLength;
-                const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(length / sampling)));
-                for (std::size_t k = 1; k <= steps; ++k)
-                {
-                    const double share = static_cast<double>(k) / static_cast<double>(steps);
-                    state.pose = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
-                                  wrapAngle(from.yaw + share * turn)};
-                    state.arcLength = begin + share * length;
-                    // Turning on the spot has no curvature that a number could tell.
-                    state.curvature = length < SHORTEST_PIECE ? 0.0 : arc.curvature;
-                    state.direction = arc.length < 0.0 ? -1 : 1;
-                    result.push_back(state);
-                }
-            }
-            if (result.size() > 1)
-            {
-                result.front().curvature = result[1].curvature;
-                result.front().direction = result[1].direction;
-            }
-            return result;
-        }
     }  // namespace
 
     double samplingOf(double length, bool valid)
@@ -180,15 +142,17 @@ namespace parking
             for (const Pose &goal : scenario.goals)
                 if (isSamePose(goal, result.end, SAME))
                     result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
-        const double sampling = samplingOf(result.path.length(), result.recheck.valid);
-        // What the planner means, which on a plain SE2 space is not what a car does.
-        SampledPath meant = straight ? chordPath(path, sampling) : result.path.sample(sampling);
-        meant.front().pose = result.path.start;
-        meant.back().pose = result.end;
-        result.length = pathLength(meant);
         result.cusps = result.path.cusps();
+        // What the planner means, which on a plain SE2 space is not what a car does.
         if (straight)
-            poses.front() = result.path.start, poses.back() = result.end;
+        {
+            for (std::size_t i = 1; i < poses.size(); ++i)
+                result.length += positionDistance(poses[i], poses[i - 1]);
+            poses.front() = result.path.start;
+            poses.back() = result.end;
+        }
+        else
+            result.length = result.path.length();
         result.clearance = straight ? referee.leastClearance(poses) : referee.leastClearance(result.path);
         return result;
     }

@@ -1,6 +1,5 @@
 #include "benchmarks/plan/Problem.h"
 
-#include "benchmarks/planners/SettingError.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/NearestName.h"
@@ -51,17 +50,15 @@ namespace parking
         constexpr const char *TURNING_RADIUS = "turning_radius";
 
         /** Throws SettingError for a turning radius that this project's planner would not look at. */
-        void requireUsedRadius(const ob::Planner &planner, const PlannerSettings &settings, const Problem &problem)
+        void requireUsedRadius(const std::string &planner, const PlannerSettings &settings, const Problem &problem)
         {
-            if (!problem.isDrivable() || dynamic_cast<const ompl::geometric::ImprovedAStar *>(&planner) == nullptr)
-                return;
             const double ofCar = problem.scenario().vehicle.minTurningRadius();
             for (const auto &[name, value] : settings)
             {
                 // The car's own, as results tell it, may be given.
                 double radius = 0.0;
                 if (name == TURNING_RADIUS && parseNumber(value, radius) && std::abs(radius - ofCar) > 1e-4 * ofCar)
-                    throw SettingError({name}, "parameter turning_radius of " + planner.getName() +
+                    throw SettingError({name}, "parameter turning_radius of " + planner +
                                                    " counts in space se2 only: in space " +
                                                    toString(problem.settings().space) + " the car turns within " +
                                                    formatNumber(ofCar, 3) +
@@ -220,6 +217,11 @@ namespace parking
         return first + (scenario_.goals.size() > 1 ? ", and no other goal is free" : "");
     }
 
+    ompl::geometric::ImprovedAStar *PreparedPlanner::improved() const
+    {
+        return dynamic_cast<ompl::geometric::ImprovedAStar *>(&planner->wrapped());
+    }
+
     PreparedPlanner Problem::prepare(const PlannerEntry &entry, const PlannerSettings &settings) const
     {
         PreparedPlanner prepared;
@@ -228,26 +230,27 @@ namespace parking
         setPose(start.get(), scenario_.start);
         prepared.setup->setStartState(start);
         prepared.setup->setGoal(makeGoal(scenario_, si_));
-        prepared.planner = entry.allocate(si_);
-        if (!prepared.planner)
+        const ob::PlannerPtr planner = entry.allocate(si_);
+        if (!planner)
             throw Error("planner " + entry.name + ": its allocator returned nothing");
-        prepared.planner->setName(entry.name);
-        prepared.measured = dynamic_cast<MeasuredPlanner *>(prepared.planner.get());
-        if (prepared.planner->params().hasParam(TURNING_RADIUS))
-            applySettings(*prepared.planner, {{TURNING_RADIUS, formatNumber(scenario_.vehicle.minTurningRadius())}});
-        requireUsedRadius(*prepared.planner, settings, *this);
-        applySettings(*prepared.planner, allSettings(entry, settings));
-        if (entry.optimizing && prepared.measured != nullptr)
+        planner->setName(entry.name);
+        prepared.planner = std::make_shared<MeasuredPlanner>(planner);
+        if (planner->params().hasParam(TURNING_RADIUS))
+            applySettings(*planner, {{TURNING_RADIUS, formatNumber(scenario_.vehicle.minTurningRadius())}});
+        if (prepared.improved() != nullptr && isDrivable())
+            requireUsedRadius(entry.name, settings, *this);
+        applySettings(*planner, allSettings(entry, settings));
+        if (entry.optimizing)
         {
-            const auto objective = std::make_shared<RecordingObjective>(si_, prepared.measured->record());
+            const auto objective = std::make_shared<RecordingObjective>(si_, prepared.planner->record());
             objective->setCostThreshold(ob::Cost(settings_.threshold));
             prepared.setup->setOptimizationObjective(objective);
         }
-        else if (prepared.measured != nullptr)
+        else
             // Who improves a path without an objective of ours says when (improved_astar with `anytime`).
             prepared.problem()->setIntermediateSolutionCallback(
-                [record = prepared.measured->record()](const ob::Planner *, const std::vector<const ob::State *> &,
-                                                       ob::Cost cost) { record->note(cost.value()); });
+                [record = prepared.planner->record()](const ob::Planner *, const std::vector<const ob::State *> &,
+                                                      ob::Cost cost) { record->note(cost.value()); });
         prepared.setup->setPlanner(prepared.planner);
         try
         {
@@ -258,6 +261,14 @@ namespace parking
             throw Error(oneLine(error.what()));
         }
         return prepared;
+    }
+
+    ClosedLoop Problem::closedLoop() const
+    {
+        ClosedLoop loop(scenario_.vehicle);
+        loop.setClearance([checker = footprint_](const Pose &pose) { return checker->clearance(pose); });
+        loop.setValidity([checker = footprint_](const Pose &pose) { return checker->isFree(pose); });
+        return loop;
     }
 
     CheckCounts Problem::checkCounts() const
@@ -282,10 +293,7 @@ namespace parking
     {
         ProblemSettings suitable;
         const auto space = std::make_shared<ob::SE2StateSpace>();
-        ob::RealVectorBounds bounds(2);
-        bounds.setLow(0.0);
-        bounds.setHigh(1.0);
-        space->setBounds(bounds);
+        space->setBounds(positionBounds({{0.0, 0.0}, {1.0, 1.0}}));
         const ob::PlannerPtr planner = entry.allocate(std::make_shared<ob::SpaceInformation>(space));
         const auto *improved = dynamic_cast<const ompl::geometric::ImprovedAStar *>(planner.get());
         if (improved == nullptr)

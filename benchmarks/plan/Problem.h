@@ -1,20 +1,25 @@
 #pragma once
 
+#include "benchmarks/planners/MeasuredPlanner.h"
 #include "benchmarks/planners/PlannerRegistry.h"
-#include "benchmarks/planners/SolveRecord.h"
 #include "parking_geometry/Scenario.h"
 #include "parking_geometry/referee/Referee.h"
+#include "path_tracking/simulation/ClosedLoop.h"
 #include "state_validity/FootprintChecker.h"
 #include "state_validity/ObstacleSet.h"
 #include "state_validity/ompl/CurveSpace.h"
 
-#include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/geometric/SimpleSetup.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
+
+namespace ompl::geometric
+{
+    class ImprovedAStar;
+}
 
 namespace parking
 {
@@ -49,8 +54,10 @@ namespace parking
     struct PreparedPlanner
     {
         std::shared_ptr<ompl::geometric::SimpleSetup> setup;  ///< with a problem definition of its own
-        ompl::base::PlannerPtr planner;                       ///< set up, with its settings
-        MeasuredPlanner *measured{nullptr};  ///< the planner again; null for one that does not measure itself
+        std::shared_ptr<MeasuredPlanner> planner;             ///< set up, with its settings
+
+        /** \brief The planner that is measured, if it is the one of this project; otherwise null. */
+        ompl::geometric::ImprovedAStar *improved() const;
 
         /** \brief Where the planner leaves its solutions. */
         const ompl::base::ProblemDefinitionPtr &problem() const
@@ -104,12 +111,6 @@ namespace parking
             return *curveSpace_;
         }
 
-        /** \brief The obstacles, shared by everything that checks. */
-        const ObstacleSet &obstacles() const
-        {
-            return *obstacles_;
-        }
-
         /** \brief The checker of the car's rectangle; also there when planning is done for a disc. */
         const FootprintChecker &footprint() const
         {
@@ -121,6 +122,10 @@ namespace parking
         {
             return *referee_;
         }
+
+        /** \brief What drives planned paths with the scenario's car among its obstacles, collisions checked: the same
+            drive follows wherever a path is driven. */
+        ClosedLoop closedLoop() const;
 
         /** \brief Seconds that obstacles and distance field took to build. */
         double loadingTime() const

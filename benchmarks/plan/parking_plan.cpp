@@ -72,7 +72,7 @@ namespace
         if (!options.svg.empty())
             writeFileAtomically(options.svg, resultSvg(problem, result));
         if (!options.csv.empty() && result.trajectory)
-            writeFileAtomically(options.csv, toCsv(resultTrajectory(problem, result)));
+            writeFileAtomically(options.csv, resultCsv(problem, result));
         if (!options.html.empty() && result.drive)
             writeFileAtomically(options.html, resultHtml(problem, result));
         if (!options.json.empty())

@@ -1,5 +1,6 @@
 #include "benchmarks/planners/KinodynamicPlanner.h"
 
+#include "benchmarks/planners/RangedParameter.h"
 #include "parking_geometry/Pose.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/OmplPose.h"
@@ -8,9 +9,6 @@
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/control/PathControl.h>
-#include <ompl/control/planners/kpiece/KPIECE1.h>
-#include <ompl/control/planners/rrt/RRT.h>
-#include <ompl/control/planners/sst/SST.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Exception.h>
@@ -83,9 +81,8 @@ namespace parking
     {
         specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
         specs_.directed = true;
-        declareParam<double>("goal_reach", this, &KinodynamicPlanner::setGoalReach, &KinodynamicPlanner::getGoalReach,
-                             "0.5:0.5:20.");
-        declareParam<double>("step", this, &KinodynamicPlanner::setStep, &KinodynamicPlanner::getStep, "0.05:0.05:1.");
+        declareRanged(*this, "goal_reach", goalReach_, {0.01, 1000.0}, "0.5:0.5:20.");
+        declareRanged(*this, "step", step_, {0.01, 10.0}, "0.05:0.05:1.");
 
         auto controls = std::make_shared<oc::RealVectorControlSpace>(si->getStateSpace(), 2);
         ob::RealVectorBounds bounds(2);
@@ -144,6 +141,7 @@ namespace parking
         controls_->setPropagationStepSize(step_);
         controls_->setMinMaxControlDuration(1, LONGEST_CONTROL);
         controls_->setup();
+        si_->setup();  // the space has other projections since, and its old ones are gone, which settings print
         planner_->setProblemDefinition(problem);
         planner_->clear();
         planner_->setup();
@@ -161,11 +159,7 @@ namespace parking
         const ob::State *end = goal->drivableFrom(last);
         if (end != nullptr && si_->distance(last, end) > 0.0)
             path->append(end);
-        ob::PlannerSolution solution(path);
-        solution.setPlannerName(getName());
-        if (end == nullptr)
-            solution.setApproximate(goal->distanceGoal(last));
-        pdef_->addSolutionPath(solution);
+        pdef_->addSolutionPath(path, end == nullptr, end == nullptr ? goal->distanceGoal(last) : 0.0, getName());
         return end != nullptr ? ob::PlannerStatus::EXACT_SOLUTION : ob::PlannerStatus::APPROXIMATE_SOLUTION;
     }
 
@@ -180,21 +174,5 @@ namespace parking
         ob::Planner::getPlannerData(data);
         if (planner_->getProblemDefinition())
             planner_->getPlannerData(data);
-    }
-
-    ControlRRT::ControlRRT(const ob::SpaceInformationPtr &si)
-      : KinodynamicPlanner(si, "control_RRT", [](const auto &controls) { return std::make_shared<oc::RRT>(controls); })
-    {
-    }
-
-    ControlSST::ControlSST(const ob::SpaceInformationPtr &si)
-      : KinodynamicPlanner(si, "control_SST", [](const auto &controls) { return std::make_shared<oc::SST>(controls); })
-    {
-    }
-
-    ControlKPIECE1::ControlKPIECE1(const ob::SpaceInformationPtr &si)
-      : KinodynamicPlanner(si, "control_KPIECE1",
-                           [](const auto &controls) { return std::make_shared<oc::KPIECE1>(controls); })
-    {
     }
 }  // namespace parking

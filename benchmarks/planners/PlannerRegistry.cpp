@@ -2,8 +2,6 @@
 
 #include "benchmarks/planners/KinodynamicPlanner.h"
 #include "benchmarks/planners/ReedsSheppPlanner.h"
-#include "benchmarks/planners/SettingError.h"
-#include "benchmarks/planners/SolveRecord.h"
 #include "benchmarks/planners/TextbookHybridAStar.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
 #include "ompl_improved_astar/search/planning/Parameters.h"
@@ -11,6 +9,9 @@
 #include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
+#include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/rrt/RRT.h>
+#include <ompl/control/planners/sst/SST.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
 #include <ompl/geometric/planners/informedtrees/ABITstar.h>
@@ -51,6 +52,7 @@
 #include <limits>
 #include <map>
 
+namespace oc = ompl::control;
 namespace og = ompl::geometric;
 
 namespace parking
@@ -61,13 +63,15 @@ namespace parking
         std::string keyOf(const std::string &name)
         {
             std::string key;
-            for (const char c : name)
+            for (const char c : lowerCase(name))
             {
                 if (c == '*')
                     key += "star";
                 else if (c != '_' && c != '-' && c != ' ')
-                    key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+                    key += c;
             }
+            if (key == "kpiece" || key == "bkpiece" || key == "lbkpiece")
+                key += "1";  // the names that OMPL.app's files use
             return key;
         }
 
@@ -76,8 +80,23 @@ namespace parking
                            PlannerSettings settings = {})
         {
             return {name, summary, optimizing,
-                    [](const ompl::base::SpaceInformationPtr &si) { return std::make_shared<Measured<Planner>>(si); },
+                    [](const ompl::base::SpaceInformationPtr &si) { return std::make_shared<Planner>(si); },
                     std::move(settings)};
+        }
+
+        /** A planner of OMPL's control space. */
+        template <class Planner>
+        PlannerEntry controlEntry(const std::string &name, const std::string &summary)
+        {
+            return {name,
+                    summary,
+                    false,
+                    [name](const ompl::base::SpaceInformationPtr &si)
+                    {
+                        return std::make_shared<KinodynamicPlanner>(
+                            si, name, [](const auto &controls) { return std::make_shared<Planner>(controls); });
+                    },
+                    {}};
         }
 
 #ifdef PARKING_HAVE_AORRTC
@@ -137,9 +156,7 @@ namespace parking
         {
             if (isOneOf<bool>(parameter))
             {
-                std::string word;
-                for (const char c : value)
-                    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+                const std::string word = lowerCase(value);
                 if (word == "1" || word == "true" || word == "yes" || word == "on")
                     return "1";
                 return word == "0" || word == "false" || word == "no" || word == "off" ? "0" : "";
@@ -160,8 +177,7 @@ namespace parking
             return value;
         }
 
-        /** Throws Error. */
-        void setChecked(ompl::base::Planner &planner, const std::string &name, const std::string &value)
+        void applySetting(ompl::base::Planner &planner, const std::string &name, const std::string &value)
         {
             ompl::base::ParamSet &parameters = planner.params();
             if (!parameters.hasParam(name))
@@ -189,18 +205,6 @@ namespace parking
             catch (const ompl::Exception &error)
             {
                 throw Error(wanted + ": " + oneLine(error.what()));
-            }
-        }
-
-        void applySetting(ompl::base::Planner &planner, const std::string &name, const std::string &value)
-        {
-            try
-            {
-                setChecked(planner, name, value);
-            }
-            catch (const Error &error)
-            {
-                throw SettingError({name}, error.what());
             }
         }
     }  // namespace
@@ -241,13 +245,9 @@ namespace parking
 #ifdef PARKING_HAVE_BLITSTAR
         registry.add(entry<og::BLITstar>("BLITstar", "OMPL's BLIT*", true));
 #endif
-        registry.add(entry<ControlRRT>("control_RRT", "OMPL's RRT of controls, with the bicycle model"));
-        registry.add(entry<ControlSST>("control_SST", "OMPL's SST of controls, to the first solution"));
-        registry.add(entry<ControlKPIECE1>("control_KPIECE1", "OMPL's KPIECE of controls"));
-        // The names that OMPL.app's files use.
-        registry.addAlias("kpiece", "KPIECE1");
-        registry.addAlias("bkpiece", "BKPIECE1");
-        registry.addAlias("lbkpiece", "LBKPIECE1");
+        registry.add(controlEntry<oc::RRT>("control_RRT", "OMPL's RRT of controls, with the bicycle model"));
+        registry.add(controlEntry<oc::SST>("control_SST", "OMPL's SST of controls, to the first solution"));
+        registry.add(controlEntry<oc::KPIECE1>("control_KPIECE1", "OMPL's KPIECE of controls"));
         return registry;
     }
 
@@ -263,33 +263,23 @@ namespace parking
                         inQuotes(entry.name) + " does not");
         if (!entry.allocate)
             throw Error("planner " + entry.name + " has no allocator");
-        if (knows(entry.name))
-            throw Error("there is already a planner " + find(entry.name).name);
-        keys_.emplace_back(keyOf(entry.name), entries_.size());
+        if (const auto known = lookUp(entry.name); known != entries_.end())
+            throw Error("there is already a planner " + known->name);
         entries_.push_back(std::move(entry));
     }
 
-    void PlannerRegistry::addAlias(const std::string &alias, const std::string &name)
+    std::vector<PlannerEntry>::const_iterator PlannerRegistry::lookUp(const std::string &name) const
     {
-        const auto index = static_cast<std::size_t>(&find(name) - entries_.data());
-        if (knows(alias))
-            throw Error("there is already a planner " + inQuotes(alias));
-        keys_.emplace_back(keyOf(alias), index);
-    }
-
-    bool PlannerRegistry::knows(const std::string &name) const
-    {
-        const std::string key = keyOf(name);
-        return std::any_of(keys_.begin(), keys_.end(), [&key](const auto &each) { return each.first == key; });
+        return std::find_if(entries_.begin(), entries_.end(),
+                            [key = keyOf(name)](const PlannerEntry &each) { return keyOf(each.name) == key; });
     }
 
     const PlannerEntry &PlannerRegistry::find(const std::string &name) const
     {
-        const std::string key = keyOf(name);
-        for (const auto &[each, index] : keys_)
-            if (each == key)
-                return entries_[index];
-        throw Error(unknownName("planner", name, names()));
+        const auto found = lookUp(name);
+        if (found == entries_.end())
+            throw Error(unknownName("planner", name, names()));
+        return *found;
     }
 
     std::vector<std::string> PlannerRegistry::names() const
@@ -304,7 +294,14 @@ namespace parking
     {
         for (const bool sets : {true, false})
             for (const auto &[name, value] : settings)
-                if ((name == "parameter_set") == sets)
-                    applySetting(planner, name, value);
+                try
+                {
+                    if ((name == "parameter_set") == sets)
+                        applySetting(planner, name, value);
+                }
+                catch (const Error &error)
+                {
+                    throw SettingError({name}, error.what());
+                }
     }
 }  // namespace parking

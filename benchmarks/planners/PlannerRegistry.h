@@ -1,5 +1,7 @@
 #pragma once
 
+#include "parking_geometry/Error.h"
+
 #include <ompl/base/Planner.h>
 
 #include <functional>
@@ -12,6 +14,28 @@ namespace parking
 {
     /** \brief Parameters of a planner in the order given, as name and value. */
     using PlannerSettings = std::vector<std::pair<std::string, std::string>>;
+
+    /** \brief An error about settings of a planner or its problem: whoever knows where these were set can say so. */
+    class SettingError : public Error
+    {
+    public:
+        /** \brief \param settings their names, as in a .cfg file behind that of the planner: `range`,
+            `problem.volume.min.x` */
+        SettingError(std::vector<std::string> settings, const std::string &message)
+          : Error(message),
+            settings_(std::move(settings))
+        {
+        }
+
+        /** \brief The settings that it is about. */
+        const std::vector<std::string> &settings() const
+        {
+            return settings_;
+        }
+
+    private:
+        std::vector<std::string> settings_;
+    };
 
     /** \brief A planner of the comparison. */
     struct PlannerEntry
@@ -28,7 +52,7 @@ namespace parking
     /** \brief The planners of the comparison by name.
 
         Case, underscores, hyphens and blanks do not matter in names, and * reads as "star": RRTstar, rrt_star and RRT*
-        are the same planner. */
+        are the same planner. KPIECE1, BKPIECE1 and LBKPIECE1 go without their digit, too, as in OMPL.app's files. */
     class PlannerRegistry
     {
     public:
@@ -39,16 +63,10 @@ namespace parking
             has other characters than letters, digits and _ . + -, or when it has no allocator. */
         void add(PlannerEntry entry);
 
-        /** \brief Another name for the planner \e name, which must be known. */
-        void addAlias(const std::string &alias, const std::string &name);
-
-        /** \brief Is it the name or the alias of a planner? */
-        bool knows(const std::string &name) const;
-
         /** \brief Throws parking::Error with the nearest and all known names for one that is not known. */
         const PlannerEntry &find(const std::string &name) const;
 
-        /** \brief Of all planners, in the order in which they were added; without aliases. */
+        /** \brief Of all planners, in the order in which they were added. */
         std::vector<std::string> names() const;
 
         /** \brief All planners, in the order in which they were added. */
@@ -58,8 +76,9 @@ namespace parking
         }
 
     private:
+        std::vector<PlannerEntry>::const_iterator lookUp(const std::string &name) const;
+
         std::vector<PlannerEntry> entries_;
-        std::vector<std::pair<std::string, std::size_t>> keys_;
     };
 
     /** \brief Sets parameters of a planner, `parameter_set` first, the others in their order.

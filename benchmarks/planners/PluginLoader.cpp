@@ -1,7 +1,5 @@
 #include "benchmarks/planners/PluginLoader.h"
 
-#include "benchmarks/planners/DelegatingPlanner.h"
-#include "benchmarks/planners/SolveRecord.h"
 #include "ompl_improved_astar/PlannerPlugin.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -25,7 +23,7 @@ namespace parking
                    std::to_string(version % 1000);
         }
 
-        /** Adds planners to the registry, each wrapped so that it is measured. */
+        /** Adds planners to the registry. */
         class Adder final : public PluginPlanners
         {
         public:
@@ -35,17 +33,7 @@ namespace parking
 
             void add(const PluginPlanner &planner) override
             {
-                PlannerEntry entry{planner.name, planner.summary, planner.optimizing, {}, {}, library_};
-                if (planner.allocate)
-                    entry.allocate = [allocate = planner.allocate, name = planner.name](
-                                         const ompl::base::SpaceInformationPtr &si) -> ompl::base::PlannerPtr
-                    {
-                        ompl::base::PlannerPtr made = allocate(si);
-                        if (!made)
-                            throw Error("planner " + name + ": its allocator returned nothing");
-                        return std::make_shared<Measured<DelegatingPlanner>>(made);
-                    };
-                registry_.add(std::move(entry));
+                registry_.add({planner.name, planner.summary, planner.optimizing, planner.allocate, {}, library_});
                 ++count_;
             }
 

@@ -55,10 +55,8 @@ namespace parking
                 break;
             if (!si_->checkMotion(start, goal))
                 continue;
-            auto path = std::make_shared<ompl::geometric::PathGeometric>(si_, start, goal);
-            ob::PlannerSolution solution(path);
-            solution.setPlannerName(getName());
-            pdef_->addSolutionPath(solution);
+            pdef_->addSolutionPath(std::make_shared<ompl::geometric::PathGeometric>(si_, start, goal), false, 0.0,
+                                   getName());
             return ob::PlannerStatus::EXACT_SOLUTION;
         }
         return ob::PlannerStatus::TIMEOUT;

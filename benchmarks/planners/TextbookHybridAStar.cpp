@@ -1,5 +1,6 @@
 #include "benchmarks/planners/TextbookHybridAStar.h"
 
+#include "benchmarks/planners/RangedParameter.h"
 #include "parking_geometry/Pose.h"
 #include "state_validity/ompl/CurveSpace.h"
 #include "state_validity/ompl/FclFootprintChecker.h"
@@ -247,42 +248,26 @@ namespace parking
             open_;
     };
 
-    template <class Value>
-    void TextbookHybridAStar::declare(const std::string &name, Value Parameters::*member, const ParameterRange &range,
-                                      const std::string &suggestion)
-    {
-        params_.declareParam<Value>(
-            name,
-            [this, name, member, range](Value value)
-            {
-                range.require(getName(), name, static_cast<double>(value));
-                parameters_.*member = value;
-            },
-            [this, member] { return parameters_.*member; });
-        params_.getParam(name)->setRangeSuggestion(suggestion);
-    }
-
     TextbookHybridAStar::TextbookHybridAStar(const ob::SpaceInformationPtr &si)
       : ob::Planner(si, "textbook_hybrid_astar")
     {
         specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
         specs_.directed = true;
-        declare("xy_resolution", &Parameters::xyResolution, {0.01, 10.0}, "0.05:0.05:1.");
-        declare("heading_bins", &Parameters::headingBins, {1.0, 4000.0}, "16:8:360");
-        declare("steering_angles", &Parameters::steeringAngles, {2.0, 1000.0}, "3:2:11");
-        declare("motion_length", &Parameters::motionLength, {0.01, 100.0}, "0.1:0.1:2.");
-        declare("reverse_penalty", &Parameters::reversePenalty, {0.0, 1000.0}, "0.:0.5:5.");
-        declare("gear_change_penalty", &Parameters::gearChangePenalty, {0.0, 1000.0}, "0.:0.5:10.");
-        declare("steering_penalty", &Parameters::steeringPenalty, {0.0, 1000.0}, "0.:0.1:2.");
-        declare("expansion_interval", &Parameters::expansionInterval, {1.0, 1e6}, "1:1:100");
-        declare("heuristic_weight", &Parameters::heuristicWeight, {0.0, 1000.0}, "0.:0.1:5.");
-        declare("obstacle_heuristic", &Parameters::obstacleHeuristic, {0.0, 1.0}, "0,1");
+        declareRanged(*this, "xy_resolution", parameters_.xyResolution, {0.01, 10.0}, "0.05:0.05:1.");
+        declareRanged(*this, "heading_bins", parameters_.headingBins, {1.0, 4000.0}, "16:8:360");
+        declareRanged(*this, "steering_angles", parameters_.steeringAngles, {2.0, 1000.0}, "3:2:11");
+        declareRanged(*this, "motion_length", parameters_.motionLength, {0.01, 100.0}, "0.1:0.1:2.");
+        declareRanged(*this, "reverse_penalty", parameters_.reversePenalty, {0.0, 1000.0}, "0.:0.5:5.");
+        declareRanged(*this, "gear_change_penalty", parameters_.gearChangePenalty, {0.0, 1000.0}, "0.:0.5:10.");
+        declareRanged(*this, "steering_penalty", parameters_.steeringPenalty, {0.0, 1000.0}, "0.:0.1:2.");
+        declareRanged(*this, "expansion_interval", parameters_.expansionInterval, {1.0, 1e6}, "1:1:100");
+        declareRanged(*this, "heuristic_weight", parameters_.heuristicWeight, {0.0, 1000.0}, "0.:0.1:5.");
+        declareRanged(*this, "obstacle_heuristic", parameters_.obstacleHeuristic, {0.0, 1.0}, "0,1");
     }
 
     ob::PlannerStatus TextbookHybridAStar::solve(const ob::PlannerTerminationCondition &ptc)
     {
         checkValidity();
-        const Parameters &p = parameters_;
         if (CurveSpace(*si_->getStateSpace()).kind() != SpaceKind::ReedsShepp)
             throw ompl::Exception(getName(), "plans in a Reeds-Shepp space only");
         pis_.restart();
@@ -292,7 +277,7 @@ namespace parking
         const ob::State *goal = pis_.nextGoal(ptc);
         if (goal == nullptr)
             return ob::PlannerStatus::INVALID_GOAL;
-        const std::vector<Pose> poses = Search(si_, p, start, goal, ptc).run();
+        const std::vector<Pose> poses = Search(si_, parameters_, start, goal, ptc).run();
         if (poses.empty())
             return ob::PlannerStatus::TIMEOUT;
         auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
@@ -302,9 +287,7 @@ namespace parking
             setPose(state.get(), pose);
             path->append(state.get());
         }
-        ob::PlannerSolution solution(path);
-        solution.setPlannerName(getName());
-        pdef_->addSolutionPath(solution);
+        pdef_->addSolutionPath(path, false, 0.0, getName());
         return ob::PlannerStatus::EXACT_SOLUTION;
     }
 }  // namespace parking

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "benchmarks/planners/ParameterRange.h"
-
 #include <ompl/base/Planner.h>
 
 namespace parking
@@ -39,11 +37,6 @@ namespace parking
         };
 
         class Search;
-
-        /** \e suggestion in OMPL's form: the usual values, which are fewer than the possible ones. */
-        template <class Value>
-        void declare(const std::string &name, Value Parameters::*member, const ParameterRange &range,
-                     const std::string &suggestion);
 
         Parameters parameters_;
     };

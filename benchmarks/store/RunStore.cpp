@@ -3,12 +3,12 @@
 #include "benchmarks/plan/PathJson.h"
 #include "benchmarks/store/RunColumns.h"
 #include "parking_geometry/Error.h"
+#include "parking_geometry/text/NearestName.h"
 #include "parking_geometry/text/Text.h"
 
 #include <ompl/base/PlannerStatus.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -63,16 +63,9 @@ namespace parking
             return text == nullptr ? "" : *text;
         }
 
-        std::string withSmallLetters(std::string text)
-        {
-            for (char &letter : text)
-                letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-            return text;
-        }
-
         bool isKey(const std::string &column)
         {
-            const std::string name = withSmallLetters(column);
+            const std::string name = lowerCase(column);
             return name == "id" || name == "experimentid" || name == "plannerid";
         }
 
@@ -339,9 +332,9 @@ namespace parking
         {
             Database::Statement columns(database_, "SELECT name FROM pragma_table_info(?)", {table});
             while (columns.step())
-                known.insert(withSmallLetters(columns.text(0)));
+                known.insert(lowerCase(columns.text(0)));
         }
-        if (known.insert(withSmallLetters(column)).second)
+        if (known.insert(lowerCase(column)).second)
             database_.run("ALTER TABLE " + table + " ADD " + quotedName(column) + " " + type);
     }
 
@@ -386,7 +379,7 @@ namespace parking
         for (const auto &[figure, value] : record.figures)
         {
             const std::string column = columnOf(figure);
-            if (!taken.insert(withSmallLetters(column)).second)
+            if (!taken.insert(lowerCase(column)).second)
                 continue;  // names that differ in their capitals only
             grow("all_runs", column, typeOf(figure, value));
             row[column] = valueOf(value);

@@ -22,12 +22,12 @@ namespace parking
         Cells headings()
         {
             Cells cells{"problem", "planner", "solved", "near"};
-            for (const RunColumn *column : summaryColumns())
+            for (const RunColumn &column : runColumns())
             {
-                if (!column->summary->inTable)
+                if (!column.summary || !column.summary->inTable)
                     continue;
-                cells.emplace_back(column->summary->heading);
-                if (column->summary->statistic == Statistic::Distribution)
+                cells.emplace_back(column.summary->heading);
+                if (column.summary->statistic == Statistic::Distribution)
                     cells.emplace_back("quartiles");
             }
             cells.emplace_back("valid");
@@ -66,13 +66,11 @@ namespace parking
         {
             Cells cells{row.experiment, row.planner, std::to_string(row.solved) + "/" + std::to_string(row.runs),
                         row.approximate > 0 ? std::to_string(row.approximate) : "-"};
-            const std::vector<const RunColumn *> columns = summaryColumns();
-            for (std::size_t i = 0; i < columns.size(); ++i)
+            for (const SummaryFigure &figure : row.figures)
             {
-                const RunColumn &column = *columns[i];
+                const RunColumn &column = *figure.column;
                 if (!column.summary->inTable)
                     continue;
-                const SummaryFigure &figure = row.figures[i];
                 const bool distribution = column.summary->statistic == Statistic::Distribution;
                 const bool nothing = std::isnan(figure.median) || (distribution && std::isinf(figure.median));
                 const std::string unit = isTime(column) ? "ms" : column.unit;
@@ -145,11 +143,11 @@ namespace parking
             {
                 const double share =
                     std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-                return {share, share, share, share, share, 0.0};
+                return {&column, share, share, share, share, share, 0.0};
             }
             const ConfidenceInterval interval = medianInterval(values);
-            return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75),
-                    interval.low,          interval.high,          interval.level};
+            return {&column,      quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75),
+                    interval.low, interval.high,         interval.level};
         }
 
         /** Of all runs of one planner on one experiment. */
@@ -166,27 +164,18 @@ namespace parking
                     ++row.invalid;
                 else if (record->hasPath)
                     ++row.approximate;
-            for (const RunColumn *column : summaryColumns())
-                row.figures.push_back(figureOf(*column, records));
+            for (const RunColumn &column : runColumns())
+                if (column.summary)
+                    row.figures.push_back(figureOf(column, records));
             return row;
         }
     }  // namespace
 
-    std::vector<const RunColumn *> summaryColumns()
-    {
-        std::vector<const RunColumn *> columns;
-        for (const RunColumn &column : runColumns())
-            if (column.summary)
-                columns.push_back(&column);
-        return columns;
-    }
-
     const SummaryFigure &SummaryRow::figure(std::string_view column) const
     {
-        const std::vector<const RunColumn *> columns = summaryColumns();
-        for (std::size_t i = 0; i < columns.size(); ++i)
-            if (column == columns[i]->name)
-                return figures[i];
+        for (const SummaryFigure &each : figures)
+            if (column == each.column->name)
+                return each;
         throw Error("the summary has no column " + inQuotes(column));
     }
 
@@ -291,20 +280,20 @@ namespace parking
 
     std::string summaryCsv(const std::vector<SummaryRow> &rows)
     {
-        const std::vector<const RunColumn *> columns = summaryColumns();
         std::string text = "problem,planner,runs,solved,invalid,approximate";
-        for (const RunColumn *column : columns)
-            for (const CsvFigure &each : csvFigures(column->summary->statistic))
-                text += "," + csvHeading(*column, each);
+        for (const RunColumn &column : runColumns())
+            if (column.summary)
+                for (const CsvFigure &each : csvFigures(column.summary->statistic))
+                    text += "," + csvHeading(column, each);
         text += "\n";
         for (const SummaryRow &row : rows)
         {
             text += row.experiment + "," + row.planner + "," + std::to_string(row.runs) + "," +
                     std::to_string(row.solved) + "," + std::to_string(row.invalid) + "," +
                     std::to_string(row.approximate);
-            for (std::size_t i = 0; i < columns.size(); ++i)
-                for (const CsvFigure &each : csvFigures(columns[i]->summary->statistic))
-                    text += "," + csvNumber(row.figures[i].*each.value);
+            for (const SummaryFigure &figure : row.figures)
+                for (const CsvFigure &each : csvFigures(figure.column->summary->statistic))
+                    text += "," + csvNumber(figure.*each.value);
             text += "\n";
         }
         return text;

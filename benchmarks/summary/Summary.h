@@ -14,16 +14,14 @@ namespace parking
         where no run counts, infinite where too many runs do. */
     struct SummaryFigure
     {
-        double median;  ///< in the column's unit
-        double low;     ///< first quartile
-        double high;    ///< third quartile
-        double begin;   ///< of the confidence interval of the median
-        double end;     ///< of the same interval
-        double level;   ///< of certainty that the interval has; 0 for the range of too few values
+        const RunColumn *column;  ///< one that has a place in the summary
+        double median;            ///< in the column's unit
+        double low;               ///< first quartile
+        double high;              ///< third quartile
+        double begin;             ///< of the confidence interval of the median
+        double end;               ///< of the same interval
+        double level;             ///< of certainty that the interval has; 0 for the range of too few values
     };
-
-    /** \brief The columns that the summary has, in its order. */
-    std::vector<const RunColumn *> summaryColumns();
 
     /** \brief How one planner did on one experiment. Times in seconds, lengths in metres. */
     struct SummaryRow
@@ -34,7 +32,7 @@ namespace parking
         std::size_t solved{0};               ///< exact and densely valid
         std::size_t invalid{0};              ///< exact in the planner's view, but not valid when checked again
         std::size_t approximate{0};          ///< other paths: they end short of the goals, or came too late
-        std::vector<SummaryFigure> figures;  ///< one for each of summaryColumns()
+        std::vector<SummaryFigure> figures;  ///< of all columns that the summary has, in their order
 
         /** \brief The figure of a column. Throws parking::Error when the summary does not have it. */
         const SummaryFigure &figure(std::string_view column) const;

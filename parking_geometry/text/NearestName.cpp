@@ -11,13 +11,6 @@ namespace parking
 {
     namespace
     {
-        std::string lowerCase(std::string text)
-        {
-            for (char &c : text)
-                c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-            return text;
-        }
-
         /** Letters to change, leave out, add or swap with the next one, three rows of the table at a time. */
         std::size_t editDistance(const std::string &a, const std::string &b)
         {
@@ -46,6 +39,13 @@ namespace parking
             return isShortened || 3 * distance <= std::max(name.size(), candidate.size()) + 2;
         }
     }  // namespace
+
+    std::string lowerCase(std::string text)
+    {
+        for (char &c : text)
+            c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return text;
+    }
 
     std::string nearestName(const std::string &name, const std::vector<std::string> &known)
     {

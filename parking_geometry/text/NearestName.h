@@ -5,6 +5,9 @@
 
 namespace parking
 {
+    /** \brief \e text with small letters for the capital ones of ASCII. */
+    std::string lowerCase(std::string text);
+
     /** \brief The name in \e known that \e name was most likely meant to be: the one with the fewest letters to change,
         whatever their case, or one that \e name is a part of. Empty when none is near: when of each more than a third
         of the letters would have to change, and more than half to be added. */

@@ -1,7 +1,7 @@
 // How a comparison is cut into experiments, runs and shards, and what tells comparisons apart.
 
 #include "benchmarks/config/Experiment.h"
-#include "benchmarks/planners/SettingError.h"
+#include "benchmarks/planners/PlannerRegistry.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
 

@@ -43,18 +43,18 @@ namespace
                 values.push_back(i);
             return values;
         };
-        const ConfidenceInterval six = medianInterval(numbers(6));
-        EXPECT_EQ(six.low, 1.0);
-        EXPECT_EQ(six.high, 6.0);
-        EXPECT_NEAR(six.level, 1.0 - 2.0 / 64.0, 1e-12);
-        const ConfidenceInterval ten = medianInterval(numbers(10));
-        EXPECT_EQ(ten.low, 2.0);
-        EXPECT_EQ(ten.high, 9.0);
-        EXPECT_NEAR(ten.level, 0.9785, 1e-4);
-        const ConfidenceInterval twenty = medianInterval(numbers(20));
-        EXPECT_EQ(twenty.low, 6.0);
-        EXPECT_EQ(twenty.high, 15.0);
-        EXPECT_NEAR(twenty.level, 0.9586, 1e-4);
+        struct Row
+        {
+            int count;
+            double low, high, level;
+        };
+        for (const Row &row : {Row{6, 1.0, 6.0, 1.0 - 2.0 / 64.0}, {10, 2.0, 9.0, 0.9785}, {20, 6.0, 15.0, 0.9586}})
+        {
+            const ConfidenceInterval interval = medianInterval(numbers(row.count));
+            EXPECT_EQ(interval.low, row.low) << row.count;
+            EXPECT_EQ(interval.high, row.high) << row.count;
+            EXPECT_NEAR(interval.level, row.level, 1e-4) << row.count;
+        }
     }
 
     TEST(Statistics, FewValuesGiveNoCertainty)

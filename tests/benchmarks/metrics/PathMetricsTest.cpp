@@ -95,38 +95,38 @@ namespace
     {
         // 2.5 s to the full speed and 2.5 s from it, 3.125 m each; 3.75 m at 2.5 m/s between.
         const CuspToCusp longWay = cuspToCusp(pathOf({{0.0, 10.0}}), CAR);
-        EXPECT_NEAR(longWay.time, 6.5, 1e-12);
-        EXPECT_NEAR(longWay.controlEffort, 5.0, 1e-12);
-        EXPECT_NEAR(longWay.cost(), 650.0 + 50.0, 1e-9);
+        EXPECT_NEAR(longWay.cost.time, 6.5, 1e-12);
+        EXPECT_NEAR(longWay.cost.controlEffort, 5.0, 1e-12);
+        EXPECT_NEAR(longWay.cost.total(), 650.0 + 50.0, 1e-9);
         EXPECT_NEAR(longWay.meanJerk, 4.0 / 6.5, 1e-12);
         EXPECT_EQ(longWay.standingSteerings, 0U);
         // Too short for the full speed: 2 s each.
         const CuspToCusp shortWay = cuspToCusp(pathOf({{0.0, -4.0}}), CAR);
-        EXPECT_NEAR(shortWay.time, 4.0, 1e-12);
-        EXPECT_NEAR(shortWay.controlEffort, 4.0, 1e-12);
+        EXPECT_NEAR(shortWay.cost.time, 4.0, 1e-12);
+        EXPECT_NEAR(shortWay.cost.controlEffort, 4.0, 1e-12);
         EXPECT_NEAR(shortWay.meanJerk, 4.0 / 4.0, 1e-12);
     }
 
     TEST(CuspToCusp, CountsAndShowsApartWhatWheelsTurnAtStandstill)
     {
         const CuspToCusp profile = cuspToCusp(pathOf({{0.0, 4.0}, {0.2, -4.0}}), CAR);
-        EXPECT_NEAR(profile.time, 8.0, 1e-12);
-        EXPECT_NEAR(profile.controlEffort, 8.0, 1e-12);
-        EXPECT_NEAR(profile.steeringIntegral, ANGLE * ANGLE * 4.0, 1e-12);
-        EXPECT_EQ(profile.gearChanges, 1U);
+        EXPECT_NEAR(profile.cost.time, 8.0, 1e-12);
+        EXPECT_NEAR(profile.cost.controlEffort, 8.0, 1e-12);
+        EXPECT_NEAR(profile.cost.steeringIntegral, ANGLE * ANGLE * 4.0, 1e-12);
+        EXPECT_EQ(profile.cost.gearChanges, 1U);
         EXPECT_EQ(profile.standingSteerings, 1U);
         EXPECT_NEAR(profile.standingSteeringTime, ANGLE / 0.5, 1e-12);
-        EXPECT_NEAR(profile.cost(), 800.0 + 80.0 + 40.0 * ANGLE * ANGLE + 5.0, 1e-9);
+        EXPECT_NEAR(profile.cost.total(), 800.0 + 80.0 + 40.0 * ANGLE * ANGLE + 5.0, 1e-9);
         EXPECT_NEAR(profile.meanJerk, 6.0 / 8.0, 1e-12);  // braking ahead is speeding up in reverse
     }
 
     TEST(CuspToCusp, DoesNotStopBetweenCusps)
     {
         const CuspToCusp profile = cuspToCusp(pathOf({{0.2, 5.0}, {-0.2, 5.0}}), CAR);
-        EXPECT_NEAR(profile.time, 6.5, 1e-12);
+        EXPECT_NEAR(profile.cost.time, 6.5, 1e-12);
         EXPECT_EQ(profile.standingSteerings, 1U);
         EXPECT_NEAR(profile.standingSteeringTime, 2.0 * ANGLE / 0.5, 1e-12);
-        EXPECT_NEAR(profile.steeringIntegral, ANGLE * ANGLE * 6.5, 1e-12);
+        EXPECT_NEAR(profile.cost.steeringIntegral, ANGLE * ANGLE * 6.5, 1e-12);
     }
 
     TEST(CuspToCusp, IsTheDriveOfAPathThatJumpsAtCuspsOnly)
@@ -134,9 +134,9 @@ namespace
         const Path path = pathOf({{0.1, 7.0}, {-0.2, -3.0}, {0.2, 9.0}});
         const CuspToCusp profile = cuspToCusp(path, CAR);
         const TimedMotion drive = stopAndSteer(path, CAR, std::nullopt, std::nullopt);
-        EXPECT_NEAR(profile.time + profile.standingSteeringTime, drive.duration(), 1e-9);
-        EXPECT_NEAR(profile.controlEffort, tpcapCost(drive).controlEffort, 1e-9);
-        EXPECT_EQ(profile.gearChanges, tpcapCost(drive).gearChanges);
+        EXPECT_NEAR(profile.cost.time + profile.standingSteeringTime, drive.duration(), 1e-9);
+        EXPECT_NEAR(profile.cost.controlEffort, tpcapCost(drive).controlEffort, 1e-9);
+        EXPECT_EQ(profile.cost.gearChanges, tpcapCost(drive).gearChanges);
     }
 
     TEST(CuspToCusp, IntegratesAlongClothoids)
@@ -155,8 +155,8 @@ namespace
             effort += (a * a + std::pow(v * rate, 2.0)) * step;
             steering += angle * angle * step;
         }
-        EXPECT_NEAR(profile.controlEffort, effort, 1e-3 * effort);
-        EXPECT_NEAR(profile.steeringIntegral, steering, 1e-3 * steering);
+        EXPECT_NEAR(profile.cost.controlEffort, effort, 1e-3 * effort);
+        EXPECT_NEAR(profile.cost.steeringIntegral, steering, 1e-3 * steering);
         EXPECT_EQ(profile.standingSteerings, 0U);
     }
 

@@ -2,7 +2,6 @@
 
 #include "benchmarks/plan/PlannedPath.h"
 
-#include "benchmarks/plan/PathDrive.h"
 #include "parking_geometry/Error.h"
 #include "state_validity/ompl/OmplPose.h"
 #include "tests/automatic_parking/ParkingProblems.h"
@@ -100,7 +99,7 @@ namespace
             expectAt(path.path.end(), poses.back());
             for (const PathPiece &piece : path.path.pieces)
                 EXPECT_LE(std::abs(piece.curvature), 0.21);
-            EXPECT_LE(drivePath(field(), path).evaluation.finalPositionError, 0.01);
+            EXPECT_LE(field().closedLoop().drive(path.path).evaluation.finalPositionError, 0.01);
         }
     }
 
@@ -114,7 +113,7 @@ namespace
         const PlannedPath path = planned(poses);
         EXPECT_GE(turns(path.path), 5u);
         expectAt(path.path.end(), poses.back());
-        const DriveResult drive = drivePath(field(), path);
+        const DriveResult drive = field().closedLoop().drive(path.path);
         EXPECT_TRUE(drive.arrived) << drive.message;
         EXPECT_LE(drive.evaluation.finalPositionError, 0.03);
         EXPECT_GT(drive.evaluation.cornerDeviation, 0.01);
@@ -122,7 +121,7 @@ namespace
 
     TEST(PlannedPath, WhatDoesNotMoveCannotBeDriven)
     {
-        EXPECT_THROW(drivePath(field(), planned({{0, 0, 0}})), Error);
-        EXPECT_THROW(drivePath(field(), planned({{0, 0, 0}, {0, 0, 1.0}})), Error);
+        EXPECT_THROW(field().closedLoop().drive(planned({{0, 0, 0}}).path), Error);
+        EXPECT_THROW(field().closedLoop().drive(planned({{0, 0, 0}, {0, 0, 1.0}}).path), Error);
     }
 }  // namespace

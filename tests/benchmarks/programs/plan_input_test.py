@@ -8,6 +8,7 @@ from programs import PLAN, ProgramTest, bundled, main
 
 CASE = '0,0,0,5,5,0,1,4,2,2,3,2,3,3,2,3\n'
 MAP = 'image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n'
+GRID_OF_A_CAR = ['--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle']
 ON_MAP = 'map: map.yaml\nstart: [2, 2, 0]\ngoal: [8, 2, 0]\n'
 
 
@@ -87,17 +88,13 @@ class Files(ProgramTest):
         os.mkfifo(self.path('pipe'))
         self.refused_plan(bundled('parallel'), '--plugin', 'pipe', parts=['pipe', 'is no file'])  # without waiting
 
-    def test_start_outside_the_map(self):
+    def test_start_or_goal_far_from_the_map(self):
         self.write('map.yaml', MAP)
         self.write('map.pgm', pgm(100, 100))
-        self.write('on_map.yaml', ON_MAP.replace('[2,', '[20,'))
-        self.refused_plan('on_map.yaml', parts=['start outside the map'])
-
-    def test_goal_far_from_the_map(self):
-        self.write('map.yaml', MAP)
-        self.write('map.pgm', pgm(100, 100))
-        self.write('on_map.yaml', ON_MAP.replace('[8,', '[1e7,'))
-        self.refused_plan('on_map.yaml', parts=['on_map.yaml', 'the goal lies 9999998 m', 'at most 100000 m'])
+        for old, new, parts in (('[2,', '[20,', ['start outside the map']),
+                                ('[8,', '[1e7,', ['on_map.yaml', 'the goal lies 9999998 m', 'at most 100000 m'])):
+            self.write('on_map.yaml', ON_MAP.replace(old, new))
+            self.refused_plan('on_map.yaml', parts=parts)
         self.write('on_map.yaml', ON_MAP.replace('[8,', '[100002,'))  # outside of the map, but not too far away
         self.assertEqual(self.planned('on_map.yaml', '--set', 'approximate=0', status=4)['status'], 'invalid_goal')
 
@@ -124,18 +121,18 @@ class Options(ProgramTest):
             self.refused_plan(bundled('parallel'), *arguments, parts=parts)
 
     def test_names(self):
-        self.refused('--planner', 'rrtstr', parts=["did you mean 'RRTstar'", 'reeds_shepp'])
-        self.refused('--set', 'xy_resolutoin=1', parts=["did you mean 'xy_resolution'", 'open_list'])
-        self.refused('--planner', 'RRTstar', '--set', 'rnge=1', parts=["did you mean 'range'"])
-        self.refused('--vehicle', 'vw_golf', parts=["did you mean 'vw_golf8'"])
-        self.refused('--space', 'se3', parts=["did you mean 'se2'"])
-        self.refused('--footprint', 'square', parts=['rectangle'])
-        self.refused('--vehicle', '', parts=['--vehicle'])
-        self.refused('--circle-radius', 1, parts=['--circle-radius', '--footprint circle'])
-        self.refused('--circle-radius', 1, '--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle',
-                     parts=['--circle-radius'])
-        self.refused('--run', 3, parts=["did you mean '--runs'"])
-        self.refused(bundled('perpendicular'), parts=['too many'])
+        for arguments, parts in ((['--planner', 'rrtstr'], ["did you mean 'RRTstar'", 'reeds_shepp']),
+                                 (['--set', 'xy_resolutoin=1'], ["did you mean 'xy_resolution'", 'open_list']),
+                                 (['--planner', 'RRTstar', '--set', 'rnge=1'], ["did you mean 'range'"]),
+                                 (['--vehicle', 'vw_golf'], ["did you mean 'vw_golf8'"]),
+                                 (['--space', 'se3'], ["did you mean 'se2'"]),
+                                 (['--footprint', 'square'], ['rectangle']),
+                                 (['--vehicle', ''], ['--vehicle']),
+                                 (['--circle-radius', 1], ['--circle-radius', '--footprint circle']),
+                                 (['--circle-radius', 1, *GRID_OF_A_CAR], ['--circle-radius']),
+                                 (['--run', 3], ["did you mean '--runs'"]),
+                                 ([bundled('perpendicular')], ['too many'])):
+            self.refused(*arguments, parts=parts)
         self.refused_plan(parts=['no scenario'])
 
     def test_numbers(self):
@@ -154,10 +151,9 @@ class Options(ProgramTest):
         # Not 8 after being cut to 32 bits.
         for value in ('4294967304', '-4294967288', '1000000000000', '7.5'):
             self.refused('--set', 'heading_bins=' + value, parts=['heading_bins', value])
-        self.refused('--set', 'open_list=heap', parts=['binary_heap'])
-        self.refused('--set', 'open_list', parts=['KEY=VALUE'])
-        self.refused('--set', '=3', parts=['KEY=VALUE'])
-        self.refused('--set', 'motion_model=grid8', '--space', 'reeds_shepp', '--footprint', 'rectangle', parts=['SE2'])
+        for setting, part in (('open_list=heap', 'binary_heap'), ('open_list', 'KEY=VALUE'), ('=3', 'KEY=VALUE')):
+            self.refused('--set', setting, parts=[part])
+        self.refused(*GRID_OF_A_CAR, parts=['SE2'])
 
 
 class Output(ProgramTest):

@@ -1,5 +1,6 @@
 """parking_plan --track: the drive in the JSON, in the picture and as a page."""
 
+import json
 import math
 import os
 
@@ -24,13 +25,17 @@ class TrackTest(ProgramTest):
         goal, end = result['path'][-1], drive[-1]
         self.assertLessEqual(math.hypot(end['x'] - goal['x'], end['y'] - goal['y']), 0.05)
         self.assertEqual(end['v'], 0.0)
-        self.assertTrue(result['tracking']['arrived'])
-
-    def test_paths_of_the_grid_models_are_driven(self):
-        for name in ('basic_astar', 'improved_astar'):
-            result = self.planned(bundled('parallel'), '--track', '--set', 'parameter_set=' + name)
-            self.assertTrue(result['tracking']['arrived'], result['tracking']['message'])
-            self.assertLessEqual(result['tracking']['final_position_error_m'], 0.05)
+        self.assertEqual(set(end), {'t', 'x', 'y', 'yaw', *CAR_LIMITS})
+        tracking = result['tracking']
+        self.assertEqual((tracking['arrived'], tracking['collisions'], tracking['corner_deviation_m']), (True, 0, 0.0))
+        for field, most in (('travel_time_s', 120.0), ('mean_abs_acceleration', 1.0), ('mean_abs_steering_deg', 45.0),
+                            ('max_position_error_m', 0.05), ('final_position_error_m', 0.05),
+                            ('final_yaw_error_rad', 0.02)):
+            self.assertGreater(tracking[field], 0.0, field)
+            self.assertLess(tracking[field], most, field)
+        for field in ('median', 'p99', 'max'):
+            self.assertGreater(tracking['mpc_solve_ms'][field], 0.0)
+        self.assertAlmostEqual(end['t'], tracking['travel_time_s'], delta=0.5)
 
     def test_a_comparison_drives_the_same(self):
         # A path of arcs, and a grid path with corners: whatever drives them, the same drive follows.
@@ -53,7 +58,7 @@ class TrackTest(ProgramTest):
     def test_picture_and_page(self):
         self.planned(bundled('perpendicular'), '--track', '--svg', self.path('a.svg'), '--html', self.path('a.html'))
         picture = self.read('a.svg')
-        for part in ('Acceleration', 'Steering angle', 'driven', 'car along the drive', 'planned path'):
+        for part in ('Acceleration', 'Steering angle', 'driven'):
             self.assertIn(part, picture)
         page = self.read('a.html')
         self.assertIn('<!DOCTYPE html>', page)
@@ -77,12 +82,15 @@ class TrackTest(ProgramTest):
         self.assertFalse(os.path.exists(self.path('a.html')))
 
     def test_who_cuts_corners_says_so(self):
-        grid = [bundled('parallel'), '--track', '--set', 'parameter_set=basic_astar']
-        deviation = self.planned(*grid)['tracking']['corner_deviation_m']
-        self.assertGreater(deviation, 0.0)
-        self.assertIn(f"(no car can drive the path's corners; it leaves the path there by up to {deviation:.2f} m)",
-                      self.plan(*grid).stdout)
-        self.assertEqual(self.planned(bundled('parallel'), '--track')['tracking']['corner_deviation_m'], 0.0)
+        for name in ('basic_astar', 'improved_astar'):  # both with a grid
+            done = self.plan(bundled('parallel'), '--track', '--set', 'parameter_set=' + name, '--json', 'result.json')
+            tracking = json.loads(self.read('result.json'))['tracking']
+            self.assertTrue(tracking['arrived'], tracking['message'])
+            self.assertLessEqual(tracking['final_position_error_m'], 0.05)
+            deviation = tracking['corner_deviation_m']
+            self.assertGreater(deviation, 0.0)
+            self.assertIn(f"(no car can drive the path's corners; it leaves the path there by up to {deviation:.2f} m)",
+                          done.stdout)
         self.assertNotIn('corners', self.plan(bundled('parallel'), '--track').stdout)
 
     def test_without_a_drive_there_is_no_page(self):
