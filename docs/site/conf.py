@@ -1,9 +1,11 @@
 """Configuration of Sphinx for the pages that make_site.py prepares."""
 import logging
 import os
+from xml.etree import ElementTree
 
 from docutils import nodes
 from sphinx import addnodes
+from sphinx.transforms import SphinxTransform
 
 project = 'Improved A* for automatic parking'
 html_title = project
@@ -35,20 +37,45 @@ class OpenNamespaces(logging.Filter):
         return not ('Duplicate C++ declaration' in text and '.. cpp:type:: ' in text)
 
 
-def unwrap_namespaces(_app, doctree):
-    """Shows what a header declares without a frame for each namespace round it."""
-    while True:
-        frames = [frame for frame in doctree.findall(addnodes.desc) if frame[0].astext().startswith('namespace ')]
-        if not frames:
-            return
-        for frame in frames:
-            if frame.parent is None:
-                continue
+class UnwrapNamespaces(SphinxTransform):
+    """Shows what a header declares without a frame for each namespace round it, which the index would list, too."""
+    default_priority = 500
+
+    def apply(self):
+        while True:
+            frame = next((frame for frame in self.document.findall(addnodes.desc)
+                          if frame[0].astext().startswith('namespace ')), None)
+            if frame is None:
+                return
+            siblings = frame.parent
+            place = siblings.index(frame)
+            if place > 0 and isinstance(siblings[place - 1], addnodes.index):
+                siblings.remove(siblings[place - 1])
             kept = [child for child in frame[-1].children
                     if isinstance(child, (addnodes.desc, nodes.container, nodes.rubric, addnodes.index))]
-            frame.parent.replace(frame, kept)
+            siblings.replace(frame, kept)
+
+
+namespace_places = set()
+
+
+def find_namespaces(_app, env):
+    index = ElementTree.parse(os.path.join(breathe_projects['project'], 'index.xml'))
+    names = {each.text for each in index.iterfind('compound[@kind="namespace"]/name')}
+    namespace_places.update(symbol.declaration.get_newest_id()
+                            for symbol in env.domaindata['cpp']['root_symbol'].get_all_symbols()
+                            if symbol.declaration and str(symbol.get_full_nested_name()) in names)
+
+
+def unlink_namespaces(_app, doctree, _page):
+    """A namespace has no place to lead to: it is in every header."""
+    for link in list(doctree.findall(nodes.reference)):
+        if (link.get('refid') or link.get('refuri', '').partition('#')[2]) in namespace_places:
+            link.parent.replace(link, link.children)
 
 
 def setup(app):
     logging.getLogger('sphinx.sphinx.domains.cpp').addFilter(OpenNamespaces())
-    app.connect('doctree-read', unwrap_namespaces)
+    app.add_transform(UnwrapNamespaces)
+    app.connect('env-updated', find_namespaces)
+    app.connect('doctree-resolved', unlink_namespaces)

@@ -162,6 +162,22 @@ class Site:
             self.write(f'reference/{top}.md', text)
 
 
+def complete_theme(static):
+    """Debian 12 leaves the parts of Furo apart that other releases put together: a script that imports another, which browsers
+    refuse for files, a style sheet at an address of Debian's web servers, and the dark colours of readers who chose none."""
+    script, style = static / 'scripts' / 'furo.js', static / 'styles' / 'furo.css'
+    text = script.read_text(encoding='utf-8')
+    script.write_text(re.sub(r'^import \w+ from "\./(.*?)";', lambda found: (script.parent / found[1]).read_text(encoding='utf-8'),
+                             text, flags=re.MULTILINE), encoding='utf-8')
+    text = style.read_text(encoding='utf-8')
+    text = re.sub(r'@import url\(/javascript/(.*?)\);',
+                  lambda found: Path('/usr/share/javascript', found[1]).read_text(encoding='utf-8'), text)
+    if 'prefers-color-scheme' not in text:
+        dark = re.search(r'body\[data-theme="?dark"?\]\s*(\{[^}]*--color-[^}]*\})', text)[1]
+        text += f'\n@media (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark} }}\n'
+    style.write_text(text, encoding='utf-8')
+
+
 class Page(html.parser.HTMLParser):
     """What a page of the site refers to, and the places in it that can be referred to."""
 
@@ -181,6 +197,10 @@ class Page(html.parser.HTMLParser):
 
 def broken(site):
     """References of a site's pages that lead nowhere, and what a page would load from a network."""
+    for file in sorted(site.rglob('*.css')):
+        for target in re.findall(r'url\(["\']?([^)"\']+)', file.read_text(encoding='utf-8')):
+            if not target.startswith(('data:', '#')) and not (file.parent / target.partition('?')[0].partition('#')[0]).is_file():
+                yield f'{file.relative_to(site)}: {target} is not there'
     pages = {file: Page(file) for file in sorted(site.rglob('*.html'))}
     for file, page in pages.items():
         for target in page.loaded + page.references:
@@ -215,6 +235,7 @@ def main(root, work, output):
     command = ['sphinx-build', '-q', '-W', '--keep-going', '-j', 'auto', '-c', HERE, '-d', work / 'doctrees', work / 'pages', output]
     if subprocess.run(command, check=False, env={**os.environ, 'REFERENCE_XML': str(work / 'xml')}).returncode:
         sys.exit('Sphinx warned of what is above')
+    complete_theme(output / '_static')
     wrong = list(broken(output))
     if wrong:
         sys.exit('\n'.join(wrong))
