@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 
 from docutils import nodes
 from sphinx import addnodes
+from sphinx.domains.cpp import CPPDomain
 from sphinx.transforms import SphinxTransform
 
 project = 'Improved A* for automatic parking'
@@ -67,6 +68,14 @@ def find_namespaces(_app, env):
                             if symbol.declaration and str(symbol.get_full_nested_name()) in names)
 
 
+class SearchableCpp(CPPDomain):
+    """Search and index find what can be named: neither namespaces nor the parameters of functions."""
+
+    def get_objects(self):
+        return (each for each in super().get_objects()
+                if not each[2].endswith('Param') and each[4] not in namespace_places)
+
+
 def unlink_namespaces(_app, doctree, _page):
     """A namespace has no place to lead to: it is in every header."""
     for link in list(doctree.findall(nodes.reference)):
@@ -76,6 +85,7 @@ def unlink_namespaces(_app, doctree, _page):
 
 def setup(app):
     logging.getLogger('sphinx.sphinx.domains.cpp').addFilter(OpenNamespaces())
+    app.add_domain(SearchableCpp, override=True)
     app.add_transform(UnwrapNamespaces)
     app.connect('env-updated', find_namespaces)
     app.connect('doctree-resolved', unlink_namespaces)

@@ -148,7 +148,20 @@ class Site:
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(picture, copy)
 
+    def remove_private(self):
+        """Doxygen writes private members into its XML, too."""
+        for file in self.xml.glob('*.xml'):
+            tree = ElementTree.parse(file)
+            private = [(compound, part) for compound in tree.getroot() for part in compound
+                       if part.tag == 'sectiondef' and part.get('kind').startswith('private')
+                       or part.tag == 'innerclass' and part.get('prot') == 'private']
+            for compound, part in private:
+                compound.remove(part)
+            if private:
+                tree.write(file, encoding='utf-8', xml_declaration=True)
+
     def write_reference(self):
+        self.remove_private()
         for header, page in self.headers.items():
             # Without a place in the navigation, where they would hide the guides: a page for each folder lists them.
             self.write(page, f'---\norphan: true\n---\n# {os.path.basename(header)}\n\n`#include "{header}"`\n\n'
