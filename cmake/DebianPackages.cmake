@@ -124,7 +124,7 @@ endforeach()
 
 set(doc share/doc/${parking_source}-doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${doc} COMPONENT documentation)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${doc} COMPONENT documentation PATTERN theme EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${doc} COMPONENT documentation PATTERN site EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${doc} COMPONENT documentation)
 if(PARKING_REFERENCE)
   install(DIRECTORY ${PARKING_REFERENCE}/ DESTINATION ${doc}/html COMPONENT documentation)

@@ -48,7 +48,7 @@ namespace parking
         {
             SvgPlot plot;
             plot.title = title;
-            plot.xLabel = "time, s";
+            plot.xLabel = "time (s)";
             plot.yLabel = unit;
             plot.bands = reverseBands(driven.empty() ? planned : driven);
             plot.limits = {-factor * limit, factor * limit};

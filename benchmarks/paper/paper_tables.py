@@ -5,6 +5,11 @@ import math
 import os
 import re
 import statistics
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'scripts', 'lib'))
+
+import picture_style as style  # noqa: E402
 
 ALGORITHMS = ['basic_astar', *(f'experiment_{k}' for k in range(1, 7)), 'improved_astar']
 NAMES = {name: name.replace('_', ' ').capitalize().replace('astar', 'A\\*') for name in ALGORITHMS}
@@ -317,20 +322,25 @@ def tables(folder):
             'choices': choice_table(results)}
 
 
-def figure(runs, scale=7.0):
-    """An SVG of corners (grey), path (blue) and drive (dashed) of runs with their lines."""
-    body, x0, tallest = [], 10.0, 0.0
-    for run in runs:
-        drive = [state[1:3] for state in run['drive']['states']]
-        low, high = ([pick(point[k] for point in run['curve'] + drive) for k in (0, 1)] for pick in (min, max))
-
-        def line(points, style, x0=x0, low=low, high=high):
-            places = ' '.join(f'{x0 + scale * (x - low[0]):.1f},{30.0 + scale * (high[1] - y):.1f}' for x, y in points)
-            return f'<polyline points="{places}" fill="none" {style}/>'
-        body += [f'<text x="{x0}" y="18">{run["scenario"].split("_")[0]}, {run["algorithm"]}</text>',
-                 line(run['corners'], 'stroke="#888"'), line(run['curve'][::3], 'stroke="#0072b2" stroke-width="2"'),
-                 line(drive[::2], 'stroke="#d55e00" stroke-width="1.5" stroke-dasharray="3 2"')]
-        x0 += max(190.0, scale * (high[0] - low[0])) + 20.0
-        tallest = max(tallest, scale * (high[1] - low[1]))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{x0:.0f}" height="{tallest + 40:.0f}" font-family="sans-serif" '
-            'font-size="12">\n<rect width="100%" height="100%" fill="white"/>\n' + '\n'.join(body) + '\n</svg>\n')
+def figure(runs):
+    """An SVG of runs with their lines, all at one scale in metres: corners of the path, the path, the drive."""
+    lines = [('path of A* and manoeuvre', style.FAINT, '2 4'), ('path to be driven', style.FORWARD, ''),
+             ('drive', style.DRIVEN, '6 4')]
+    places = [[run['corners'], run['curve'][::3], [state[1:3] for state in run['drive']['states']][::2]] for run in runs]
+    ranges = []
+    for each in places:
+        points = [point for track in each for point in track]
+        ranges.append([(math.floor(min(values)) - 1.0, math.ceil(max(values)) + 1.0) for values in zip(*points)])
+    (width, gap), top, left = (960, 62), 76, 62.0
+    scale = (width - 24 - len(runs) * gap) / sum(x1 - x0 for (x0, x1), _ in ranges)
+    height = scale * max(y1 - y0 for _, (y0, y1) in ranges)
+    body = style.legend(left, 24, lines)
+    for run, tracks, (x, y) in zip(runs, places, ranges):
+        y = (y[0], y[0] + height / scale)
+        axes = style.Axes(left, top, scale * (x[1] - x[0]), height, x, y)
+        name = f'{run["scenario"].split("_")[0]}, {run["algorithm"].split("_")[0]}'
+        body += axes.frame(name, 'x (m)', 'y (m)' if left == 62.0 else '', style.round_ticks(*x, 5), style.round_ticks(*y, 10))
+        for track, (_, colour, dash) in zip(tracks, lines):
+            body += axes.curve(*zip(*track), colour, dash)
+        left += axes.width + gap
+    return style.picture(width, top + height + 52, body, 'Paths and drives of the basic and the improved algorithm')

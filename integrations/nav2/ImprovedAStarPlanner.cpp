@@ -43,7 +43,7 @@ namespace parking
 
     struct ImprovedAStarPlanner::Query
     {
-        const PlannerSettings &settings;
+        const Nav2Settings &settings;
         const FootprintChecker &checker;
         Box bounds;
         Clock::time_point end;
@@ -101,7 +101,7 @@ namespace parking
         stops.push_back(poseOf(goal));
 
         Path path;
-        PlannerSettings settings;
+        Nav2Settings settings;
         try
         {
             settings = readSettings(*node, name_);
@@ -142,7 +142,7 @@ namespace parking
         return plan;
     }
 
-    OccupancyGrid ImprovedAStarPlanner::copyOfCostmap(const PlannerSettings &settings) const
+    OccupancyGrid ImprovedAStarPlanner::copyOfCostmap(const Nav2Settings &settings) const
     {
         nav2_costmap_2d::Costmap2D &costmap = *costmap_->getCostmap();
         // Layers go on writing to it as soon as the lock is gone.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "integrations/nav2/Nav2Compatibility.h"
-#include "integrations/nav2/PlannerSettings.h"
+#include "integrations/nav2/Nav2Settings.h"
 #include "parking_geometry/OccupancyGrid.h"
 #include "parking_geometry/Pose.h"
 #include "state_validity/FootprintChecker.h"
@@ -19,7 +19,7 @@ namespace parking
        are the lethal cells of the costmap; inflation is not looked at, since the exact footprint is swept along all
        motions. Where the car drives in reverse the poses still look where its front does.
 
-        Parameters are those of PlannerSettings, read for each plan. Failures are nav2's own exceptions. Compiled
+        Parameters are those of Nav2Settings, read for each plan. Failures are nav2's own exceptions. Compiled
         against stub headers and not yet tried on a robot. */
     class ImprovedAStarPlanner : public nav2_core::GlobalPlanner
     {
@@ -62,7 +62,7 @@ namespace parking
         /** What is asked of all parts of a plan. */
         struct Query;
 
-        OccupancyGrid copyOfCostmap(const PlannerSettings &settings) const;
+        OccupancyGrid copyOfCostmap(const Nav2Settings &settings) const;
         Path planLeg(const Query &query, const Pose &from, const Pose &to, bool isLast) const;
         Pose poseOf(const PoseStamped &stamped) const;
 

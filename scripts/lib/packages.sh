@@ -39,7 +39,12 @@ pkg-config                   | test  | the consumer that finds the installed pac
 git                          | test  | names the files that the style tests look at
 clang-format                 | test  | checks the format of the sources
 shellcheck                   | test  | checks the shell scripts
-doxygen                      | test docs | builds the reference, which must not make it warn
+doxygen                      | test docs | reads the docstrings, which must not make it warn
+python3-sphinx               | docs  | Sphinx: makes the site and its search
+furo                         | docs  | Furo: what the site looks like
+python3-myst-parser          | docs  | MyST: reads guides in Markdown
+python3-breathe              | docs  | Breathe: what Doxygen read, for Sphinx
+python3-yaml                 | test docs | PyYAML: reads scenarios for scripts/pictures
 dpkg-dev                     | test package | finds out what packages a library needs
 help2man                     | package | writes the manual pages of the programs
 file                         | test package | tells programs from other files

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Does Doxygen build the documentation without a warning: does what docstrings and documents name exist, and is every
-public name documented?
+"""Does Doxygen read the docstrings without a warning, is every public name documented, and are the guides fit for the site:
+is each in a group of docs/site/navigation.json, does every link and picture in them exist, is every picture shown?
 
 Of enumerators and namespaces Doxygen does not warn by itself, and functions of a namespace without a docstring it
-leaves out of the pages without a word: they are looked for in its XML.
+leaves out without a word: they are looked for in its XML.
 
 usage: check_docs.py ROOT
 """
@@ -13,9 +13,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 from xml.etree import ElementTree
 
 from project_files import report
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'docs', 'site'))
+import make_site  # noqa: E402
 
 
 def is_documented(element):
@@ -50,15 +54,15 @@ def main(root):
     if not shutil.which('doxygen'):
         report(['doxygen is not installed'], 'Its Debian package is doxygen; scripts/test installs it.')
     with tempfile.TemporaryDirectory() as output:
-        configuration = f'@INCLUDE = Doxyfile\nOUTPUT_DIRECTORY = "{output}"\nGENERATE_XML = YES\n'
+        configuration = f'@INCLUDE = Doxyfile\nOUTPUT_DIRECTORY = "{output}"\n'
         built = subprocess.run(['doxygen', '-'], input=configuration, cwd=root, capture_output=True, text=True,
                                check=False)
-        said = [line.replace(root + os.sep, '') for line in built.stderr.splitlines()
-                if line.strip()]
-        if not said and not os.path.exists(os.path.join(output, 'docs', 'index.html')):
-            said = [f'doxygen wrote no pages, status {built.returncode}']
-        said += undocumented(os.path.join(output, 'xml'))
-    report(said, 'Doxyfile says what Doxygen reads, and what it warns of.')
+        said = [line.replace(root + os.sep, '') for line in built.stderr.splitlines() if line.strip()]
+        if not os.path.exists(os.path.join(output, 'xml', 'index.xml')):
+            said.append(f'doxygen wrote no XML, status {built.returncode}')
+        else:
+            said += undocumented(os.path.join(output, 'xml')) + make_site.prepare(Path(root), Path(output))
+    report(said, 'Doxyfile says what Doxygen reads, docs/site/navigation.json which guides the site has.')
 
 
 if __name__ == '__main__':

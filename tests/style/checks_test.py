@@ -190,10 +190,33 @@ class ChecksTest(unittest.TestCase):
         if not shutil.which('doxygen'):
             self.skipTest('doxygen is not installed')
         shutil.copy(os.path.join(ROOT, 'Doxyfile'), self.root)
-        for name in ('CHANGELOG.md', 'CONTRIBUTING.md', 'docs/planner.md', 'docs/images/map.svg',
-                     'docs/images/examples/park.svg', 'docs/theme/theme.css', 'path_tracking/Drive.h',
+        for name in ('docs/images/map.svg', 'docs/images/examples/park.svg', 'path_tracking/Drive.h',
                      'automatic_parking/Park.h', 'benchmarks/Run.h', 'integrations/nav2/Plugin.h'):
             self.write(name, '')
+        self.write('docs/planner.md', '# Planner\n\n![a map](images/map.svg)\n')
+        self.write('README.md', '[planner](docs/planner.md), [drive](path_tracking/Drive.h), [tracking](path_tracking)\n\n'
+                   '<img src="docs/images/examples/park.svg">\n\n```md\n[no link](anywhere.md)\n```\n')
+        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using.md'])
+
+    def write_navigation(self, **groups):
+        self.write('docs/site/navigation.json', json.dumps(groups))
+
+    def test_guides_that_the_site_cannot_show(self):
+        self.make_documented()
+        for page, text, fault in (
+                ('docs/planner.md', '![a map](images/map.svg) ![gone](images/gone.svg)', 'no picture images/gone.svg'),
+                ('docs/planner.md', '![a map](images/map.svg) <img src="images/gone.svg">', 'no picture images/gone.svg'),
+                ('docs/planner.md', '![a map](images/map.svg) [gone](gone.md)', 'no file gone.md'),
+                ('docs/planner.md', 'no picture', 'docs/images/map.svg: no page shows this picture'),
+                ('docs/extra.md', 'more', 'docs/extra.md is in no group')):
+            with self.subTest(fault):
+                self.write(page, text)
+                self.expect_found('docs', fault)
+                self.write('docs/planner.md', '![a map](images/map.svg)')
+        os.remove(os.path.join(self.root, 'docs/extra.md'))
+        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using.md', 'docs/gone.md', 'README.md'])
+        self.expect_found('docs', 'docs/gone.md is not there')
+        self.expect_found('docs', 'README.md is listed twice')
 
     def test_docstring_about_a_parameter_that_is_not_there(self):
         self.make_documented()

@@ -15,7 +15,8 @@ PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_que
             'soak']
 # Of other programs than these (cmake, pip, Slurm, ...) a document may say what it likes.
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
-           'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test', 'scripts/try-in-bare-root',
+           'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test',
+           'scripts/try-in-bare-root',
            'benchmarks/report/make_report', 'benchmarks/report/results_page', 'benchmarks/paper/make_maps']
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
 PAGE = re.compile(r'(<!-- options:begin -->\n)(.*)(<!-- options:end -->)', re.DOTALL)

@@ -9,7 +9,7 @@
 namespace parking
 {
     /** \brief Parameters of the plugin: ROS parameters below its name. */
-    struct PlannerSettings
+    struct Nav2Settings
     {
         Vehicle vehicle;  ///< `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
         PlannerParameters parameters;  ///< by the names of parameterTable(); `turning_radius` is the vehicle's
@@ -25,5 +25,5 @@ namespace parking
     void declareSettings(nav2_compatibility::Node &node, const std::string &name);
 
     /** \brief The values that the parameters have now. Throws parking::Error naming one that is out of range. */
-    PlannerSettings readSettings(nav2_compatibility::Node &node, const std::string &name);
+    Nav2Settings readSettings(nav2_compatibility::Node &node, const std::string &name);
 }  // namespace parking

@@ -1,4 +1,4 @@
-#include "integrations/nav2/PlannerSettings.h"
+#include "integrations/nav2/Nav2Settings.h"
 
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Text.h"
@@ -20,7 +20,7 @@ namespace parking
 
         /** Calls \e visit with the name and the member of every setting. */
         template <class Visitor>
-        void forEachSetting(PlannerSettings &settings, const Visitor &visit)
+        void forEachSetting(Nav2Settings &settings, const Visitor &visit)
         {
             visit("wheelbase", settings.vehicle.wheelbase);
             visit("front_overhang", settings.vehicle.frontOverhang);
@@ -52,7 +52,7 @@ namespace parking
         for (const auto &[given, value] : node.get_node_parameters_interface()->get_parameter_overrides())
             if (given.rfind(prefix, 0) == 0)
                 checkNotRemoved(given.substr(prefix.size()));
-        PlannerSettings defaults;
+        Nav2Settings defaults;
         forEachSetting(defaults,
                        [&](const std::string &setting, auto &value)
                        {
@@ -63,9 +63,9 @@ namespace parking
                        });
     }
 
-    PlannerSettings readSettings(Node &node, const std::string &name)
+    Nav2Settings readSettings(Node &node, const std::string &name)
     {
-        PlannerSettings settings;
+        Nav2Settings settings;
         forEachSetting(settings,
                        [&](const std::string &setting, auto &value)
                        {
