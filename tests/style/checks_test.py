@@ -196,7 +196,7 @@ class ChecksTest(unittest.TestCase):
         self.write('docs/planner.md', '# Planner\n\n![a map](images/map.svg)\n')
         self.write('README.md', '[planner](docs/planner.md), [drive](path_tracking/Drive.h), [tracking](path_tracking)\n\n'
                    '<img src="docs/images/examples/park.svg">\n\n```md\n[no link](anywhere.md)\n```\n')
-        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using.md'])
+        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using-the-planner.md'])
 
     def write_navigation(self, **groups):
         self.write('docs/site/navigation.json', json.dumps(groups))
@@ -214,7 +214,7 @@ class ChecksTest(unittest.TestCase):
                 self.expect_found('docs', fault)
                 self.write('docs/planner.md', '![a map](images/map.svg)')
         os.remove(os.path.join(self.root, 'docs/extra.md'))
-        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using.md', 'docs/gone.md', 'README.md'])
+        self.write_navigation(Start=['README.md', 'docs/planner.md'], Use=['docs/using-the-planner.md', 'docs/gone.md', 'README.md'])
         self.expect_found('docs', 'docs/gone.md is not there')
         self.expect_found('docs', 'README.md is listed twice')
 
