@@ -2,8 +2,8 @@
 import math
 from xml.sax.saxutils import escape
 
-WIDTH, HEIGHT = 720, 320
-LEFT, RIGHT, TOP, BOTTOM = 56, 190, 14, 46  # of the field; the legend is at its right
+WIDTH, HEIGHT = 760, 320
+LEFT, RIGHT, TOP, BOTTOM = 56, 230, 14, 46  # of the field; the legend is at its right
 COLOURS = ('#3d85c6', '#e07b39', '#1f9e89', '#d1559b', '#9270d6', '#9b9b20', '#3aa9d6', '#8b8b8b')  # on light and dark
 DASHES = ('', '7 4', '2 3')
 STYLE = """

@@ -29,8 +29,9 @@ class Evidence:
         self.comparisons = {kind: Comparison(results) for kind, results in self._databases('comparison')}
         self.ablations = dict(self._databases('ablation'))
         self.termination = read_results(os.path.join(raw, 'termination')) if 'termination' in self.steps else None
-        self.trajectories = {kind: self._plans(f'trajectories-{kind}') for kind in SETS if f'trajectories-{kind}' in self.steps}
-        self.standstills = {kind: self._plans(f'standstills-{kind}') for kind in SETS if f'standstills-{kind}' in self.steps}
+        self.trajectories, self.standstills = (
+            {kind: self._plans(f'{name}-{kind}') for kind in SETS if f'{name}-{kind}' in self.steps}
+            for name in ('trajectories', 'standstills'))
         self.checks = {each['name']: each for each in self._json('checks', 'checks.json').get('benchmarks', [])}
         self.troubles = self._table('troubles', 'troubles.md')
         self.slots = self._text('slots', 'car-slot-table.md')
@@ -168,8 +169,8 @@ class Variant:
         ratios = [time / middle(usual[key], lambda run: run.time) for time, key in zip(times, both)]
         self.time_ratio = geometric_mean(ratios)
         self.slow = quantile(times, 0.99)
-        self.length_ratio = geometric_mean([middle(own[key], lambda run: run.length) / middle(usual[key], lambda run: run.length)
-                                            for key in both])
+        self.length_ratio = geometric_mean([
+            middle(own[key], lambda run: run.length) / middle(usual[key], lambda run: run.length) for key in both])
         self.cusps = sum(middle(own[key], lambda run: run.figure('cusps')) for key in both)
         self.more_cusps = self.cusps - sum(middle(usual[key], lambda run: run.figure('cusps')) for key in both)
         self.kept = sum(middle(own[key], lambda run: run.figure('least_clearance')) >= KEPT for key in both)

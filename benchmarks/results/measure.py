@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -16,8 +17,9 @@ from dataclasses import dataclass, field
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..'))
 HERE = os.path.join(ROOT, 'benchmarks', 'results')
 SCENARIOS = os.path.join(ROOT, 'benchmarks', 'scenarios')
+PROGRAMS = 'build/release/benchmarks/'  # as a reader calls them
 PLANNED = (0, 3, 4)  # statuses of parking_plan with a result, even without a path
-DRIVEN = [os.path.join(SCENARIOS, f'{name}.yaml') for name in ('angled45', 'parallel', 'perpendicular', 'dead_end_aisle')]
+DRIVEN = ('angled45', 'parallel', 'perpendicular', 'dead_end_aisle')  # with trouble
 
 
 class Failure(Exception):
@@ -77,13 +79,14 @@ def steps_of(raw, programs, amount, data):
     def benchmark(name, title, config, folder, shown, limit, runs):
         options = ['--time', f'{limit:g}', '--runs', str(runs)]
         file = os.path.join(HERE, config)
-        return Step(name, title, f'parking_benchmark benchmarks/results/{config} --scenarios {shown} {" ".join(options)}',
+        command = f'{PROGRAMS}parking_benchmark benchmarks/results/{config} --scenarios {shown} {" ".join(options)}'
+        return Step(name, title, command,
                     [Job([program('parking_benchmark'), file, '--scenarios', folder, *options, '--output', at(name),
                           '--no-report', '--quiet'], at(name, 'benchmark.db'))], True, [file, folder])
 
     queries = at('queries', 'set')
     count = ['--worlds', '1', '--queries', str(amount.queries)]
-    yield Step('queries', 'random queries are drawn', ' '.join(['parking_queries --output queries', *count]),
+    yield Step('queries', 'random queries are drawn', ' '.join([f'{PROGRAMS}parking_queries --output queries', *count]),
                [Job([program('parking_queries'), '--output', queries, *count], os.path.join(queries, 'index.json'))])
     sets = {'bundled': (SCENARIOS, 'benchmarks/scenarios'), 'random': (queries, 'queries')}
     if data:
@@ -101,19 +104,21 @@ def steps_of(raw, programs, amount, data):
             for file in scenario_files(folder):
                 output = at(f'{name}-{kind}', os.path.splitext(os.path.basename(file))[0] + '.json')
                 jobs.append(Job([program('parking_plan'), file, *options, '--json', output], output, fine=PLANNED))
-            yield Step(f'{name}-{kind}', f'{title}, {kind}', f'parking_plan {shown}/NAME {" ".join(options)} --json FILE', jobs,
-                       inputs=[folder])
+            command = f'{PROGRAMS}parking_plan {shown}/NAME {" ".join(options)} --json FILE'
+            yield Step(f'{name}-{kind}', f'{title}, {kind}', command, jobs, inputs=[folder])
     options = ['--drives', str(amount.drives)]
-    yield Step('troubles', 'drives that meet trouble',
-               'troubled_drives benchmarks/scenarios/{angled45,parallel,perpendicular,dead_end_aisle}.yaml ' + ' '.join(options),
-               [Job([program('troubled_drives'), *DRIVEN, *options], at('troubles', 'troubles.md'), True, (0, 1))],
-               inputs=DRIVEN)
-    yield Step('checks', 'footprint checks', ' '.join(['validity_benchmark', *amount.checks]),
-               [Job([program('validity_benchmark'), *amount.checks, '--benchmark_format=json'], at('checks', 'checks.json'), True)])
+    named = 'benchmarks/scenarios/{' + ','.join(DRIVEN) + '}.yaml'
+    driven = [os.path.join(SCENARIOS, f'{name}.yaml') for name in DRIVEN]
+    yield Step('troubles', 'drives that meet trouble', f'{PROGRAMS}troubled_drives {named} {" ".join(options)}',
+               [Job([program('troubled_drives'), *driven, *options], at('troubles', 'troubles.md'), True, (0, 1))],
+               inputs=driven)
+    yield Step('checks', 'footprint checks', f'{PROGRAMS}validity_benchmark {shlex.join(amount.checks)}',
+               [Job([program('validity_benchmark'), *amount.checks, '--benchmark_format=json'],
+                    at('checks', 'checks.json'), True)])
     yield benchmark('termination', 'how promptly planners end', 'termination.cfg', SCENARIOS, 'benchmarks/scenarios', 0.1,
                     amount.runs['bundled'])
     table = at('slots', 'car-slot-table.md')
-    yield Step('slots', 'cars in slots', 'car_slot_table FILE', [Job([program('car_slot_table'), table], table)])
+    yield Step('slots', 'cars in slots', f'{PROGRAMS}car_slot_table FILE', [Job([program('car_slot_table'), table], table)])
 
 
 def names_of_steps(data):
@@ -144,8 +149,8 @@ def project_version():
 
 def commit():
     """Of the sources; empty outside of git."""
-    said = subprocess.run(['git', '-C', ROOT, 'describe', '--always', '--dirty', '--exclude', '*'], capture_output=True, text=True,
-                          check=False)
+    said = subprocess.run(['git', '-C', ROOT, 'describe', '--always', '--dirty', '--exclude', '*'],
+                          capture_output=True, text=True, check=False)
     return said.stdout.strip().replace('-dirty', ' with changes') if said.returncode == 0 else ''
 
 

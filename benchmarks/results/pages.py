@@ -17,9 +17,11 @@ FIGURE = re.compile(r'(<!--figure ([\w.-]+)-->)(.*?)(<!--/figure-->)', re.DOTALL
 TABLE = re.compile(r'(<!-- results -->\n).*?(<!-- /results -->)', re.DOTALL)
 IMPROVING = ('improved_astar_anytime', 'RRTstar', 'PRMstar', 'BITstar')
 VARIANTS = {  # of the ablation
-    'improved_astar': 'all abilities', 'from_the_start': 'one search, from the start', 'from_the_goal': 'one search, from the goal',
-    'one_resolution': 'without finer levels', 'no_obstacle_heuristic': 'without the route round obstacles',
-    'no_detours': 'without detours', 'no_shortening': 'without improving the path', 'no_clearance': 'without preferred clearance',
+    'improved_astar': 'all abilities', 'from_the_start': 'one search, from the start',
+    'from_the_goal': 'one search, from the goal', 'one_resolution': 'without finer levels',
+    'no_obstacle_heuristic': 'without the route round obstacles',
+    'no_detours': 'without detours', 'no_shortening': 'without improving the path',
+    'no_clearance': 'without preferred clearance',
     'admissible_weights': 'both weights 1', 'five_steering_angles': 'five steering angles instead of three',
     'hybrid_astar': '`hybrid_astar`: all of these off'}
 CHECKS = {'polygons/free': 'polygons, more than 1 m away', 'polygons/mixed': 'polygons, anywhere',
@@ -103,7 +105,8 @@ def compared(evidence, figures):
         unsolved = comparison.unsolved
         about = f'{count(len(comparison.problems), "problem")}, {comparison.time_limit:g} s.'
         if unsolved:
-            about += f' Left out, since no planner solves {"it" if len(unsolved) == 1 else "them"}: ' + ', '.join(unsolved) + '.'
+            them = 'it' if len(unsolved) == 1 else 'them'
+            about += f' Left out, since no planner solves {them}: {", ".join(unsolved)}.'
         made += [f'### {SETS[kind]}', f'`{evidence.steps[step]["command"]}`', about,
                  markdown(headings, list(comparison_rows(comparison))), ahead(comparison),
                  f'![Share of the runs solved over time](results/solved-{kind}.svg)']
@@ -133,7 +136,8 @@ def repeated_calls(evidence, figures):
         figures.add(f'{kind}.repeated_call', median(later), shown_time(median(later)), f'trajectories-{kind}')
     if not rows:
         return []
-    return ['## First calls', 'The first call of a process is slower than those that follow. Times are by the clock on the wall, '
+    return ['## First calls',
+            'The first call of a process is slower than those that follow. Times are by the clock on the wall, '
             'over the problems solved.', f'`{next(iter(step_commands(evidence, "trajectories")))}`',
             markdown(['problems', 'solved', 'first over later', 'first call', '99 %', 'later calls', '99 %'], rows)]
 
@@ -156,7 +160,8 @@ def anytime(evidence, figures):
                             f'comparison-{kind}')
         made.append(row)
     headings = ['planner', *(f'{kind}: {which}' for kind in evidence.comparisons for which in ('first', 'last'))]
-    return ['## More time', 'Length of the first and of the last path over the shortest that is known, medians over the solved '
+    return ['## More time',
+            'Length of the first and of the last path over the shortest that is known, medians over the solved '
             'runs. The curves count unsolved runs as infinitely long, and begin where half are solved.',
             *([markdown(headings, made)] if made else []), *(f'![Length over time, {SETS[kind]}](results/length-{kind}.svg)'
                                         for kind in evidence.comparisons)] if evidence.comparisons else []
@@ -176,8 +181,8 @@ def ablation(evidence, figures):
             figures.add(f'ablation.{name}.time_ratio', each.time_ratio, times(each.time_ratio), step)
             figures.add(f'ablation.{name}.length_ratio', each.length_ratio, times(each.length_ratio), step)
     return ['## Ablation', 'Each ability is switched off alone, on all problems above. Ratios to all abilities are geometric '
-            'means over the problems that both solve in every run. Cusps are the difference of the sums; 10 cm counts the paths '
-            'that keep the preferred clearance.', f'`{evidence.steps[step]["command"]}`',
+            'means over the problems that both solve in every run. Cusps are the difference of the sums; 10 cm counts the '
+            'paths that keep the preferred clearance.', f'`{evidence.steps[step]["command"]}`',
             markdown(['variant', 'solved', 'time ratio', 'length ratio', 'cusps', '10 cm', '99 % of times'], rows)]
 
 
@@ -197,7 +202,8 @@ def checks(evidence, figures):
                         times(seconds_of(plain) / seconds_of(tiers)), 'checks')
     motions = []
     for name, text in VALIDATORS.items():
-        pairs = [(found.get(f'motionCheck/{which}/{name}'), found.get(f'motionCheck/{which}/swept')) for which in ('random', 'valid')]
+        pairs = [(found.get(f'motionCheck/{which}/{name}'), found.get(f'motionCheck/{which}/swept'))
+                 for which in ('random', 'valid')]
         if all(all(pair) for pair in pairs):
             cells = [text]
             for (own, swept), which in zip(pairs, ('random', 'free')):
@@ -214,8 +220,8 @@ def checks(evidence, figures):
     wrong = next((each for name, each in found.items() if name.startswith('wrongMotions')), None)
     if wrong:
         figures.add('checks.wrong.swept', wrong['swept accepts wrongly'], f'{wrong["swept accepts wrongly"]:.0f}', 'checks')
-        figures.add('checks.wrong.discrete', wrong['discrete_2cm accepts wrongly'], f'{wrong["discrete_2cm accepts wrongly"]:.0f}',
-                    'checks')
+        figures.add('checks.wrong.discrete', wrong['discrete_2cm accepts wrongly'], 
+                    f'{wrong["discrete_2cm accepts wrongly"]:.0f}', 'checks')
         text = [f'Of {wrong["motions"]:.0f} random Reeds-Shepp motions {wrong["free"]:.0f} are free. The swept check accepts '
                 f'{wrong["swept accepts wrongly"]:.0f} of the others, a look every 2 cm '
                 f'{wrong["discrete_2cm accepts wrongly"]:.0f}. The swept check refuses '
@@ -261,7 +267,8 @@ def trajectories(evidence, figures):
             figures.add(f'{kind}.drive.{name}', value, text, step)
     if not rows:
         return []
-    return ['## Trajectories', f'`{step_commands(evidence, "trajectories")[0]}`', '*Ratio*: median of the duration over that of a '
+    return ['## Trajectories',
+            f'`{step_commands(evidence, "trajectories")[0]}`', '*Ratio*: median of the duration over that of a '
             'drive along the planned path that stops to steer (`parking_plan NAME --track`). *Fallback*: the result is such a '
             'drive. Every problem is in [trajectories](results/trajectories.md).',
             markdown(['problems', 'solved', 'fallback', 'ratio', 'durations, sum', 'optimising', '99 %'], rows),
@@ -276,9 +283,8 @@ def troubles(evidence, figures):
     headings, *rows = evidence.troubles
     wanted = [headings.index(name) for name in ('trouble', 'drives', 'parked', 'stopped, touching nothing', 'could be avoided')]
     hit, other = headings.index('and was hit'), headings.index('anything else was hit')
-    total = {name: sum(int(row[place]) for row in rows) for name, place in (('drives', wanted[1]), ('parked', wanted[2]),
-                                                                            ('avoidable', wanted[4]), ('hit', hit), ('other', other))}
-    for name, value in total.items():
+    for name, place in (('drives', wanted[1]), ('parked', wanted[2]), ('avoidable', wanted[4]), ('hit', hit), ('other', other)):
+        value = sum(int(row[place]) for row in rows)
         figures.add(f'troubles.{name}', value, str(value), 'troubles')
     return ['Disturbed drives, in which an obstacle may appear:', f'`{evidence.steps["troubles"]["command"]}`',
             markdown(['trouble', 'drives', 'parked', 'stopped free', 'avoidable obstacles', 'of these hit', 'else hit'],
@@ -294,8 +300,8 @@ def termination(evidence, figures):
             rows.append([planner, str(len(late)), shown_time(max(0.0, median(late))), shown_time(max(0.0, max(late)))])
             figures.add(f'termination.{planner}', max(late), shown_time(max(0.0, max(late))), 'termination')
     return ['## Ending in time', f'`{evidence.steps["termination"]["command"]}`',
-            f'Delay between the end of {1e3 * evidence.termination.time_limit:g} ms and the return of `solve()`, by the clock on '
-            'the wall, of the runs that used up their time:',
+            f'Delay between the end of {1e3 * evidence.termination.time_limit:g} ms and the return of `solve()`, by the clock '
+            'on the wall, of the runs that used up their time:',
             markdown(['planner', 'runs', 'delay, median', 'largest'], rows)]
 
 
@@ -307,27 +313,28 @@ def provenance(evidence):
         return ', '.join(dict.fromkeys(str(step[name]) for step in evidence.steps.values() if step[name]))
     libraries = next((comparison.results.versions[0] for comparison in evidence.comparisons.values()
                       if comparison.results.versions), '')
-    text = f'Version {all_of("version")}, commit {all_of("commit") or "unknown"}; {all_of("processor")}, {all_of("cores")} cores; '
-    return text + f'{all_of("date")}.' + (f' Built with {libraries.split(", ", 1)[1]}.' if ', ' in libraries else '')
+    text = f'Version {all_of("version")}, commit {all_of("commit") or "unknown"}; {all_of("processor")}, '
+    text += f'{all_of("cores")} cores; {all_of("date")}.'
+    return text + (f' Built with {libraries.split(", ", 1)[1]}.' if ', ' in libraries else '')
 
 
 def introduction(evidence):
     quick = any(step['amount'] == 'quick' for step in evidence.steps.values())
     command = 'scripts/results' + (' --quick' if quick else '') + (' --data FOLDER' if 'tpcap' in evidence.comparisons else '')
-    text = ['# Results', 'How well do planner, footprint checks, trajectories and drives perform? `' + command + '` measures and '
-            'writes this page, its [attachments](results) and all figures that other pages quote.', provenance(evidence)]
+    text = ['# Results',
+            f'How well do planner, footprint checks, trajectories and drives perform? `{command}` measures and writes '
+            'this page, its [attachments](results) and all figures that other pages quote.', provenance(evidence)]
     if quick:
         text.append('**This is a quick run: few runs, short limits. It shows that the command works and proves nothing.**')
-    text += ['Programs are in `build/release/benchmarks`, the random queries come from '
-             f'`{evidence.steps["queries"]["command"]}`.' if 'queries' in evidence.steps else '']
+    text += [f'The random queries: `{evidence.steps["queries"]["command"]}`.' if 'queries' in evidence.steps else '']
     if 'tpcap' in evidence.comparisons:
         text.append('TPCAP\'s cases are not part of this project: FOLDER is your own copy.')
     return [each for each in text if each]
 
 
 COMPARED = ['## Planners compared', f"""`{OURS}` beside OMPL's planners and others, with the same space, footprint checks and
-recheck of every path. `hybrid_astar` is its core, from the start and with its improvements off; `textbook_hybrid_astar` shares only
-the checks. Times and limits are processor time.
+recheck of every path. `hybrid_astar` is its core, from the start and with its improvements off; `textbook_hybrid_astar` shares
+only the checks. Times and limits are processor time.
 
 - *Solved*: runs with a valid path to the goal, of all runs.
 - *In common*: problems that the planner and `{OURS}` both solve in more than half of their runs. *Ratios* are medians
@@ -337,7 +344,8 @@ the checks. Times and limits are processor time.
 
 
 def problems_page(evidence):
-    made = ['# Every problem of the comparison', f'Which problem costs each planner how much? Medians over the runs on a problem: time to '
+    made = ['# Every problem of the comparison',
+            'Which problem costs each planner how much? Medians over the runs on a problem: time to '
             f'the first path, and length of the last over the shortest that is known. Made by `scripts/results`; see '
             '[results](../results.md).', provenance(evidence)]
     for kind, comparison in evidence.comparisons.items():
@@ -345,7 +353,8 @@ def problems_page(evidence):
         for problem in comparison.problems:
             cells = [(comparison.middle(problem, planner, 'time'), comparison.middle(problem, planner, 'length'))
                      for planner in comparison.planners]
-            rows.append([problem, *(f'{shown_time(time)}, {shown(length / comparison.best[problem])}' if math.isfinite(time) else '–'
+            best = comparison.best[problem]
+            rows.append([problem, *(f'{shown_time(time)}, {shown(length / best)}' if math.isfinite(time) else '–'
                                     for time, length in cells)])
         made += [f'## {SETS[kind]}', f'`{evidence.steps[f"comparison-{kind}"]["command"]}`',
                  markdown(['problem', *comparison.planners], rows)]
@@ -353,17 +362,19 @@ def problems_page(evidence):
 
 
 def trajectories_page(evidence):
-    made = ['# Every trajectory', 'How long does the optimised trajectory of each problem take? Beside it the drive that stops to '
-            'steer, the cost J of TPCAP, the time of optimising, and how the controller drives it. Made by `scripts/results`; see '
-            '[results](../results.md).', provenance(evidence)]
+    made = ['# Every trajectory',
+            'How long does the optimised trajectory of each problem take? Beside it the drive that stops to '
+            'steer, the cost J of TPCAP, the time of optimising, and how the controller drives it. Made by `scripts/results`; '
+            'see [results](../results.md).', provenance(evidence)]
     for kind, plans in evidence.trajectories.items():
         rows = []
         for name, plan in plans.items():
             found, drive = plan.get('trajectory_optimization') or {}, plan.get('tracking') or {}
             standing = evidence.standstills.get(kind, {}).get(name, {}).get('tracking') or {}
             if found:
-                rows.append([name, str(plan['cusps']), shown(found['duration_s']), shown(standing.get('travel_time_s', math.nan)),
-                             'yes' if found['fallback'] else 'no', shown(found['tpcap_cost']['J'], 4),
+                rows.append([name, str(plan['cusps']), shown(found['duration_s']),
+                             shown(standing.get('travel_time_s', math.nan)), 'yes' if found['fallback'] else 'no',
+                             shown(found['tpcap_cost']['J'], 4),
                              shown_time(found['time_ms'] * 1e-3), shown(drive.get('travel_time_s', math.nan)),
                              centimetres(drive.get('max_position_error_m', math.nan)),
                              centimetres(drive.get('min_clearance_m', math.nan)), str(drive.get('collisions', '–'))])
@@ -413,8 +424,8 @@ def pages_of(evidence):
     page += (COMPARED + parts + ['Each problem is in [problems](results/problems.md).']) if parts else []
     for section in (repeated_calls, anytime, ablation, checks, trajectories, troubles, termination):
         page += section(evidence, figures)
-    page += ['## Cars in slots', 'Which car parks in which slot, in how many stretches: [cars in slots]'
-             '(results/car-slot-table.md).'] if evidence.slots else []
+    if evidence.slots:
+        page.append('Which car parks in which slot, in how many stretches: [cars in slots](results/car-slot-table.md).')
     made = {'docs/results.md': '\n\n'.join(page) + '\n',
             'docs/results/problems.md': problems_page(evidence), 'docs/results/trajectories.md': trajectories_page(evidence),
             'docs/results/figures.json': json.dumps(figures.found, indent=1, ensure_ascii=False, sort_keys=True) + '\n',

@@ -1,5 +1,5 @@
-// Which car parks in which slot in how many stretches: writes docs/results/car-slot-table.md, or checks that it is what would
-// be written.
+// Which car parks in which slot in how many stretches: writes docs/results/car-slot-table.md, or checks that it is what
+// would be written.
 
 #include "automatic_parking/SlotQuestions.h"
 #include "parking_geometry/Error.h"
@@ -186,7 +186,8 @@ namespace
         for (const std::string &name : vehicleNames())
             cars.push_back(vehicleByName(name));
         return "# Which car parks in which slot\n\n"
-               "Which car parks in which slot, and how often does it change direction? Made by `car_slot_table FILE`, which\n"
+               "Which car parks in which slot, and how often does it change direction? Made by `car_slot_table FILE`, "
+               "which\n"
                "`scripts/results` runs; see [results](../results.md).\n\n"
                "The number of stretches (parts between changes of direction) from the aisle into the slot: 1 is a "
                "single sweep.\n"

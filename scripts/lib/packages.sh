@@ -43,7 +43,7 @@ doxygen                      | test docs | builds the reference, which must not 
 dpkg-dev                     | test package | finds out what packages a library needs
 help2man                     | package | writes the manual pages of the programs
 file                         | test package | tells programs from other files
-python3-matplotlib           | test  | pictures of the Python module; curves for documents
+python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)

@@ -19,7 +19,8 @@ from measure import Failure, Job, Step, run_step  # noqa: E402
 
 def plan(first, later, duration, travel):
     return {'status': 'exact', 'cusps': 2, 'planning_time_ms': [first, *later],
-            'trajectory_optimization': {'duration_s': duration, 'time_ms': 20.0, 'fallback': False, 'tpcap_cost': {'J': 1300.0}},
+            'trajectory_optimization': {'duration_s': duration, 'time_ms': 20.0, 'fallback': False,
+                                        'tpcap_cost': {'J': 1300.0}},
             'tracking': {'arrived': True, 'collisions': 0, 'travel_time_s': travel, 'final_position_error_m': 0.001,
                          'max_position_error_m': 0.02, 'min_clearance_m': 0.1, 'mpc_solve_ms': {'median': 0.1, 'p99': 0.4}}}
 
@@ -111,7 +112,8 @@ class Pages(made_results.FolderTest):
     def test_ablation(self):
         self.step('ablation-bundled')
         made_results.write(self.path('ablation-bundled'), [
-            record('a', 'improved_astar', 0, 'solved', 0.01, 10.0), record('a', 'no_shortening', 0, 'solved', 0.005, 12.0, cusps=4),
+            record('a', 'improved_astar', 0, 'solved', 0.01, 10.0),
+            record('a', 'no_shortening', 0, 'solved', 0.005, 12.0, cusps=4),
             record('b', 'improved_astar', 0, 'solved', 0.01, 10.0), record('b', 'no_shortening', 0, 'none')])
         self.assertEqual(self.rows(self.made()[0]['docs/results.md'])['without improving the path'],
                          ['1 of 2', '0.50', '1.2', '+3', '1 of 1', '5.00 ms'])
@@ -137,8 +139,8 @@ class Pages(made_results.FolderTest):
         each = [{'name': f'stateCheck/grid/free/{tier}', 'cpu_time': time, 'time_unit': unit}
                 for tier, time, unit in (('plain_fcl', 0.2, 'us'), ('two_tier', 40.0, 'ns'))]
         self.write('checks/checks.json', {'benchmarks': each})
-        self.write('troubles/troubles.md', '| trouble | drives | parked | stopped, touching nothing | could be avoided | and was hit '
-                   '| anything else was hit |\n|---|--:|--:|--:|--:|--:|--:|\n| none | 9 | 8 | 1 | 3 | 0 | 0 |\n')
+        self.write('troubles/troubles.md', '| trouble | drives | parked | stopped, touching nothing | could be avoided '
+                   '| and was hit | anything else was hit |\n|---|--:|--:|--:|--:|--:|--:|\n| none | 9 | 8 | 1 | 3 | 0 | 0 |\n')
         made_results.write(self.path('termination'), [record('a', 'RRTstar', k, 'none', time=time)
                                                       for k, time in enumerate((2.004, 2.002, 2.0, 0.1))])
         made, figures, _ = self.made()
@@ -151,7 +153,8 @@ class Pages(made_results.FolderTest):
     def test_pages_are_filled(self):
         figures = {'a.b': {'value': 1.4, 'text': '1.4 ms', 'command': 'run'}}
         documents = {'README.md': 'x\n<!-- results -->\nold\n<!-- /results -->\ny\n',
-                     'docs/a.md': 'Takes <!--figure a.b-->9 ms<!--/figure--> or <!--figure c-->9<!--/figure-->.', 'docs/b.md': 'none'}
+                     'docs/a.md': 'Takes <!--figure a.b-->9 ms<!--/figure--> or <!--figure c-->9<!--/figure-->.',
+                     'docs/b.md': 'none'}
         filled = pages.fill_documents(documents, figures, '| table |\n')
         self.assertEqual(filled, {
             'README.md': 'x\n<!-- results -->\n| table |\n<!-- /results -->\ny\n',
