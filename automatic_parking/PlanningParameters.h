@@ -22,7 +22,7 @@ namespace parking
     /** \brief The constants that planning into slots was tuned with.
 
         None of them changes what counts as free. The values were chosen by hand on the known problems: the bundled
-        scenarios, the TPCAP cases, and the slots of docs/car-slot-table.md. */
+        scenarios, the TPCAP cases, and the slots of docs/results/car-slot-table.md. */
     struct PlanningTuning
     {
         /** Metres: motions are proved free as long as they stay so far from contact. */

@@ -1,4 +1,4 @@
-// parking_queries: writes random parking problems, the same ones for the same seed. docs/benchmarking.md says how.
+// parking_queries: writes random parking problems, the same ones for the same seed.
 
 #include "benchmarks/queries/Queries.h"
 #include "benchmarks/system/CommandLine.h"

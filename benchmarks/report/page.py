@@ -53,7 +53,8 @@ class Row:
 
 
 class Cell:
-    """How one planner did on one problem. Without a valid exact solution, a run's time and length are infinite."""
+    """How one planner did on one problem. A run without a valid exact solution takes infinitely long; lengths are those of
+    the solved runs, as in summary.csv, except for comparisons across problems, where it is infinitely long, too."""
 
     def __init__(self, runs):
         self.runs = runs
@@ -61,11 +62,12 @@ class Cell:
         self.solved = sum(run.solved for run in runs)
         self.invalid = sum(run.invalid for run in runs)
         self.approximate = sum(run.approximate for run in runs)
-        times, lengths = [run.time for run in runs], [run.length for run in runs]
+        times, lengths = [run.time for run in runs], [run.length for run in runs if run.solved]
         self.time, self.time_interval = median(times), median_interval(times)
         self.quartiles = quantile(times, 0.25), quantile(times, 0.75)
         self.length, self.length_interval = median(lengths), median_interval(lengths)
-        self.shortest = min(lengths)
+        self.length_of_all = median([run.length for run in runs])
+        self.shortest = min(lengths, default=math.inf)
 
     def values_of_solved(self, name):
         values = [run.figure(name) for run in self.runs if run.solved]
@@ -115,7 +117,7 @@ def overall_table(results, table):
         time, interval = median(times[index]), median_interval(times[index])
         always = sum(cell.solved == cell.count for _, cell in cells)
         invalid = sum(cell.invalid for _, cell in cells)
-        ratios = [cell.length / shortest[problem] for problem, cell in cells if math.isfinite(shortest[problem])]
+        ratios = [cell.length_of_all / shortest[problem] for problem, cell in cells if math.isfinite(shortest[problem])]
         ratio = median(ratios)
         rows.append(Row(results.planners[index], [
             _share_figure(sum(cell.solved for _, cell in cells), len(times[index])),
@@ -169,7 +171,7 @@ def _further_figures(cell, columns):
 
 def problem_table(results, cells, columns):
     best_time = min((cell.time for cell in cells.values()), default=math.inf)
-    best_length = min((cell.length for cell in cells.values()), default=math.inf)
+    best_length = min((cell.length_of_all for cell in cells.values()), default=math.inf)
     rows = []
     for index, cell in cells.items():
         marks = []
@@ -185,11 +187,11 @@ def problem_table(results, cells, columns):
             _share_figure(cell.solved, cell.count),
             _median_figure(cell.time, cell.time_interval, cell.count, shown_time, cell.time == best_time < math.inf),
             Figure(f'{shown_time(low)} – {shown_time(high)}' if math.isfinite(low) else '–', low, '', 'soft'),
-            _median_figure(cell.length, cell.length_interval, cell.count, _shown_length,
-                           cell.length <= 1.001 * best_length and best_length < math.inf),
+            _median_figure(cell.length, cell.length_interval, cell.solved, _shown_length,
+                           cell.length_of_all <= 1.001 * best_length and best_length < math.inf),
             Figure('–' if math.isnan(cusps) else f'{cusps:g}', cusps),
             Figure(shown_in(100.0 * clearance, 'cm'), clearance), *_further_figures(cell, columns)], index, marks=marks))
-    return _table('figures', ['planner', 'solved', 'first solution, median', 'quartiles', 'length, median', 'cusps',
+    return _table('figures', ['planner', 'solved', 'first solution, median', 'quartiles', 'length of solved, median', 'cusps',
                               'clearance', *(column['heading'] for column in columns)], rows)
 
 

@@ -1,5 +1,5 @@
-// Which car parks in which slot in how many stretches: writes docs/car-slot-table.md, or checks that it is what would
-// be written.
+// Which car parks in which slot in how many stretches: writes docs/results/car-slot-table.md, or checks that it is what
+// would be written.
 
 #include "automatic_parking/SlotQuestions.h"
 #include "parking_geometry/Error.h"
@@ -181,7 +181,9 @@ namespace
         for (const std::string &name : vehicleNames())
             cars.push_back(vehicleByName(name));
         return "# Which car parks in which slot\n\n"
-               "Written by `car_slot_table`; do not edit it by hand, run `scripts/make_car_slot_table`.\n\n"
+               "Which car parks in which slot, and how often does it change direction? Made by `car_slot_table FILE`, "
+               "which\n"
+               "`scripts/results` runs; see [results](../results.md).\n\n"
                "The number of stretches (parts between changes of direction) from the aisle into the slot: 1 is a "
                "single sweep.\n"
                "`long` and `wide`: the car is longer or wider than the slot, less 1 cm at either end. `-`: no way was "
@@ -204,7 +206,7 @@ namespace
                "is that of a car in its middle.\n\n" +
                needsTable(cars) +
                "\n## Sources\n\n"
-               "Cars: see [VehicleCatalogue.cpp](../parking_geometry/VehicleCatalogue.cpp), which names them one by "
+               "Cars: see [VehicleCatalogue.cpp](../../parking_geometry/VehicleCatalogue.cpp), which names them one by "
                "one.\n"
                "Slots, most of them from pages that quote the rule and not from its own text:\n\n" +
                sources();
@@ -235,7 +237,7 @@ int main(int argc, char **argv)
             writeFileAtomically(arguments[0], text);
         else if (readFile(arguments[1], 1 << 20) != text)
         {
-            std::cerr << arguments[1] << " is not what this program writes: run scripts/make_car_slot_table\n";
+            std::cerr << arguments[1] << " is not what this program writes; car_slot_table FILE writes it\n";
             return 1;
         }
         return 0;

@@ -13,15 +13,15 @@ target_compile_definitions(validity_benchmark PRIVATE
 add_executable(soak ${CMAKE_CURRENT_LIST_DIR}/soak.cpp)
 target_link_libraries(soak PRIVATE parking_build_flags parking_comparison parking_worlds Threads::Threads)
 
-# Drives that meet trouble: a table of what happened, for docs/reliability.md.
+# Drives that meet trouble: a table of what happened, for docs/results.md.
 add_executable(troubled_drives ${CMAKE_CURRENT_LIST_DIR}/troubled_drives.cpp ${CMAKE_CURRENT_LIST_DIR}/TroubledDrives.cpp)
 target_link_libraries(troubled_drives PRIVATE parking_build_flags parking_comparison parking_worlds)
 
-# Which car parks in which slot: docs/car-slot-table.md is what this program writes.
+# Which car parks in which slot: docs/results/car-slot-table.md is what this program writes.
 add_executable(car_slot_table ${CMAKE_CURRENT_LIST_DIR}/car_slot_table.cpp)
 target_link_libraries(car_slot_table PRIVATE parking_build_flags automatic_parking)
 if(PARKING_BUILD_TESTS)
   add_test(NAME car_slot_table.Check
-    COMMAND car_slot_table --check ${PROJECT_SOURCE_DIR}/docs/car-slot-table.md)
+    COMMAND car_slot_table --check ${PROJECT_SOURCE_DIR}/docs/results/car-slot-table.md)
   set_tests_properties(car_slot_table.Check PROPERTIES TIMEOUT 900)
 endif()

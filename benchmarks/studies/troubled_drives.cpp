@@ -1,4 +1,4 @@
-// Drives that meet trouble: many, each with its seed. The table of docs/reliability.md comes from here.
+// Drives that meet trouble: many, each with its seed. A table of docs/results.md comes from here.
 
 #include "benchmarks/studies/TroubledDrives.h"
 #include "benchmarks/system/CommandLine.h"

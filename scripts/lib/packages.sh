@@ -48,7 +48,7 @@ python3-yaml                 | test docs | PyYAML: reads scenarios for scripts/p
 dpkg-dev                     | test package | finds out what packages a library needs
 help2man                     | package | writes the manual pages of the programs
 file                         | test package | tells programs from other files
-python3-matplotlib           | test  | pictures of the Python module; curves for documents
+python3-matplotlib           | test  | pictures of the Python module
 python3-pandas               | test  | tables of the Python module
 python3-pytest               | test  | runs the tests of the Python module
 emscripten                   | page  | compiles the core for browsers (800 MB)

@@ -56,6 +56,19 @@ class ChecksTest(unittest.TestCase):
                 done = self.run_check(check)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_figures_that_are_not_those_of_the_results(self):
+        self.write('docs/results/figures.json', json.dumps({'a.b': {'value': 1.4, 'text': '1.4 ms', 'command': 'run'}}))
+        self.write('docs/page.md', 'Takes <!--figure a.b-->1.4 ms<!--/figure-->; `<!--figure NAME-->text` is how.\n')
+        self.assertEqual(self.run_check('figures').returncode, 0)
+        for text in ('<!--figure a.b-->1.5 ms<!--/figure-->', '<!--figure a.c-->1.4 ms<!--/figure-->', '<!--figure a.b-->1.4 ms',
+                     '<!-- figure a.b -->1.4 ms<!-- /figure -->'):
+            with self.subTest(text):
+                self.write('docs/page.md', text)
+                self.expect_found('figures', 'docs/page.md')
+        self.write('docs/page.md', '')
+        self.write('docs/results/figures.json', json.dumps({'a.b': {'value': 1.4, 'text': '1.4 ms'}}))
+        self.expect_found('figures', 'a.b: lacks command')
+
     def test_unformatted_source(self):
         self.write('state_validity/Checker.cpp', 'int  f( ) { return 1 ; }\n')
         self.expect_found('format', 'state_validity/Checker.cpp')

@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 CODE = ('.h', '.cpp', '.py', '.sh', '.cmake')
-GENERATED = {'build', 'results', '.git', '__pycache__'}
+GENERATED = {'build', '.git', '__pycache__'}
 
 
 def project_files(root):
@@ -18,7 +18,8 @@ def project_files(root):
         names = []
         for folder, subfolders, files in os.walk(root):
             subfolders[:] = [name for name in subfolders
-                             if name not in GENERATED and not name.startswith('build-')]
+                             if name not in GENERATED and not name.startswith('build-')
+                             and not (folder == root and name == 'results')]
             names += [os.path.relpath(os.path.join(folder, name), root) for name in files]
     return sorted(name for name in set(names) if os.path.isfile(os.path.join(root, name)))
 

@@ -143,7 +143,7 @@ class ScriptsTest(unittest.TestCase):
 
     def test_wrong_options_end_with_status_2_and_one_line(self):
         for script, arguments in (('test', ['--release']), ('test', ['a', 'b']), ('compare', ['--fast']),
-                                  ('compare', ['results'])):
+                                  ('compare', ['results']), ('results', ['--fast']), ('results', ['--data'])):
             with self.subTest(f'{script} {arguments}'):
                 done = self.run_script(script, *arguments)
                 self.assertEqual(done.returncode, 2)

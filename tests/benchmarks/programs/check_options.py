@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Does docs/options.md say what the programs say with --help, and do the documents name all options, and no others?
+"""Do the documents give programs and scripts only options that these have?
 
-usage: check_options.py ROOT PROGRAMS [--update]
-PROGRAMS is the folder with the built programs. --update writes the page anew.
+usage: check_options.py ROOT PROGRAMS
+PROGRAMS is the folder with the built programs.
 """
 import glob
 import os
@@ -15,23 +15,14 @@ PROGRAMS = ['parking_plan', 'parking_benchmark', 'parking_convert', 'parking_que
             'soak']
 # Of other programs than these (cmake, pip, Slurm, ...) a document may say what it likes.
 SCRIPTS = ['scripts/compare', 'scripts/docs', 'scripts/fuzz', 'scripts/package',
-           'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/soak', 'scripts/test',
+           'scripts/pictures', 'scripts/playground', 'scripts/reproduce-paper', 'scripts/results', 'scripts/soak', 'scripts/test',
            'scripts/try-in-bare-root',
-           'benchmarks/report/make_report', 'benchmarks/report/results_page', 'benchmarks/paper/make_maps']
+           'benchmarks/report/make_report', 'benchmarks/paper/make_maps']
 OPTION = re.compile(r'(?<![\w-])--[a-z][a-z-]*')
-PAGE = re.compile(r'(<!-- options:begin -->\n)(.*)(<!-- options:end -->)', re.DOTALL)
 
 
 def help_of(*command):
     return subprocess.run([*command, '--help'], capture_output=True, text=True, check=True, timeout=60).stdout
-
-
-def section(name, text):
-    """The program's own words, up to the end of its options: what follows depends on what it was built with."""
-    blocks = re.split(r'\n(?=\n)', text.rstrip('\n'))
-    options = next(k for k, block in enumerate(blocks) if block.startswith('\nOptions:'))
-    kept = '\n'.join(line.rstrip() for block in blocks[:options + 1] for line in block.split('\n'))
-    return f'## {name}\n\n```text\n{kept}\n```\n\n'
 
 
 def commands(text):
@@ -52,22 +43,8 @@ def strangers(documents, options):
                         yield f'{name}: {call.group(1)} has no option {option}'
 
 
-def main(root, folder, update):
+def main(root, folder):
     helps = {name: help_of(os.path.join(folder, name)) for name in PROGRAMS}
-    page = os.path.join(root, 'docs', 'options.md')
-    with open(page, encoding='utf-8') as stream:
-        text = stream.read()
-    wanted = ''.join(section(name, each) for name, each in helps.items())
-    found = PAGE.search(text)
-    if not found:
-        return 'docs/options.md: nothing between <!-- options:begin --> and <!-- options:end -->'
-    if update:
-        with open(page, 'w', encoding='utf-8') as stream:
-            stream.write(text[:found.start(2)] + '\n' + wanted + text[found.end(2):])
-        return None
-    faults = []
-    if found.group(2) != '\n' + wanted:
-        faults.append('docs/options.md: is not what the programs say; check_options.py --update makes it')
     for name in SCRIPTS:
         command = [os.path.join(root, name)]
         with open(command[0], encoding='utf-8') as stream:
@@ -77,15 +54,11 @@ def main(root, folder, update):
     for name in ['README.md', 'CONTRIBUTING.md', *glob.glob('docs/**/*.md', root_dir=root, recursive=True)]:
         with open(os.path.join(root, name), encoding='utf-8') as stream:
             documents[name] = stream.read()
-    named = {option for each in documents.values() for option in OPTION.findall(each)}
-    for name, each in options.items():
-        faults += [f'no document names {option} of {name}' for option in sorted(each - named)]
     # A script is called by its name alone, too.
     options.update({os.path.basename(name): each for name, each in list(options.items())
                     if os.path.basename(name) not in options and not name.startswith('scripts/')})
-    faults += strangers(documents, options)
-    return '\n'.join(faults) or None
+    return '\n'.join(strangers(documents, options)) or None
 
 
 if __name__ == '__main__':
-    sys.exit(main(os.path.abspath(sys.argv[1]), sys.argv[2], '--update' in sys.argv[3:]))
+    sys.exit(main(os.path.abspath(sys.argv[1]), sys.argv[2]))
