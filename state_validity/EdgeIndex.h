@@ -1,7 +1,7 @@
 #pragma once
 
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/OrientedBox.h"
+#include "parking_geometry/OrientedBox.h"
 #include "state_validity/sweeps/SweepFront.h"
 #include "state_validity/sweeps/SweptBox.h"
 
