@@ -1,7 +1,7 @@
 #pragma once
 
-#include "state_validity/ObstacleSet.h"
 #include "parking_geometry/OrientedBox.h"
+#include "state_validity/ObstacleSet.h"
 
 #include <functional>
 

@@ -39,7 +39,7 @@ namespace parking
 
         The planner's path is checked: it must begin at the parked pose and end at an exit (1e-6 m, 1e-6 rad) and pass
         the world's callables. Reversed it is the manoeuvre; its path counts its stretches, and
-        guard line and radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
+        the radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
         shortest. When none works, the verdict is that of the single sweep.
 
         Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */

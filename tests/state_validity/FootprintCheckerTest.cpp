@@ -182,29 +182,6 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
     EXPECT_GT(checked, 100);
 }
 
-TEST(FootprintChecker, SeesEveryThinObstacle)
-{
-    // A line of a tenth of a millimetre, a post of a centimetre and a single cell, wherever under the body they are.
-    const Vehicle vehicle;
-    Random random(5);
-    for (int i = 0; i < 300; ++i)
-    {
-        const Pose pose{random.between(-8.0, 8.0), random.between(-8.0, 8.0), random.between(-PI, PI)};
-        const Pose under =
-            compose(pose, {random.between(-0.9, 3.7), random.between(-0.95, 0.95), random.between(0.0, 6.0)});
-        const Polygon line = rectangle(3.0, 1e-4, under), post = rectangle(0.01, 0.01, under);
-        for (const Polygon &obstacle : {line, post})
-        {
-            EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle).isFree(pose));
-            EXPECT_FALSE(PlainFclChecker(box({obstacle}), vehicle).isFree(pose));
-        }
-        OccupancyGrid grid(400, 400, 0.1, {-20.0, -20.0, 0.0});
-        grid.set(static_cast<std::size_t>((under.x + 20.0) / 0.1), static_cast<std::size_t>((under.y + 20.0) / 0.1),
-                 Cell::Occupied);
-        EXPECT_FALSE(FootprintChecker(ObstacleSet::fromGrid(grid), vehicle).isFree(pose));
-    }
-}
-
 TEST(FootprintChecker, KnowsExactClearancesInTheMiddleOfALongWorld)
 {
     // 32 km, and nothing but the bounds, out of reach of what is gathered round a pose.

@@ -1,4 +1,3 @@
-#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -276,43 +275,4 @@ TEST_F(MapReader, ReadsTheRealMaps)
             ++count;
         }
     EXPECT_GT(count, 0);
-}
-
-TEST_F(MapReader, DamagedImagesGiveErrorsAndNothingWorse)
-{
-    std::vector<std::uint8_t> colours;
-    for (std::uint8_t i = 0; i < 80; ++i)
-        colours.push_back(static_cast<std::uint8_t>(i * 3));
-    const std::vector<std::string> images = {"P2 # c\n4 3 255\n1 2 3 4 250 6 7 8 9 200 11 12\n",
-                                             raw("P5\n# c\n3 2 300\n", {1, 2, 0, 4, 0, 6, 1, 8, 0, 7, 0, 3}),
-                                             encodePng(5, 4, PNG_FORMAT_RGBA, colours), PALETTE_PNG};
-    parking_test::Random random(5);
-    const auto expectSound = [this](const std::string &image)
-    {
-        try
-        {
-            const OccupancyGrid grid = read(image);
-            EXPECT_EQ(grid.cells().size(), grid.width() * grid.height());
-        }
-        catch (const Error &error)
-        {
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-        }
-    };
-    for (const std::string &image : images)
-        for (std::size_t i = 0; i < image.size(); ++i)
-        {
-            SCOPED_TRACE("position " + std::to_string(i));
-            if (i > 0)
-                expectSound(image.substr(0, i));
-            for (int k = 0; k < 3; ++k)
-            {
-                std::string changed = image;
-                changed[i] = static_cast<char>(random.index(256));
-                expectSound(changed);
-            }
-            std::string longer = image;
-            longer.insert(i, 1, static_cast<char>(random.index(256)));
-            expectSound(longer);
-        }
 }
