@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/curves/Path.h"
@@ -7,8 +8,6 @@
 
 #include <functional>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace parking
 {
@@ -18,9 +17,8 @@ namespace parking
     {
         Pose parked;  ///< where the search begins
         std::vector<Pose>
-            exits;  ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
-        Eigen::Vector2d min{0.0, 0.0},        ///< lower left corner of the box within which to look, frame of the poses
-            max{0.0, 0.0};                    ///< its upper right corner, metres
+            exits;   ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
+        Box bounds;  ///< within which to look, in the frame of the poses
         SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
         SlotSide side{SlotSide::Right};       ///< Right or Left
     };
