@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/OmplPose.h"
+#include "tests/state_validity/DistanceByDefinition.h"
 
 #include <cmath>
 #include <limits>
@@ -27,26 +28,11 @@ namespace
         return std::make_shared<ob::SpaceInformation>(space);
     }
 
-    /** From a point to the nearest obstacle, edge by edge; 0 inside of one. */
+    /** From a point to the nearest obstacle; 0 inside of one. */
     double distanceByDefinition(const ObstacleSet &obstacles, double x, double y)
     {
-        const Pose pose = obstacles.toLocal({x, y, 0.0});
-        const Eigen::Vector2d point(pose.x, pose.y);
-        bool inside = (point.array() <= obstacles.bounds().min.array()).any() ||
-                      (point.array() >= obstacles.bounds().max.array()).any();
-        for (const Polygon &polygon : obstacles.polygons())
-            inside = inside || contains(polygon, point);
-        for (const Box &rectangle : obstacles.rectangles())
-            inside = inside ||
-                     ((point.array() >= rectangle.min.array()).all() && (point.array() <= rectangle.max.array()).all());
-        double least = std::numeric_limits<double>::infinity();
-        for (const Edge &edge : obstacles.edges())
-        {
-            const Eigen::Vector2d along = edge.to - edge.from;
-            const double t = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-            least = std::min(least, (point - edge.from - t * along).norm());
-        }
-        return inside ? 0.0 : least;
+        const Pose local = obstacles.toLocal({x, y, 0.0});
+        return std::max(0.0, signedDistance(obstacles, {local.x, local.y}));
     }
 
     const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
