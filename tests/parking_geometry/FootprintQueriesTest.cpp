@@ -71,7 +71,8 @@ TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
         const Eigen::Vector2d corner = car.footprint(advance(path.start, curvature, 0.5 * length))[1];
         const PolygonWorld world(car, {parking_test::square(corner.x(), corner.y(), 0.004)});
         const double covered = world.clearance(path.start) + world.clearance(path.end());
-        const double moved = length * (1.0 + curvature * farthestCorner(car));
+        const double moved =
+            length * (1.0 + curvature * std::hypot(car.wheelbase + car.frontOverhang, 0.5 * car.width));
         if (covered == 0.0)
             continue;
         EXPECT_LT(covered, moved);
