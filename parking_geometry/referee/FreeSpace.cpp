@@ -98,7 +98,12 @@ namespace parking
 
     double FreeSpace::clearance(const Pose &pose, double enough) const
     {
-        return isFree(pose) ? distance(shapeAt(toLocal(pose)), enough) : 0.0;
+        if (!isFinite(pose))
+            return 0.0;
+        // With room round it no outline crosses the shape.
+        const OrientedBox shape = shapeAt(toLocal(pose));
+        const double room = distance(shape, enough);
+        return room > 0.0 && !isInside({shape.x, shape.y}) ? room : 0.0;
     }
 
     double FreeSpace::clearanceAlong(const Pose &from, double length, double enough) const
