@@ -365,7 +365,7 @@ namespace parking
                 {
                     const auto leave = [&](const SlotExitTask &task)
                     {
-                        return search(*body.search, {task.parked, task.exits, Box{task.min, task.max}, level.radius,
+                        return search(*body.search, {task.parked, task.exits, task.bounds, level.radius,
                                                      tuning_.gearChangeInSlot, false, parameters_.expansionsPerGap});
                     };
                     result = planInStretches(parking, *scenario_.slot, queries, leave);

@@ -13,6 +13,14 @@ namespace parking
         /** Between the poses that are asked about where no clearance is known, metres driven. */
         constexpr double SPACING = 0.1;
 
+        /** Metres from the midpoint of the rear axle to the farthest corner of the body: a turn moves no point of it
+           farther than this times the angle. */
+        double farthestCorner(const Vehicle &vehicle)
+        {
+            return std::hypot(std::max(vehicle.wheelbase + vehicle.frontOverhang, vehicle.rearOverhang),
+                              0.5 * vehicle.width);
+        }
+
         /** Covers one piece of a path by poses. */
         class PieceCheck
         {
@@ -65,12 +73,6 @@ namespace parking
             double finest_, motion_;
         };
     }  // namespace
-
-    double farthestCorner(const Vehicle &vehicle)
-    {
-        return std::hypot(std::max(vehicle.wheelbase + vehicle.frontOverhang, vehicle.rearOverhang),
-                          0.5 * vehicle.width);
-    }
 
     bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path)
     {

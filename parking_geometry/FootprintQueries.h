@@ -33,8 +33,4 @@ namespace parking
         they promise to be free overlaps, down to motions of the body of 5 mm, below which the ends decide; with isFree
         alone, by its ends and poses at most 10 cm apart. */
     bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
-
-    /** \brief Distance from the midpoint of the rear axle to the farthest corner of the body, metres: a turn by an
-        angle moves no point of the body farther than this times the angle. */
-    double farthestCorner(const Vehicle &vehicle);
 }  // namespace parking

@@ -11,67 +11,49 @@ namespace parking
 {
     namespace
     {
-        /** A growing box that refuses points too far from the start. */
-        class Extent
+        /** Throws for what lies too far from the start, or overflowed to NaN. */
+        void requireReach(const Scenario &scenario, const PlaceOfPart &placeOf)
         {
-        public:
-            Extent(const PlaceOfPart &placeOf, const Eigen::Vector2d &start) : placeOf_(placeOf), start_(start)
+            const Eigen::Vector2d start(scenario.start.x, scenario.start.y);
+            const auto require =
+                [&](const Eigen::Vector2d &point, const std::string &what, ScenarioPart part, std::size_t index)
             {
-                box_.min = box_.max = start;
-            }
-
-            void add(const Eigen::Vector2d &point, const char *what, ScenarioPart part, std::size_t index = 0)
-            {
-                const double distance = (point - start_).lpNorm<Eigen::Infinity>();
-                if (!(distance <= WORLD_REACH))  // also for what overflowed to NaN
-                {
-                    const std::string number = part == ScenarioPart::Outline ? " " + std::to_string(index + 1) : "";
-                    throw Error(placeOf_(part, index) + ": " + what + number + " lies " + formatNumber(distance) +
+                const double distance = (point - start).lpNorm<Eigen::Infinity>();
+                if (!(distance <= WORLD_REACH))
+                    throw Error(placeOf(part, index) + ": " + what + " lies " + formatNumber(distance) +
                                 " m from the start; at most " + formatNumber(WORLD_REACH) + " m are supported");
-                }
-                box_.include(point);
-            }
-
-            const Box &box() const
-            {
-                return box_;
-            }
-
-        private:
-            const PlaceOfPart &placeOf_;
-            Eigen::Vector2d start_;
-            Box box_;
-        };
-
-        Box boundsOfMap(const Scenario &scenario, const PlaceOfPart &placeOf)
-        {
-            Extent extent(placeOf, {scenario.start.x, scenario.start.y});
+            };
             for (const Pose &goal : scenario.goals)
-                extent.add({goal.x, goal.y}, "the goal", ScenarioPart::Goal);
-            const std::vector<Eigen::Vector2d> outline = scenario.grid->outline();
-            Box box{outline.front(), outline.front()};
-            for (const Eigen::Vector2d &corner : outline)
-            {
-                extent.add(corner, "a corner of the map", ScenarioPart::Map);
-                box.include(corner);
-            }
+                require({goal.x, goal.y}, "the goal", ScenarioPart::Goal, 0);
+            if (scenario.grid)
+                for (const Eigen::Vector2d &corner : scenario.grid->outline())
+                    require(corner, "a corner of the map", ScenarioPart::Map, 0);
+            for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
+                for (const Eigen::Vector2d &corner : scenario.polygons[i])
+                    require(corner, "a corner of obstacle " + std::to_string(i + 1), ScenarioPart::Outline, i);
+        }
+
+        Box boxRound(const std::vector<Eigen::Vector2d> &points)
+        {
+            Box box{points.front(), points.front()};
+            for (const Eigen::Vector2d &point : points)
+                box.include(point);
             return box;
         }
 
-        Box boundsOfPolygons(const Scenario &scenario, const PlaceOfPart &placeOf)
+        Box boundsOfPolygons(const Scenario &scenario)
         {
-            Extent extent(placeOf, {scenario.start.x, scenario.start.y});
-            for (const Pose &goal : scenario.goals)
-                extent.add({goal.x, goal.y}, "the goal", ScenarioPart::Goal);
-            for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
-                for (const Eigen::Vector2d &corner : scenario.polygons[i])
-                    extent.add(corner, "a corner of obstacle", ScenarioPart::Outline, i);
-
-            const Eigen::Vector2d margin(POLYGON_WORLD_MARGIN, POLYGON_WORLD_MARGIN);
-            Box box{extent.box().min - margin, extent.box().max + margin};
-            // A vehicle longer than the margin must still fit into the world where it starts and ends.
             std::vector<Pose> poses = scenario.goals;
             poses.push_back(scenario.start);
+            std::vector<Eigen::Vector2d> points;
+            for (const Pose &pose : poses)
+                points.emplace_back(pose.x, pose.y);
+            for (const Polygon &polygon : scenario.polygons)
+                points.insert(points.end(), polygon.begin(), polygon.end());
+            Box box = boxRound(points);
+            box.min.array() -= POLYGON_WORLD_MARGIN;
+            box.max.array() += POLYGON_WORLD_MARGIN;
+            // A vehicle longer than the margin must still fit into the world where it starts and ends.
             for (const Pose &pose : poses)
                 for (const Eigen::Vector2d &corner : scenario.vehicle.footprint(pose))
                     box.include(corner);
@@ -143,7 +125,8 @@ namespace parking
                             " crosses itself; list the corners in their order round it");
         if (scenario.grid)
             requireStartOnMap(scenario, placeOf);
-        scenario.bounds = scenario.grid ? boundsOfMap(scenario, placeOf) : boundsOfPolygons(scenario, placeOf);
+        requireReach(scenario, placeOf);
+        scenario.bounds = scenario.grid ? boxRound(scenario.grid->outline()) : boundsOfPolygons(scenario);
     }
 
     Scenario makeScenario(Scenario scenario, const std::string &source)

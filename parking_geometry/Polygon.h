@@ -10,6 +10,13 @@ namespace parking
     /** \brief A simple polygon, closed implicitly; either orientation, convex or not. Metres. */
     using Polygon = std::vector<Eigen::Vector2d>;
 
+    /** \brief A straight piece of an outline. */
+    struct Edge
+    {
+        Eigen::Vector2d from;  ///< one end, metres
+        Eigen::Vector2d to;    ///< the other end, metres
+    };
+
     /** \brief Signed area: positive when counter-clockwise. */
     double signedArea(const Polygon &polygon);
 

@@ -17,18 +17,6 @@ namespace parking
         /** \brief \param radius metres, positive; otherwise parking::Error */
         CircleChecker(ObstacleSet obstacles, double radius);
 
-        /** \brief Radius of the circle in metres. */
-        double radius() const
-        {
-            return radius_;
-        }
-
-        /** \brief What the circle must not touch. */
-        const ObstacleSet &obstacles() const
-        {
-            return obstacles_;
-        }
-
         /** \brief Is the circle round (x, y), in the coordinates of the obstacle set, free? False where x or y is not
             finite. */
         bool isFree(double x, double y) const;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "parking_geometry/OrientedBox.h"
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/OrientedBox.h"
 
 #include <functional>
 

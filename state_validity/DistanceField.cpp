@@ -166,22 +166,6 @@ namespace parking
         transform(blocked);
     }
 
-    DistanceField::DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
-                                 double resolution)
-      : columns_(columns),
-        rows_(rows),
-        resolution_(resolution)
-    {
-        Require("distance field").positive("resolution", resolution, "metres");
-        if (columns == 0 || rows == 0 || blocked.size() != columns * rows)
-            throw Error("a distance field of " + std::to_string(columns) + " x " + std::to_string(rows) +
-                        " cells cannot be made of " + std::to_string(blocked.size()) + " cells");
-        std::vector<std::uint8_t> marks(blocked.size());
-        std::transform(blocked.begin(), blocked.end(), marks.begin(),
-                       [](std::uint8_t cell) { return cell ? INSIDE : FREE; });
-        transform(marks);
-    }
-
     void DistanceField::transform(const std::vector<std::uint8_t> &blocked)
     {
         inverse_ = 1.0 / resolution_;
@@ -189,12 +173,11 @@ namespace parking
         height_ = static_cast<double>(rows_);
         // A hair more than a diagonal, for cells that an outline misses by rounding but that are marked all the same.
         error_ = std::sqrt(2.0) * resolution_ * (1.0 + 1e-5);
-        constexpr float FAR = std::numeric_limits<float>::infinity();
         values_.resize(columns_ * rows_);
 
         // Down and up each column, row by row to stay in the cache: distance in cells along the column.
         for (std::size_t column = 0; column < columns_; ++column)
-            values_[column] = blocked[column] ? 0.0f : FAR;
+            values_[column] = 0.0f;  // of the outside, which is blocked
         for (std::size_t row = 1; row < rows_; ++row)
         {
             const float *below = &values_[(row - 1) * columns_];
@@ -220,8 +203,6 @@ namespace parking
             std::size_t count = 0;
             for (std::size_t i = 0; i < columns_; ++i)
             {
-                if (line[i] == FAR)
-                    continue;
                 const double x = static_cast<double>(i);
                 const double height = static_cast<double>(line[i]) * static_cast<double>(line[i]) + x * x;
                 double start = -std::numeric_limits<double>::infinity();
@@ -238,11 +219,6 @@ namespace parking
                 heights[count] = height;
                 starts[count] = start;
                 ++count;
-            }
-            if (count == 0)
-            {
-                std::fill(line, line + columns_, FAR);
-                continue;
             }
             starts[count] = std::numeric_limits<double>::infinity();
             std::size_t k = 0;

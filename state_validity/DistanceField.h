@@ -43,26 +43,10 @@ namespace parking
             cells. */
         explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
 
-        /** \brief The field of the non-zero entries of \e blocked, row by row: the transform itself. */
-        DistanceField(const std::vector<std::uint8_t> &blocked, std::size_t columns, std::size_t rows,
-                      double resolution);
-
         /** \brief Side of a cell in metres. */
         double resolution() const
         {
             return resolution_;
-        }
-
-        /** \brief Number of cells along the local x. */
-        std::size_t columns() const
-        {
-            return columns_;
-        }
-
-        /** \brief Number of cells along the local y. */
-        std::size_t rows() const
-        {
-            return rows_;
         }
 
         /** \brief How far lowerBound() and upperBound() are from the value of the cell, in metres. */
@@ -79,7 +63,7 @@ namespace parking
         }
 
         /** \brief Never less than the distance from the local point to the nearest obstacle; 0 when it is surely inside
-            of one. Infinite where there is no obstacle at all. */
+            of one. */
         double upperBound(double x, double y) const
         {
             return upperBoundOf(valueAt(x, y));
@@ -122,12 +106,6 @@ namespace parking
         bool isOutside(double x, double y) const
         {
             return valueAt(x, y) > 0.0;
-        }
-
-        /** \brief The stored distance of the cell, negative for a cell that lies inside of an obstacle. */
-        float at(std::size_t column, std::size_t row) const
-        {
-            return values_[row * columns_ + column];
         }
 
     private:

@@ -358,12 +358,6 @@ namespace parking
         return smallest > band ? 1 : 0;
     }
 
-    double EdgeIndex::firstContact(const OrientedBox &box, const BoxSweep &sweep) const
-    {
-        const double half = 0.5 * std::abs(sweep.curvature) * sweep.length;
-        return firstContact(box, sweep, std::cos(half), std::sin(half));
-    }
-
     double EdgeIndex::firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
                                    double middleSine) const
     {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "parking_geometry/OrientedBox.h"
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/OrientedBox.h"
 #include "state_validity/sweeps/SweepFront.h"
 #include "state_validity/sweeps/SweptBox.h"
 
@@ -44,13 +44,7 @@ namespace parking
 
             \param ignored separations of at least this need not be told apart: when all are, the result is some number
             that is at least this */
-        double separation(const OrientedBox &box, double ignored) const;
-
-        /** \brief The same, told apart however large. */
-        double separation(const OrientedBox &box) const
-        {
-            return separation(box, std::numeric_limits<double>::infinity());
-        }
+        double separation(const OrientedBox &box, double ignored = std::numeric_limits<double>::infinity()) const;
 
         /** \brief Is separation() at least \e least? */
         bool isSeparate(const OrientedBox &box, double least) const;
@@ -72,11 +66,9 @@ namespace parking
         /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.
 
             \param sweep the motion; its half lengths take the place of those of \e box
+            \param middleCosine, middleSine of half the angle turned through, not negative
             Edges farther than reach() from the centre of \e box may be missed: the sweep must not get there. The box
             must not touch an edge at the beginning. */
-        double firstContact(const OrientedBox &box, const BoxSweep &sweep) const;
-
-        /** \brief The same for a caller who has the cosine and sine of half the angle turned through at hand. */
         double firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
                             double middleSine) const;
 

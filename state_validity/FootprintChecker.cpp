@@ -227,15 +227,10 @@ namespace parking
 
     bool FootprintChecker::keeps(const Pose &pose, double clearance, CheckCounts &counts) const
     {
-        if (isFinite(pose))
-            return keeps(boxAt(obstacles_.toLocal(pose)), clearance, counts);
         ++counts.states;
-        return false;
-    }
-
-    bool FootprintChecker::keeps(const OrientedBox &box, double clearance, CheckCounts &counts) const
-    {
-        ++counts.states;
+        if (!isFinite(pose))
+            return false;
+        const OrientedBox box = boxAt(obstacles_.toLocal(pose));
         if (field_.lowerBound(box.x, box.y) - circumradius_ >= clearance)
         {
             ++counts.byField;

@@ -156,7 +156,6 @@ namespace parking
     private:
         OrientedBox boxAt(const Pose &local) const;
         void drive(OrientedBox &box, double chord, double cosine, double sine) const;
-        bool keeps(const OrientedBox &box, double clearance, CheckCounts &counts) const;
         double roomRound(const OrientedBox &box, double least, double enough) const;
         bool isInsideObstacle(const OrientedBox &box) const;
         bool touches(const OrientedBox &box) const;

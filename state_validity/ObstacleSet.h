@@ -13,13 +13,6 @@
 
 namespace parking
 {
-    /** \brief A straight piece of an obstacle's outline, in local coordinates. */
-    struct Edge
-    {
-        Eigen::Vector2d from;  ///< one end, metres
-        Eigen::Vector2d to;    ///< the other end, metres
-    };
-
     /** \brief The obstacles of a world, in the form that every collision test of this library starts from.
 
         Everything is kept in a local frame near the obstacles: at 4e9 m a double resolves a micrometre only, so no

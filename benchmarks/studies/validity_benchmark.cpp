@@ -410,7 +410,7 @@ namespace
     {
         const ObstacleSet obstacles = ObstacleSet::fromGrid(randomMap(static_cast<std::size_t>(state.range(0))));
         for (auto _ : state)
-            benchmark::DoNotOptimize(DistanceField(obstacles).at(0, 0));
+            benchmark::DoNotOptimize(DistanceField(obstacles).lowerBound(0.0, 0.0));
     }
 
     /** Everything between a map and the first check: obstacles, field and index of edges. */

@@ -42,15 +42,12 @@ namespace parking
         // A car that leaves in reverse drives along the aisle tail first: a bay's neighbour to the lane's direction, a
         // parallel slot towards its rear.
         const double yaw = backwards && !parallel ? PI : 0.0, along = backwards && parallel ? -1.0 : 1.0;
-        task.min.setConstant(std::numeric_limits<double>::infinity());
-        task.max = -task.min;
+        const Eigen::Vector2d parked(task.parked.x, task.parked.y);
+        task.bounds = {parked, parked};
         const auto include = [&](const Pose &pose)
         {
             for (const Eigen::Vector2d &corner : vehicle.footprint(pose))
-            {
-                task.min = task.min.cwiseMin(corner);
-                task.max = task.max.cwiseMax(corner);
-            }
+                task.bounds.include(corner);
         };
         include(task.parked);
         for (const double distance : ALONG_AISLE)
@@ -62,8 +59,8 @@ namespace parking
             include(task.exits.back());
         }
         // Room to swing and to shunt, as long as the car, on every side.
-        task.min.array() -= vehicle.length();
-        task.max.array() += vehicle.length();
+        task.bounds.min.array() -= vehicle.length();
+        task.bounds.max.array() += vehicle.length();
         return task;
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/FootprintQueries.h"
 #include "parking_geometry/ParkingSlot.h"
 #include "parking_geometry/curves/Path.h"
@@ -7,8 +8,6 @@
 
 #include <functional>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace parking
 {
@@ -18,9 +17,8 @@ namespace parking
     {
         Pose parked;  ///< where the search begins
         std::vector<Pose>
-            exits;  ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
-        Eigen::Vector2d min{0.0, 0.0},        ///< lower left corner of the box within which to look, frame of the poses
-            max{0.0, 0.0};                    ///< its upper right corner, metres
+            exits;   ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
+        Box bounds;  ///< within which to look, in the frame of the poses
         SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
         SlotSide side{SlotSide::Right};       ///< Right or Left
     };
@@ -39,7 +37,7 @@ namespace parking
 
         The planner's path is checked: it must begin at the parked pose and end at an exit (1e-6 m, 1e-6 rad) and pass
         the world's callables. Reversed it is the manoeuvre; its path counts its stretches, and
-        guard line and radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
+        the radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
         shortest. When none works, the verdict is that of the single sweep.
 
         Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */

@@ -78,7 +78,7 @@ namespace parking
         /** One variant of the manoeuvre. */
         struct Variant
         {
-            double firstRadius, secondRadius;
+            double firstRadius;
             std::vector<Arc> out;
         };
 
@@ -98,7 +98,7 @@ namespace parking
 
         Variant bayVariant(const Exit &exit, const Bay &bay, double radius, double straight)
         {
-            return {radius, 0.0, {exit.piece(0.0, straight), exit.piece(-1.0 / radius, radius * bay.angle)}};
+            return {radius, {exit.piece(0.0, straight), exit.piece(-1.0 / radius, radius * bay.angle)}};
         }
 
         std::vector<Variant> planBay(Exit &exit, bool allVariants)
@@ -152,7 +152,6 @@ namespace parking
         Variant laneVariant(const Exit &exit, const LaneExit &lane)
         {
             return {lane.first,
-                    lane.second,
                     {exit.piece(1.0 / lane.first, lane.first * lane.turn),
                      exit.piece(-1.0 / lane.second, lane.second * lane.turn)}};
         }
@@ -309,31 +308,21 @@ namespace parking
         const bool checked = !isEmpty(world);
         const std::vector<Variant> variants =
             slot.kind == SlotKind::Parallel ? planParallel(exit, checked) : planBay(exit, checked);
-        const auto accept = [&](const Variant &variant, double guard, Path path)
-        {
-            result.status = ReverseParkingStatus::Fits;
-            result.message.clear();
-            result.missing = 0.0;
-            result.path = std::move(path);
-            result.guardLength = guard;
-            result.firstRadius = variant.firstRadius;
-            result.secondRadius = variant.secondRadius;
-        };
-        if (!checked)
-        {
-            if (result.fits())
-                accept(variants.front(), options_.guardLength, exit.wayIn(variants.front().out, options_.guardLength));
+        if (!checked && !result.fits())
             return result;
-        }
         for (const Variant &variant : variants)
         {
             if (!isPathFree(world, vehicle_, exit.wayIn(variant.out, 0.0)))
                 continue;
             double guard = options_.guardLength;
-            Path path = exit.wayIn(variant.out, guard);
-            for (; guard > 0.0 && !isPathFree(world, vehicle_, path); path = exit.wayIn(variant.out, guard))
+            result.path = exit.wayIn(variant.out, guard);
+            for (; guard > 0.0 && !isPathFree(world, vehicle_, result.path);
+                 result.path = exit.wayIn(variant.out, guard))
                 guard = guard > 0.25 ? 0.5 * guard : 0.0;
-            accept(variant, guard, std::move(path));
+            result.status = ReverseParkingStatus::Fits;
+            result.message.clear();
+            result.missing = 0.0;
+            result.firstRadius = variant.firstRadius;
             return result;
         }
         if (result.fits())

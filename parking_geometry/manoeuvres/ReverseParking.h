@@ -53,12 +53,11 @@ namespace parking
         SlotSide side{SlotSide::Right};       ///< Right or Left
         Pose goal;                            ///< the parked car
 
-        /** From P, the start of the guard line and the planner's goal, to goal; no pieces unless it fits. */
+        /** From P, the start of the guard line and the planner's goal, to goal; no pieces unless it fits. Where the
+            world ends the guard line is shorter than required. */
         Path path;
-        double guardLength{0.0};  ///< metres of guard line left in path; shorter than asked where the world ends
 
-        double firstRadius{0.0};   ///< metres, of the arc that meets the slot; chosen from [minRadius, maxRadius]
-        double secondRadius{0.0};  ///< metres, of the arc that meets the guard line (parallel slots)
+        double firstRadius{0.0};  ///< metres, of the arc that meets the slot; chosen from [minRadius, maxRadius]
         double minRadius{0.0};  ///< smallest radius: of the steering or, where larger, of the tail's swing to the kerb
         double maxRadius{std::numeric_limits<double>::infinity()};  ///< the paper's R_max (parallel slots)
 

@@ -5,19 +5,16 @@
 #include "parking_geometry/referee/Outlines.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
+#include <optional>
 
 #include <Eigen/Core>
 
 namespace parking
 {
     /** \brief Where the referee lets a shape stand, with code that has nothing in common with the checkers that
-       planners use: the shape is laid over the obstacles.
+       planners use: no outline of an obstacle crosses the shape, and its middle is outside of all obstacles.
 
-        Polygons: every edge is clipped against the body, and the body's middle must be outside. Cells: the body is laid
-        over each occupied cell (separating axes). A touch of up to a micrometre counts as free, since paths may end
-        where numbers round. */
+        A touch of up to a micrometre counts as free, since paths may end where numbers round. */
     class FreeSpace
     {
     public:
@@ -44,26 +41,19 @@ namespace parking
 
     private:
         Pose toLocal(const Pose &pose) const;
-        Rectangle shapeAt(const Pose &local) const;
-        double distance(const Rectangle &shape, double enough) const;
-        bool isBodyFree(const Pose &local) const;
-        bool isDiscFree(const Eigen::Vector2d &centre) const;
-        bool cellsFree(const Box &box, const Pose &local) const;
-        std::size_t occupiedIn(std::size_t row, std::size_t first, std::size_t last) const;
+        OrientedBox shapeAt(const Pose &local) const;
+        double distance(const OrientedBox &shape, double enough) const;
+        bool isInside(const Eigen::Vector2d &point) const;
+        bool isOccupied(std::size_t column, std::size_t row) const;
         void addOutlinesOfCells();
 
-        Vehicle vehicle_;
         double radius_;
-        double farthest_;
+        double centreOffset_{0.0}, halfLength_{0.0}, halfWidth_{0.0};  ///< of the body; a disc is its middle
+        double farthest_{0.0};
 
         Box bounds_;  ///< in the frame of the obstacles
         Outlines outlines_;
-
-        // A world of cells: occupied_[row * (columns + 1) + i] counts those in the first i columns of a row.
-        bool isGrid_{false};
-        Pose origin_;
-        double cellSize_{1.0};
-        std::size_t columns_{0}, rows_{0};
-        std::vector<std::uint32_t> occupied_;
+        std::optional<OccupancyGrid> grid_;
+        bool unknownIsOccupied_;
     };
 }  // namespace parking

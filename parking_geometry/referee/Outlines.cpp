@@ -9,8 +9,7 @@ namespace parking
     {
         constexpr double SIDE = 2.0;          // metres, of buckets in worlds of usual size
         constexpr double BUCKETS = 262144.0;  // no more than about these
-        constexpr std::size_t SMALL = 64;     // buckets: a polygon is listed in each as long as these are no more
-        constexpr double FIRST_LOOK = 0.25;   // metres round a rectangle, where mostly the nearest edge is
+        constexpr double FIRST_LOOK = 0.25;   // metres round a box, where mostly the nearest edge is
 
         std::size_t clampIndex(double value, std::size_t count)
         {
@@ -25,53 +24,40 @@ namespace parking
             return (point - from - share * along).norm();
         }
 
-        /** Metres between the rectangle and a segment in its frame, or any number from \e enough up where it is more.
-         */
-        double distanceInFrame(const Rectangle &shape, const Eigen::Vector2d &from, const Eigen::Vector2d &to,
+        /** Metres between the box and a segment in its frame, or any number from \e enough up where it is more. */
+        double distanceInFrame(const Eigen::Vector2d &half, const Eigen::Vector2d &from, const Eigen::Vector2d &to,
                                double enough)
         {
-            const Eigen::Vector2d low = from.cwiseMin(to), high = from.cwiseMax(to);
-            const double ahead = std::max(low.x() - shape.front, shape.rear - high.x());
-            const double aside = std::max(low.y(), -high.y()) - shape.half;
-            if (ahead >= enough || aside >= enough)
+            if ((from.cwiseMin(to).cwiseMax(-from.cwiseMax(to)) - half).maxCoeff() >= enough)
                 return enough;
             // Where the segment runs between the lines through opposite sides.
             const Eigen::Vector2d along = to - from;
             double enter = 0.0, leave = 1.0;
             for (int axis = 0; axis < 2; ++axis)
             {
-                const double least = axis == 0 ? shape.rear : -shape.half;
-                const double most = axis == 0 ? shape.front : shape.half;
                 if (along[axis] == 0.0)
                 {
-                    if (from[axis] < least || from[axis] > most)
+                    if (std::abs(from[axis]) > half[axis])
                         leave = -1.0;
                     continue;
                 }
-                const double first = (least - from[axis]) / along[axis], second = (most - from[axis]) / along[axis];
+                const double first = (-half[axis] - from[axis]) / along[axis];
+                const double second = (half[axis] - from[axis]) / along[axis];
                 enter = std::max(enter, std::min(first, second));
                 leave = std::min(leave, std::max(first, second));
             }
             if (enter <= leave)
                 return 0.0;
-            // Apart, so that an end of the segment or a corner of the rectangle is one of the two nearest points.
+            // Apart, so that an end of the segment or a corner of the box is one of the two nearest points.
             double nearest = enough;
             for (const Eigen::Vector2d &end : {from, to})
-                nearest = std::min(nearest, std::hypot(std::max({shape.rear - end.x(), 0.0, end.x() - shape.front}),
-                                                       std::max(0.0, std::abs(end.y()) - shape.half)));
-            for (const double x : {shape.rear, shape.front})
-                for (const double y : {-shape.half, shape.half})
+                nearest = std::min(nearest, (end.cwiseAbs() - half).cwiseMax(0.0).norm());
+            for (const double x : {-half.x(), half.x()})
+                for (const double y : {-half.y(), half.y()})
                     nearest = std::min(nearest, distanceToSegment({x, y}, from, to));
             return nearest;
         }
     }  // namespace
-
-    Box Rectangle::box() const
-    {
-        const Eigen::Vector2d reach(0.5 * (front - rear) * std::abs(cosine) + half * std::abs(sine),
-                                    0.5 * (front - rear) * std::abs(sine) + half * std::abs(cosine));
-        return {middle() - reach, middle() + reach};
-    }
 
     Outlines::Outlines(const Box &bounds) : bounds_(bounds)
     {
@@ -80,7 +66,7 @@ namespace parking
         columns_ = static_cast<std::size_t>(std::max(std::ceil(size.x() / side_), 1.0));
         rows_ = static_cast<std::size_t>(std::max(std::ceil(size.y() / side_), 1.0));
         buckets_.resize(columns_ * rows_);
-        large_.resize(rows_);
+        rowEdges_.resize(rows_);
     }
 
     std::size_t Outlines::columnOf(double x) const
@@ -95,27 +81,15 @@ namespace parking
 
     void Outlines::add(const Polygon &polygon)
     {
-        Box box{polygon.front(), polygon.front()};
-        for (const Eigen::Vector2d &corner : polygon)
-            box.include(corner);
-        const std::size_t firstColumn = columnOf(box.min.x()), lastColumn = columnOf(box.max.x());
-        const std::size_t firstRow = rowOf(box.min.y()), lastRow = rowOf(box.max.y());
-        const bool isSmall = (lastColumn - firstColumn + 1) * (lastRow - firstRow + 1) <= SMALL;
-        for (std::size_t row = firstRow; isSmall && row <= lastRow; ++row)
-            for (std::size_t column = firstColumn; column <= lastColumn; ++column)
-                buckets_[row * columns_ + column].polygons.push_back(small_.size());
         for (std::size_t i = 0; i < polygon.size(); ++i)
         {
             const Edge edge{polygon[i], polygon[(i + 1) % polygon.size()]};
             add(edge);
-            for (std::size_t row = rowOf(std::min(edge.from.y(), edge.to.y()));
-                 !isSmall && row <= rowOf(std::max(edge.from.y(), edge.to.y())); ++row)
-                large_[row].push_back({edge, largeCount_});
+            const std::size_t last = rowOf(std::max(edge.from.y(), edge.to.y()));
+            for (std::size_t row = rowOf(std::min(edge.from.y(), edge.to.y())); row <= last; ++row)
+                rowEdges_[row].push_back({edge, polygons_});
         }
-        if (isSmall)
-            small_.push_back({polygon, box});
-        else
-            ++largeCount_;
+        ++polygons_;
     }
 
     void Outlines::add(const Edge &edge)
@@ -139,25 +113,30 @@ namespace parking
                 right = std::min(right, std::max(atBottom, atTop) + 0.01 * side_);
             }
             for (std::size_t column = columnOf(left); column <= columnOf(right); ++column)
-                buckets_[row * columns_ + column].edges.push_back(edges_.size() - 1);
+                buckets_[row * columns_ + column].push_back(edges_.size() - 1);
         }
     }
 
-    double Outlines::distance(const Rectangle &rectangle, double enough) const
+    double Outlines::distance(const OrientedBox &box, double enough) const
     {
-        const Box box = rectangle.box();
+        const Box round = box.bounds();
+        const Eigen::Vector2d half(box.halfLength, box.halfWidth);
         double nearest = enough;
         for (double reach = FIRST_LOOK;; reach *= 4.0)
         {
             const Eigen::Vector2d around = Eigen::Vector2d::Constant(std::min(reach, nearest));
-            const Box seen{box.min - around, box.max + around};
-            visit(seen,
-                  [&](const Edge &edge)
-                  {
-                      nearest = std::min(nearest, distanceInFrame(rectangle, rectangle.toFrame(edge.from),
-                                                                  rectangle.toFrame(edge.to), nearest));
-                      return nearest > 0.0;
-                  });
+            const Box seen{round.min - around, round.max + around};
+            const std::size_t lastRow = rowOf(seen.max.y()), lastColumn = columnOf(seen.max.x());
+            for (std::size_t row = rowOf(seen.min.y()); row <= lastRow; ++row)
+                for (std::size_t column = columnOf(seen.min.x()); column <= lastColumn; ++column)
+                    for (const std::size_t index : buckets_[row * columns_ + column])
+                    {
+                        const Edge &edge = edges_[index];
+                        nearest = std::min(
+                            nearest, distanceInFrame(half, box.toFrame(edge.from), box.toFrame(edge.to), nearest));
+                        if (nearest <= 0.0)
+                            return 0.0;
+                    }
             const bool all =
                 (seen.min.array() <= bounds_.min.array()).all() && (seen.max.array() >= bounds_.max.array()).all();
             if (nearest <= reach || all)
@@ -165,20 +144,12 @@ namespace parking
         }
     }
 
+    /** As contains(), for all polygons at once. */
     bool Outlines::isInside(const Eigen::Vector2d &point) const
     {
-        for (const std::size_t index : buckets_[rowOf(point.y()) * columns_ + columnOf(point.x())].polygons)
-            if (small_[index].box.contains(point.x(), point.y()) && contains(small_[index].polygon, point))
-                return true;
-        return isInsideLarge(point);
-    }
-
-    /** As contains(), for all large polygons at once. */
-    bool Outlines::isInsideLarge(const Eigen::Vector2d &point) const
-    {
         bool inside = false;
-        std::size_t polygon = largeCount_;
-        for (const RowEdge &entry : large_[rowOf(point.y())])
+        std::size_t polygon = polygons_;
+        for (const RowEdge &entry : rowEdges_[rowOf(point.y())])
         {
             if (entry.polygon != polygon)
             {

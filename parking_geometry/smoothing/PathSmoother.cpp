@@ -416,8 +416,6 @@ namespace parking
         struct SmoothPart
         {
             Path path;
-            double speed{0.0};
-            bool changed{false};
             bool free{true};
             bool movingEnd{false};
         };
@@ -443,7 +441,7 @@ namespace parking
             /** One arc as it is. */
             SmoothPart keep(const StretchPart &part) const
             {
-                return {part.arcs, planned_, false, isPathFree(world_, vehicle_, part.arcs), part.movingEnd};
+                return {part.arcs, isPathFree(world_, vehicle_, part.arcs), part.movingEnd};
             }
 
             /** \e whole in as few parts, divided by stops, as can be found. */
@@ -524,10 +522,10 @@ namespace parking
                     if (!isFree(result))
                         continue;
                     // A soft one steers fast only where it must: the speed it really allows says which one to try.
-                    result.speed = std::min(planned_, steeringSpeed(result.path));
+                    const double allowed = std::min(planned_, steeringSpeed(result.path));
                     SmoothPart faster;
-                    for (double speed = 0.5 * planned_; speed > result.speed; speed *= 0.5)
-                        if ((approach.near || speed < 1.5 * result.speed) && smoothAt(speed, approach, part, faster) &&
+                    for (double speed = 0.5 * planned_; speed > allowed; speed *= 0.5)
+                        if ((approach.near || speed < 1.5 * allowed) && smoothAt(speed, approach, part, faster) &&
                             isFree(faster))
                         {
                             result = std::move(faster);
@@ -552,8 +550,7 @@ namespace parking
                                                      maxSharpness(vehicle_, approach.near ? speed : planned_),
                                                      approach.near ? NEAR : options_.tolerance};
                 result.path.start = part.arcs.start;
-                result.speed = speed;
-                result.changed = result.free = true;
+                result.free = true;
                 result.movingEnd = part.movingEnd;
                 const double length = part.arcs.length();
                 return smoother_.smooth(part, limits, approach.confined ? world_.clearance : nullptr,
@@ -574,26 +571,21 @@ namespace parking
         };
 
         /** Appends what became of a stretch. */
-        void append(SmoothPath &result, const std::vector<SmoothPart> &parts, StretchReport &report)
+        void append(SmoothPath &result, const std::vector<SmoothPart> &parts)
         {
+            const std::size_t first = result.path.pieces.size();
             bool standing = true;
             for (const SmoothPart &part : parts)
             {
-                if (standing && report.pieces.first < result.path.pieces.size())
-                {
+                if (standing && first < result.path.pieces.size())
                     result.stops.push_back(result.path.pieces.size());
-                    ++report.stops;
-                }
                 // After a stop a piece begins in any case; halves of an arc that was cut are one again.
                 if (standing)
                     result.path.pieces.push_back(part.path.pieces.front());
                 result.path.extend(part.path.part(standing ? 1 : 0, part.path.pieces.size()));
-                report.speed = std::min(report.speed, part.speed);
-                report.changed = report.changed || part.changed;
                 result.free = result.free && part.free;
                 standing = !part.movingEnd;
             }
-            report.pieces.last = result.path.pieces.size();
         }
 
         /** The arcs of a stretch, equal neighbours merged. */
@@ -605,12 +597,6 @@ namespace parking
             return result;
         }
     }  // namespace
-
-    std::size_t SmoothPath::continuousStretches() const
-    {
-        return static_cast<std::size_t>(std::count_if(stretches.begin(), stretches.end(),
-                                                      [](const StretchReport &each) { return each.isContinuous(); }));
-    }
 
     PathSmoother::PathSmoother(const Vehicle &vehicle, const SmoothingOptions &options)
       : vehicle_(vehicle),
@@ -632,22 +618,17 @@ namespace parking
                             "; only arcs and lines can be smoothed");
         SmoothPath result;
         result.path.start = path.start;
-        result.lengthBefore = path.length();
         PartSmoother smoother(vehicle_, options_, world);
         const double maxCurvature = 1.0 / vehicle_.minTurningRadius();
         const double transition = 2.0 * maxCurvature / maxSharpness(vehicle_, smoother.plannedSpeed());
         for (const Stretch &stretch : path.stretches())
         {
-            StretchReport report;
-            report.pieces = {result.path.pieces.size(), 0, stretch.direction};
-            report.speed = smoother.plannedSpeed();
             std::vector<SmoothPart> parts;
             for (const StretchPart &part :
                  arcsOf(path, stretch).cutAtLongArcs(LONG_ARC_IN_TRANSITIONS * transition, BEND_OF_CUT * maxCurvature))
                 for (SmoothPart &each : smoother.smooth(part))
                     parts.push_back(std::move(each));
-            append(result, parts, report);
-            result.stretches.push_back(report);
+            append(result, parts);
         }
         return result;
     }

@@ -24,32 +24,12 @@ namespace parking
         double tolerance{0.05};
     };
 
-    /** \brief What became of a stretch. */
-    struct StretchReport
-    {
-        Stretch pieces;        ///< of SmoothPath::path
-        double speed{0.0};     ///< m/s, the lowest planned speed that any of its transitions assumes
-        std::size_t stops{0};  ///< joints that kept their jump of curvature: the car stops there to steer
-        bool changed{false};   ///< false: it is what it was, for instance because it is one arc
-
-        /** \brief Can it be driven without stopping to steer? */
-        bool isContinuous() const
-        {
-            return stops == 0;
-        }
-    };
-
     /** \brief A path whose curvature is continuous wherever the car moves, and what smoothing did to get there. */
     struct SmoothPath
     {
-        Path path;                             ///< of arcs, lines and clothoids
-        std::vector<StretchReport> stretches;  ///< in order
-        std::vector<std::size_t> stops;        ///< pieces before which the car stops to steer, ends of stretches apart
-        double lengthBefore{0.0};              ///< metres, of the arcs
-        bool free{true};                       ///< whether the world's callables agree, kept arcs included
-
-        /** \brief Stretches of continuous curvature. */
-        std::size_t continuousStretches() const;
+        Path path;                       ///< of arcs, lines and clothoids
+        std::vector<std::size_t> stops;  ///< pieces before which the car stops to steer, ends of stretches apart
+        bool free{true};                 ///< whether the world's callables agree, kept arcs included
     };
 
     /** \brief Turns a path of arcs and lines, the planner's or a manoeuvre's, into one that a car can drive without

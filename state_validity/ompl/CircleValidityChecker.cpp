@@ -26,14 +26,6 @@ namespace parking
         }
     }  // namespace
 
-    double CircleValidityChecker::radiusAround(const Vehicle &vehicle, double doorMargin)
-    {
-        if (!(doorMargin >= 0.0) || !std::isfinite(doorMargin))
-            throw ompl::Exception("door margin must be a number of metres of at least 0, not " +
-                                  std::to_string(doorMargin));
-        return 0.5 * std::hypot(vehicle.length(), vehicle.width) + doorMargin;
-    }
-
     CircleValidityChecker::CircleValidityChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles,
                                                  double radius)
       : ompl::base::StateValidityChecker(si),
@@ -46,7 +38,7 @@ namespace parking
     bool CircleValidityChecker::isValid(const ompl::base::State *state) const
     {
         const Pose pose = poseOf(state);
-        return si_->satisfiesBounds(state) && isFree(pose.x, pose.y);
+        return si_->satisfiesBounds(state) && circle_.isFree(pose.x, pose.y);
     }
 
     double CircleValidityChecker::clearance(const ompl::base::State *state) const

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "parking_geometry/Vehicle.h"
 #include "state_validity/CircleChecker.h"
 #include "state_validity/ObstacleSet.h"
 
@@ -26,11 +25,6 @@ namespace parking
     class CircleValidityChecker : public ompl::base::StateValidityChecker
     {
     public:
-        /** \brief Radius of the circle round the body, with room on all sides to open the doors.
-
-            \param doorMargin metres, not negative; otherwise ompl::Exception */
-        static double radiusAround(const Vehicle &vehicle, double doorMargin = 0.0);
-
         /** \brief \param radius metres, positive
 
             Throws ompl::Exception naming the value that is wrong, and for spaces that hold no positions in the plane
@@ -46,25 +40,6 @@ namespace parking
         /** \brief The distance between the circle and the nearest obstacle; 0 when they touch. Exact up to a metre, a
             lower bound beyond. */
         double clearance(const ompl::base::State *state) const override;
-
-        /** \brief Radius of the circle in metres. */
-        double radius() const
-        {
-            return circle_.radius();
-        }
-
-        /** \brief What the circle must not touch. */
-        const ObstacleSet &obstacles() const
-        {
-            return circle_.obstacles();
-        }
-
-        /** \brief Is the circle round (x, y), in the coordinates of the obstacle set, free? False where x or y is not
-            finite. */
-        bool isFree(double x, double y) const
-        {
-            return circle_.isFree(x, y);
-        }
 
         /** \brief The checker behind this one. */
         const CircleChecker &circle() const

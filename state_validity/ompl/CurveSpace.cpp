@@ -23,14 +23,10 @@ namespace parking
         /** Longer than any curve in a world of doubles: what OMPL uses for "none". */
         constexpr double NO_CURVE = 1e100;
 
-        auto shortestReedsShepp(const ob::ReedsSheppStateSpace &space, const ob::State *from, const ob::State *to)
+        template <class Space>
+        auto shortest(const Space &space, const ob::State *from, const ob::State *to)
         {
-            return ompl_compatibility::reedsSheppPath(space, from, to, 0);
-        }
-
-        auto shortestDubins(const ob::DubinsStateSpace &space, const ob::State *from, const ob::State *to)
-        {
-            return ompl_compatibility::dubinsPath(space, from, to, 0);
+            return ompl_compatibility::shortestCurve(space, from, to, 0);
         }
 
         /** Adds a piece whose length is given for radius 1; \e side is 1 to the left, -1 to the right, 0 straight. */
@@ -72,19 +68,19 @@ namespace parking
         {
             kind_ = SpaceKind::ReedsShepp;
             turningRadius_ = recoverRadius(*reedsShepp, [reedsShepp](const ob::State *from, const ob::State *to)
-                                           { return shortestReedsShepp(*reedsShepp, from, to).length(); });
+                                           { return shortest(*reedsShepp, from, to).length(); });
         }
         else if (const auto *dubins = dynamic_cast<const ob::DubinsStateSpace *>(&space))
         {
             kind_ = SpaceKind::Dubins;
             symmetric_ = dubins->hasSymmetricInterpolate();
-            turningRadius_ = recoverRadius(
-                *dubins,
-                [dubins, this](const ob::State *from, const ob::State *to)
-                {
-                    const double there = shortestDubins(*dubins, from, to).length();
-                    return symmetric_ ? std::min(there, shortestDubins(*dubins, to, from).length()) : there;
-                });
+            turningRadius_ =
+                recoverRadius(*dubins,
+                              [dubins, this](const ob::State *from, const ob::State *to)
+                              {
+                                  const double there = shortest(*dubins, from, to).length();
+                                  return symmetric_ ? std::min(there, shortest(*dubins, to, from).length()) : there;
+                              });
         }
         else
             requirePlanarSpace(space);
@@ -106,7 +102,7 @@ namespace parking
         if (kind_ == SpaceKind::ReedsShepp)
         {
             using Space = ob::ReedsSheppStateSpace;
-            const auto path = shortestReedsShepp(*static_cast<const Space *>(space_), from, to);
+            const auto path = shortest(*static_cast<const Space *>(space_), from, to);
             if (!(path.length() < NO_CURVE))
                 return;
             for (std::size_t i = 0; i < 5; ++i)
@@ -126,11 +122,11 @@ namespace parking
         {
             using Space = ob::DubinsStateSpace;
             const Space &space = *static_cast<const Space *>(space_);
-            auto path = shortestDubins(space, from, to);
+            auto path = shortest(space, from, to);
             bool reverse = false;
             if (symmetric_)
             {
-                const auto back = shortestDubins(space, to, from);
+                const auto back = shortest(space, to, from);
                 if (back.length() < path.length())
                 {
                     path = back;

@@ -41,12 +41,6 @@ namespace parking
             return turningRadius_;
         }
 
-        /** \brief Is the space a Dubins space that takes the shorter curve of the two directions? */
-        bool isSymmetricDubins() const
-        {
-            return symmetric_;
-        }
-
         /** \brief The arcs that the space's interpolate() follows from one state to another, in its order.
 
             Dubins spaces made symmetric drive the curve from \e to back in reverse where that one is shorter; the
@@ -63,6 +57,6 @@ namespace parking
         const ompl::base::StateSpace *space_;
         SpaceKind kind_{SpaceKind::SE2};
         double turningRadius_{0.0};
-        bool symmetric_{false};
+        bool symmetric_{false};  ///< a Dubins space that takes the shorter curve of the two directions
     };
 }  // namespace parking

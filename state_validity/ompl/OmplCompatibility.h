@@ -18,33 +18,25 @@ namespace parking
     namespace ompl_compatibility
     {
         /** \brief The shortest curve of a Reeds-Shepp space: reedsShepp(from, to), as up to OMPL 1.6. Call it with 0 as
-            the last argument, here and below, to get the overload that the release has. */
+            the last argument, here and below, to get the overload that the space and the release have. */
         template <class Space, class State>
-        auto reedsSheppPath(const Space &space, const State *from, const State *to, int /*preferred*/)
+        auto shortestCurve(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.reedsShepp(from, to))
         {
             return space.reedsShepp(from, to);
         }
 
-        /** \brief The same as getPath(from, to), from OMPL 1.7 on. */
-        template <class Space, class State>
-        auto reedsSheppPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
-            -> decltype(space.getPath(from, to))
-        {
-            return space.getPath(from, to);
-        }
-
         /** \brief The shortest curve of a Dubins space: dubins(from, to), as up to OMPL 1.6. */
         template <class Space, class State>
-        auto dubinsPath(const Space &space, const State *from, const State *to, int /*preferred*/)
+        auto shortestCurve(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.dubins(from, to))
         {
             return space.dubins(from, to);
         }
 
-        /** \brief The same as getPath(from, to), from OMPL 1.7 on. */
+        /** \brief That of either as getPath(from, to), from OMPL 1.7 on. */
         template <class Space, class State>
-        auto dubinsPath(const Space &space, const State *from, const State *to, long /*otherwise*/)
+        auto shortestCurve(const Space &space, const State *from, const State *to, long /*otherwise*/)
             -> decltype(space.getPath(from, to))
         {
             return space.getPath(from, to);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "state_validity/OrientedBox.h"
+#include "parking_geometry/OrientedBox.h"
 #include "state_validity/sweeps/SweptBox.h"
 
 #include <cmath>

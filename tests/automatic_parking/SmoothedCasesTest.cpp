@@ -46,7 +46,7 @@ namespace
         const std::size_t stretches = plan.arcs.cusps() + 1;
         count.stretches += stretches;
         ASSERT_FALSE(plan.smooth.path.pieces.empty()) << "the smoother's result was refused";
-        ASSERT_EQ(plan.smooth.stretches.size(), stretches);
+        ASSERT_EQ(plan.smooth.path.stretches().size(), stretches);
         EXPECT_TRUE(plan.smooth.free);
         parking_test::expectDrivable(plan.smooth, plan.arcs, car, parameters.smoothing);
 
@@ -57,9 +57,9 @@ namespace
             jumps += pieces[i - 1].length * pieces[i].length > 0.0 &&
                      std::abs(pieces[i - 1].endCurvature() - pieces[i].curvature) > 1e-9;
         EXPECT_LE(jumps, plan.smooth.stops.size());
-        count.continuous += plan.smooth.continuousStretches();
+        count.continuous += parking_test::continuousStretches(plan.smooth);
 
-        EXPECT_LT(std::abs(plan.smooth.path.length() / plan.smooth.lengthBefore - 1.0), 0.03);
+        EXPECT_LT(std::abs(plan.smooth.path.length() / plan.arcs.length() - 1.0), 0.03);
         const PolygonOracle oracle(scenario);
         std::size_t hits = 0;
         for (const PathState &state : plan.smooth.path.sample(0.005))

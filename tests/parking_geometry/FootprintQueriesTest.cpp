@@ -11,17 +11,6 @@ using namespace parking;
 using parking_test::PolygonWorld;
 using parking_test::RandomParking;
 
-namespace
-{
-    Polygon box(double x, double y, double halfSize)
-    {
-        return {{x - halfSize, y - halfSize},
-                {x + halfSize, y - halfSize},
-                {x + halfSize, y + halfSize},
-                {x - halfSize, y + halfSize}};
-    }
-}  // namespace
-
 TEST(FootprintQueries, ThePathCallableDecidesAlone)
 {
     FootprintQueries queries;
@@ -63,7 +52,7 @@ TEST(FootprintQueries, ClearanceFindsWhatLiesBetweenThePoses)
             part.turn *= share;
             const Pose there = advance(path.start, part, share * piece.driven());
             const Eigen::Vector2d corner = car.footprint(there)[1];
-            const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.01)});
+            const PolygonWorld world(car, {parking_test::square(corner.x(), corner.y(), 0.01)});
             ASSERT_TRUE(world.isFree(path.start) && world.isFree(path.end()) && !world.isFree(there));
             EXPECT_FALSE(isPathFree(world.queries(), car, path));
         }
@@ -80,9 +69,10 @@ TEST(FootprintQueries, CoversTheMotionAndNotHalfOfIt)
     {
         const Path path{{}, {{curvature, length}}};
         const Eigen::Vector2d corner = car.footprint(advance(path.start, curvature, 0.5 * length))[1];
-        const PolygonWorld world(car, {box(corner.x(), corner.y(), 0.004)});
+        const PolygonWorld world(car, {parking_test::square(corner.x(), corner.y(), 0.004)});
         const double covered = world.clearance(path.start) + world.clearance(path.end());
-        const double moved = length * (1.0 + curvature * farthestCorner(car));
+        const double moved =
+            length * (1.0 + curvature * std::hypot(car.wheelbase + car.frontOverhang, 0.5 * car.width));
         if (covered == 0.0)
             continue;
         EXPECT_LT(covered, moved);
@@ -107,7 +97,7 @@ TEST(FootprintQueries, AgreesWithDenseSampling)
             const Pose near = dense[static_cast<std::size_t>(random.below(static_cast<int>(dense.size())))].pose;
             const Pose spot = compose(
                 near, {random.between(-2.0, 5.0), (random.chance(0.5) ? 1.0 : -1.0) * random.between(1.0, 3.0), 0.0});
-            obstacles.push_back(box(spot.x, spot.y, random.between(0.01, 0.3)));
+            obstacles.push_back(parking_test::square(spot.x, spot.y, random.between(0.01, 0.3)));
         }
         const PolygonWorld world(car, obstacles);
         // Deeper than what a motion of 5 mm between two free poses may graze.

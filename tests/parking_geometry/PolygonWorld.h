@@ -11,6 +11,15 @@ namespace parking_test
 {
     using namespace parking;
 
+    /** An axis-parallel square round (x, y). */
+    inline Polygon square(double x, double y, double halfSize)
+    {
+        return {{x - halfSize, y - halfSize},
+                {x + halfSize, y - halfSize},
+                {x + halfSize, y + halfSize},
+                {x - halfSize, y + halfSize}};
+    }
+
     /** \brief The oracle's answers for one car among polygons, as FootprintQueries give them: touching is free, and the
         world has no bounds. */
     class PolygonWorld

@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
+#include "tests/state_validity/DistanceByDefinition.h"
 
 #include <cmath>
 #include <limits>
@@ -13,42 +14,6 @@ using namespace parking_test;
 
 namespace
 {
-    using Cells = std::vector<std::uint8_t>;
-
-    /** The definition: distances between the centres of cells, each against each. */
-    double nearestByDefinition(const Cells &blocked, std::size_t columns, std::size_t column, std::size_t row)
-    {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < blocked.size(); ++i)
-            if (blocked[i])
-                least = std::min(least, std::hypot(static_cast<double>(column) - static_cast<double>(i % columns),
-                                                   static_cast<double>(row) - static_cast<double>(i / columns)));
-        return least;
-    }
-
-    double distanceToSegment(const Eigen::Vector2d &point, const Edge &edge)
-    {
-        const Eigen::Vector2d along = edge.to - edge.from;
-        const double t = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        return (point - edge.from - t * along).norm();
-    }
-
-    /** The distance from a local point to the nearest obstacle; negative inside of one. */
-    double signedDistance(const ObstacleSet &obstacles, const Eigen::Vector2d &point)
-    {
-        double least = std::numeric_limits<double>::infinity();
-        for (const Edge &edge : obstacles.edges())
-            least = std::min(least, distanceToSegment(point, edge));
-        bool inside = (point.array() <= obstacles.bounds().min.array()).any() ||
-                      (point.array() >= obstacles.bounds().max.array()).any();
-        for (const Polygon &polygon : obstacles.polygons())
-            inside = inside || contains(polygon, point);
-        for (const Box &rectangle : obstacles.rectangles())
-            inside = inside ||
-                     ((point.array() > rectangle.min.array()).all() && (point.array() < rectangle.max.array()).all());
-        return inside ? -least : least;
-    }
-
     void expectBounds(const ObstacleSet &obstacles, const DistanceField &field, std::uint64_t seed)
     {
         Random random(seed);
@@ -68,34 +33,38 @@ namespace
     }
 }  // namespace
 
+/** The definition: distances between the centres of cells, each against each and against the ring round the map. */
 TEST(DistanceField, IsTheExactDistanceBetweenCentresOfCells)
 {
     Random random(1);
-    for (int i = 0; i < 60; ++i)
+    for (int i = 0; i < 40; ++i)
     {
-        const std::size_t columns = 1 + random.index(40), rows = 1 + random.index(40);
         const double density = std::exp(random.between(std::log(0.002), std::log(0.7)));
-        Cells blocked(columns * rows);
-        for (std::uint8_t &cell : blocked)
-            cell = random.chance(density);
-        const double resolution = random.between(0.05, 1.0);
-        const DistanceField field(blocked, columns, rows, resolution);
-        for (std::size_t row = 0; row < rows; ++row)
-            for (std::size_t column = 0; column < columns; ++column)
+        OccupancyGrid map(1 + random.index(40), 1 + random.index(40), random.between(0.05, 1.0));
+        for (std::size_t row = 0; row < map.height(); ++row)
+            for (std::size_t column = 0; column < map.width(); ++column)
+                map.set(column, row, random.chance(density) ? Cell::Occupied : Cell::Free);
+        const DistanceField field(ObstacleSet::fromGrid(map));
+        const auto isBlocked = [&](int x, int y)
+        {
+            const int width = static_cast<int>(map.width()), height = static_cast<int>(map.height());
+            return x < 0 || y < 0 || x >= width || y >= height ||
+                   map.at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)) == Cell::Occupied;
+        };
+        for (int y = 0; y < static_cast<int>(map.height()); ++y)
+            for (int x = 0; x < static_cast<int>(map.width()); ++x)
             {
-                const double expected = resolution * nearestByDefinition(blocked, columns, column, row);
-                const float value = field.at(column, row);
-                if (blocked[row * columns + column])
+                double nearest = HUGE_VAL;
+                for (int v = -1; v <= static_cast<int>(map.height()); ++v)
+                    for (int u = -1; u <= static_cast<int>(map.width()); ++u)
+                        if (isBlocked(u, v))
+                            nearest = std::min(nearest, std::hypot(x - u, y - v));
+                const double expected = map.resolution() * nearest;
+                const double atX = (x + 0.5) * map.resolution(), atY = (y + 0.5) * map.resolution();
+                ASSERT_EQ(field.isInside(atX, atY), isBlocked(x, y));
+                if (nearest > 0.0)
                 {
-                    ASSERT_EQ(value, -1.0f);
-                }
-                else if (std::isinf(expected))
-                {
-                    ASSERT_EQ(value, std::numeric_limits<float>::infinity());
-                }
-                else
-                {
-                    ASSERT_NEAR(value, expected, 6e-8 * expected) << columns << "x" << rows;
+                    ASSERT_NEAR(field.upperBound(atX, atY) - field.errorBound(), expected, 2e-7 * expected);
                 }
             }
     }
@@ -156,25 +125,7 @@ TEST(DistanceField, UpperBoundIsTight)
     }
 }
 
-/** In a grid world whose cells are a metre wide, half a metre more or less decides whether a car fits through a gap. */
-TEST(DistanceField, CloseUpperBoundOfAGridWorldIsTheDistanceAcrossFromAWall)
-{
-    OccupancyGrid map(20, 9, 1.0);
-    for (std::size_t column = 0; column < 20; ++column)
-        map.set(column, 4, Cell::Occupied);
-    const DistanceField field(ObstacleSet::fromGrid(map));
-    for (const double distance : {0.5, 0.75, 1.0, 1.5, 1.625, 2.0})
-        for (const double y : {5.0 + distance, 4.0 - distance})
-        {
-            const double fromCentre = std::abs(std::fmod(distance, 1.0) - 0.5);
-            // Exact at the centre and behind it as seen from the wall; in front of it twice the way from the centre.
-            const double excess = std::fmod(distance, 1.0) >= 0.5 ? 0.0 : 2.0 * fromCentre;
-            EXPECT_GE(field.closeUpperBound(10.5, y), distance) << y;
-            EXPECT_LT(field.closeUpperBound(10.5, y), distance + excess + 1e-4) << y;
-        }
-}
-
-/** And it holds beside corners, at the ends of the map and wherever cells meet. */
+/** In a grid world, also beside corners, at the ends of the map and wherever cells meet. */
 TEST(DistanceField, CloseUpperBoundOfAGridWorldHoldsAtItsTightest)
 {
     Random random(23);
@@ -237,13 +188,6 @@ TEST(DistanceField, EverythingOutsideOfTheBoundsIsAnObstacle)
     EXPECT_EQ(field.lowerBound(1.0, nan), 0.0);
 }
 
-TEST(DistanceField, WithoutObstaclesDistancesAreInfinite)
-{
-    const DistanceField field(Cells(12, 0), 4, 3, 0.5);
-    EXPECT_TRUE(std::isinf(field.lowerBound(1.0, 0.7)));
-    EXPECT_TRUE(std::isinf(field.upperBound(1.0, 0.7)));
-}
-
 TEST(DistanceField, ChoosesTenCentimetresUpToAHectareAndAMillionCellsBeyond)
 {
     const auto chosen = [](double side)
@@ -257,13 +201,7 @@ TEST(DistanceField, ChoosesTenCentimetresUpToAHectareAndAMillionCellsBeyond)
 
 TEST(DistanceField, RefusesBadInput)
 {
-    for (const double resolution :
-         {0.0, -0.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-        EXPECT_THROW(DistanceField(Cells(4, 0), 2, 2, resolution), Error) << resolution;
-    EXPECT_THROW(DistanceField(Cells(), 0, 0, 0.1), Error);
-    EXPECT_THROW(DistanceField(Cells(5, 0), 2, 2, 0.1), Error);
     const ObstacleSet empty = ObstacleSet::fromPolygons({}, {{0.0, 0.0}, {100.0, 100.0}});
-    EXPECT_THROW(DistanceField(empty, -0.1), Error);
-    EXPECT_THROW(DistanceField(empty, std::numeric_limits<double>::quiet_NaN()), Error);
-    EXPECT_THROW(DistanceField(empty, 1e-3), Error) << "1e10 cells";
+    for (const double resolution : {-0.1, HUGE_VAL, std::nan(""), 1e-3})  // the last one takes 1e10 cells
+        EXPECT_THROW(DistanceField(empty, resolution), Error) << resolution;
 }

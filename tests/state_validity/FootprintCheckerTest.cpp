@@ -2,11 +2,9 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "parking_geometry/Error.h"
-#include "parking_geometry/io/ScenarioReader.h"
 #include "state_validity/fcl/FclContactTest.h"
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -182,29 +180,6 @@ TEST(FootprintChecker, CirclesInsideOfTheBodyAreNotTooLarge)
     EXPECT_GT(checked, 100);
 }
 
-TEST(FootprintChecker, SeesEveryThinObstacle)
-{
-    // A line of a tenth of a millimetre, a post of a centimetre and a single cell, wherever under the body they are.
-    const Vehicle vehicle;
-    Random random(5);
-    for (int i = 0; i < 300; ++i)
-    {
-        const Pose pose{random.between(-8.0, 8.0), random.between(-8.0, 8.0), random.between(-PI, PI)};
-        const Pose under =
-            compose(pose, {random.between(-0.9, 3.7), random.between(-0.95, 0.95), random.between(0.0, 6.0)});
-        const Polygon line = rectangle(3.0, 1e-4, under), post = rectangle(0.01, 0.01, under);
-        for (const Polygon &obstacle : {line, post})
-        {
-            EXPECT_FALSE(FootprintChecker(box({obstacle}), vehicle).isFree(pose));
-            EXPECT_FALSE(PlainFclChecker(box({obstacle}), vehicle).isFree(pose));
-        }
-        OccupancyGrid grid(400, 400, 0.1, {-20.0, -20.0, 0.0});
-        grid.set(static_cast<std::size_t>((under.x + 20.0) / 0.1), static_cast<std::size_t>((under.y + 20.0) / 0.1),
-                 Cell::Occupied);
-        EXPECT_FALSE(FootprintChecker(ObstacleSet::fromGrid(grid), vehicle).isFree(pose));
-    }
-}
-
 TEST(FootprintChecker, KnowsExactClearancesInTheMiddleOfALongWorld)
 {
     // 32 km, and nothing but the bounds, out of reach of what is gathered round a pose.
@@ -367,33 +342,4 @@ TEST(FootprintChecker, MovesWithTheMargin)
     EXPECT_TRUE(FootprintChecker(obstacles, vehicle, 0.4999).isFree({}));
     EXPECT_FALSE(FootprintChecker(obstacles, vehicle, 0.5001).isFree({}));
     EXPECT_NEAR(FootprintChecker(obstacles, vehicle, 0.2).freeLength({}, 0.0, 2.0), 0.3, 2.1e-3);
-}
-
-TEST(FootprintChecker, HoldsTheCompetitionsCases)
-{
-    const std::string folder = std::string(PARKING_SHARED_DATA) + "/tpcap";
-    if (!std::filesystem::is_directory(folder))
-        GTEST_SKIP() << "no cases at " << folder;
-    for (const auto &entry : std::filesystem::directory_iterator(folder))
-    {
-        if (entry.path().extension() != ".csv")
-            continue;
-        const Scenario scenario = readScenario(entry.path().string());
-        const FootprintChecker checker(ObstacleSet::fromScenario(scenario), scenario.vehicle);
-        const PlainFclChecker fcl(ObstacleSet::fromScenario(scenario), scenario.vehicle);
-        const PolygonOracle oracle(scenario);
-        EXPECT_TRUE(checker.isFree(scenario.start)) << entry.path();
-        EXPECT_TRUE(fcl.isFree(scenario.start)) << entry.path();
-        EXPECT_NEAR(checker.exactClearance(scenario.start), oracle.clearance(scenario.start, scenario.vehicle), 1e-9);
-        Random random(1);
-        for (int i = 0; i < 3000; ++i)
-        {
-            const Pose around{scenario.goals[0].x + random.between(-8.0, 8.0),
-                              scenario.goals[0].y + random.between(-8.0, 8.0), random.between(-PI, PI)};
-            if (oracle.isFree(around, scenario.vehicle, 1e-9) != oracle.isFree(around, scenario.vehicle, -1e-9))
-                continue;
-            ASSERT_EQ(checker.isFree(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
-            ASSERT_EQ(fcl.isFree(around), oracle.isFree(around, scenario.vehicle)) << entry.path();
-        }
-    }
 }

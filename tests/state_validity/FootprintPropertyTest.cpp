@@ -78,51 +78,46 @@ namespace
     constexpr long POSES = 25000;
 
     const Eigen::Vector2d NEAR(3.0, -5.0), FAR(1e6, -1e6), VERY_FAR(4.1e9, -5.3e9);
+
+    /** Worlds of one kind, and where they lie. */
+    struct Place
+    {
+        const char *name;
+        World (*make)(std::uint64_t seed, const Eigen::Vector2d &offset);
+        Eigen::Vector2d offset;
+        bool isVaried;  ///< poses far away snap to a raster of up to half a micrometre, so that few touch
+    };
+
+    World polygonsOrCells(std::uint64_t seed, const Eigen::Vector2d &offset)
+    {
+        return seed % 2 ? randomPolygonWorld(seed, offset) : randomGridWorld(seed, offset);
+    }
+
+    /** The competition's cases 13 to 15 lie about as far away as the last ones. */
+    const Place PLACES[] = {{"AmongPolygons", randomPolygonWorld, NEAR, true},
+                            {"OnGrids", randomGridWorld, NEAR, true},
+                            {"OnNoisyMaps", noisyGridWorld, NEAR, true},
+                            {"AThousandKilometresAway", polygonsOrCells, FAR, false},
+                            {"AtFourBillionMetres", polygonsOrCells, VERY_FAR, false}};
+
+    using FootprintProperty = testing::TestWithParam<Place>;
 }  // namespace
 
-TEST(FootprintProperty, AgreesWithTheOracleAndFclAmongPolygons)
+TEST_P(FootprintProperty, AgreesWithTheOracleAndFcl)
 {
+    const Place &place = GetParam();
     Tally tally;
     for (std::uint64_t seed = 100; seed < 120 && !HasFatalFailure(); ++seed)
-        compare(randomPolygonWorld(seed, NEAR), {}, 0.0, POSES, seed, tally);
-    expectVaried(tally);
-}
-
-TEST(FootprintProperty, AgreesWithTheOracleAndFclOnGrids)
-{
-    Tally tally;
-    for (std::uint64_t seed = 200; seed < 220 && !HasFatalFailure(); ++seed)
-        compare(randomGridWorld(seed, NEAR), {}, 0.0, POSES, seed, tally);
-    expectVaried(tally);
-}
-
-TEST(FootprintProperty, AgreesWithTheOracleAndFclOnNoisyMaps)
-{
-    Tally tally;
-    for (std::uint64_t seed = 700; seed < 712 && !HasFatalFailure(); ++seed)
-        compare(noisyGridWorld(seed, NEAR), {}, 0.0, POSES, seed, tally);
-    expectVaried(tally);
-}
-
-TEST(FootprintProperty, AgreesWithTheOracleAndFclAThousandKilometresAway)
-{
-    Tally tally;
-    for (std::uint64_t seed = 300; seed < 320 && !HasFatalFailure(); ++seed)
-        compare(seed % 2 ? randomPolygonWorld(seed, FAR) : randomGridWorld(seed, FAR), {}, 0.0, POSES, seed, tally);
+        compare(place.make(seed, place.offset), {}, 0.0, POSES, seed, tally);
     EXPECT_GT(tally.free, tally.poses / 20);
+    if (place.isVaried)
+        expectVaried(tally);
 }
 
-/** The competition's cases 13 to 15 lie about there. Poses snap to a raster of half a micrometre, so few touch. */
-TEST(FootprintProperty, AgreesWithTheOracleAndFclAtFourBillionMetres)
-{
-    Tally tally;
-    for (std::uint64_t seed = 400; seed < 420 && !HasFatalFailure(); ++seed)
-        compare(seed % 2 ? randomPolygonWorld(seed, VERY_FAR) : randomGridWorld(seed, VERY_FAR), {}, 0.0, POSES, seed,
-                tally);
-    EXPECT_GT(tally.free, tally.poses / 20);
-}
+INSTANTIATE_TEST_SUITE_P(Places, FootprintProperty, testing::ValuesIn(PLACES),
+                         [](const auto &each) { return each.param.name; });
 
-TEST(FootprintProperty, AgreesWithMarginsAndOtherVehicles)
+TEST(FootprintVariants, AgreesWithMarginsAndOtherVehicles)
 {
     Tally tally;
     Vehicle small;
@@ -145,7 +140,7 @@ TEST(FootprintProperty, AgreesWithMarginsAndOtherVehicles)
 }
 
 /** With cells larger than the body the field alone cannot tell inside from outside of a small obstacle. */
-TEST(FootprintProperty, AgreesWhenTheFieldIsCoarserThanTheBody)
+TEST(FootprintVariants, AgreesWhenTheFieldIsCoarserThanTheBody)
 {
     Vehicle small;
     small.wheelbase = 0.4;

@@ -98,37 +98,27 @@ namespace
     }
 }  // namespace
 
-TEST(FreeLength, IsFreeAndStopsAtContactAmongPolygons)
+TEST(FreeLength, IsFreeAndStopsAtContact)
 {
-    Tally tally;
-    for (std::uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed)
-        tryMotions(randomPolygonWorld(seed), {}, 1000, seed, tally);
-    expectVaried(tally);
-}
-
-TEST(FreeLength, IsFreeAndStopsAtContactOnGrids)
-{
-    Tally tally;
-    for (std::uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed)
-        tryMotions(randomGridWorld(seed), {}, 500, seed, tally);
-    expectVaried(tally);
-}
-
-TEST(FreeLength, IsFreeAndStopsAtContactFarAwayAndForOtherVehicles)
-{
-    Tally tally;
+    Tally polygons, grids, others;
     Vehicle wide;  // wider than long, its axle at the very rear
     wide.wheelbase = 1.0;
     wide.frontOverhang = 0.2;
     wide.rearOverhang = 0.0;
     wide.width = 2.4;
-    for (std::uint64_t seed = 0; seed < 4 && !HasFatalFailure(); ++seed)
+    for (std::uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed)
     {
-        tryMotions(randomPolygonWorld(seed, {4.1e9, -5.3e9}), {}, 1000, seed, tally, 1e-6);
-        tryMotions(randomGridWorld(seed, {1e6, 1e6}), wide, 1000, seed, tally, 1e-9);
-        tryMotions(randomPolygonWorld(seed), wide, 1000, seed, tally);
+        tryMotions(randomPolygonWorld(seed), {}, 1000, seed, polygons);
+        tryMotions(randomGridWorld(seed), {}, 500, seed, grids);
+        if (seed >= 4)
+            continue;
+        tryMotions(randomPolygonWorld(seed, {4.1e9, -5.3e9}), {}, 1000, seed, others, 1e-6);
+        tryMotions(randomGridWorld(seed, {1e6, 1e6}), wide, 1000, seed, others, 1e-9);
+        tryMotions(randomPolygonWorld(seed), wide, 1000, seed, others);
     }
-    EXPECT_GT(tally.stopped, 1000);
+    expectVaried(polygons);
+    expectVaried(grids);
+    EXPECT_GT(others.stopped, 1000);
 }
 
 /** Long motions are proven in parts; a contact at the very joint of two parts belongs to one of them. */
@@ -199,30 +189,6 @@ TEST(FreeLength, DoesNotStartFromCollisionsOrContact)
         const Polygon wall = rectangle(1.0, 8.0, {-vehicle.rearOverhang - gap - 0.5, 0.0, 0.0});
         const FootprintChecker checker(ObstacleSet::fromPolygons({wall}, bounds), vehicle);
         EXPECT_EQ(checker.freeLength({}, 0.0, 3.0), 0.0) << gap;
-    }
-}
-
-TEST(FreeLength, FromAPreparedPoseIsTheSame)
-{
-    for (std::uint64_t seed = 0; seed < 6; ++seed)
-    {
-        const World world = seed % 2 ? randomGridWorld(seed) : randomPolygonWorld(seed);
-        const FootprintChecker checker(world.obstacles, {});
-        Random random(seed);
-        CheckCounts counts;
-        for (int i = 0; i < 500; ++i)
-        {
-            const Pose from = world.anywhere(random);
-            const FootprintChecker::SweepStart start = checker.sweepStart(from, TOLERANCE, counts);
-            for (int k = 0; k < 4; ++k)
-            {
-                const double curvature = anyCurvature(random), length = random.magnitude(0.1, 5.0);
-                ASSERT_EQ(checker.freeLength(start, curvature, length, counts),
-                          checker.freeLength(from, curvature, length, TOLERANCE, counts));
-                ASSERT_EQ(checker.freeLength(from, curvature, length),
-                          checker.freeLength(from, curvature, length, 1e-3, counts));
-            }
-        }
     }
 }
 

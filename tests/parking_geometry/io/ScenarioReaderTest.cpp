@@ -1,4 +1,3 @@
-#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 
 #include "tests/parking_geometry/ExpectError.h"
@@ -36,6 +35,14 @@ namespace
         "  - - [20, 10]\n"
         "    - [22, 10]\n"
         "    - [22, 12]\n";
+
+    /** Shorter, without a name and a vehicle. */
+    const std::string PLAIN =
+        "start: [10, 20, 0.5]\n"
+        "goal: [15.5, 20, -0.25]\n"
+        "polygons:\n"
+        "  - [[12, 25], [14, 25], [13, 27]]\n"
+        "  - [[20, 10], [22, 10], [22, 12]]\n";
 
     /** The same text with one line replaced; an empty \e by removes it. */
     std::string with(std::string text, const std::string &line, const std::string &by)
@@ -443,55 +450,51 @@ TEST_F(YamlReader, ATurnedMapIsBoundedByItsBox)
     expectYamlError("start: [2, 2, 0]\ngoal: [0, 3, 0]\nmap: lot.yaml\n", {"start outside the map"});
 }
 
-namespace
+TEST_F(YamlReader, RefusesWhatHasNoMeaning)
 {
-    /** Reads damaged files: each must give an error of one line or a scenario in order. */
-    void expectSound(const std::string &file)
-    {
-        try
-        {
-            const Scenario scenario = readScenario(file);
-            ASSERT_FALSE(scenario.goals.empty());
-            EXPECT_TRUE(isFinite(scenario.start));
-            EXPECT_TRUE(isFinite(scenario.goals[0]));
-            EXPECT_TRUE(scenario.bounds.min.allFinite() && scenario.bounds.max.allFinite());
-            for (const Polygon &polygon : scenario.polygons)
-            {
-                EXPECT_GE(polygon.size(), 3u);
-                for (const Eigen::Vector2d &corner : polygon)
-                    EXPECT_TRUE(corner.allFinite());
-            }
-            EXPECT_NO_THROW(scenario.vehicle.validate());
-        }
-        catch (const Error &error)
-        {
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-        }
-    }
-}  // namespace
+    const std::string slot = "slot:\n  kind: angled\n  pose: [15, 15, 1]\n  length: 7\n  width: 2.5\n  angle: 0.8\n";
+    const std::string text = with(PLAIN, "goal: [15.5, 20, -0.25]\n", slot);
+    EXPECT_EQ(read(text).slot->angle, 0.8);
+    for (const std::string kind : {"parallel", "perpendicular"})
+        expectYamlError(with(text, "angled", kind), {"example.yaml:7: angle", kind, "only angled"});
+    // The entry of a parallel slot says which way the car drives into it, though not how it stands there.
+    for (const std::string entry : {"reverse", "forward", "either"})
+        EXPECT_EQ(read(with(with(text, "angled", "parallel"), "angle: 0.8", "entry: " + entry)).goals.size(), 1u);
+    expectYamlError(PLAIN + "unknown_is_occupied: false\n",
+                    {"example.yaml:6: unknown_is_occupied", "polygons", "only cells of a map"});
+    folder_.write("lot.yaml", "image: lot.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+    folder_.write("lot.pgm", "P2 2 2 1 1 1 1 1");
+    const std::string map = "start: [0.5, 0.5, 0]\ngoal: [0.6, 0.5, 0]\nmap: lot.yaml\n";
+    EXPECT_FALSE(read(map + "unknown_is_occupied: false\n").unknownIsOccupied);
+    EXPECT_TRUE(read(map).unknownIsOccupied);
+}
 
-TEST_F(YamlReader, DamagedFilesGiveErrorsAndNothingWorse)
+TEST_F(YamlReader, AFileHoldsOneDocument)
 {
-    const std::string slot = with(SCENARIO, "goal: [15.5, 20, -0.25]\n",
-                                  "slot: {kind: parallel, pose: [15, 15, 1], length: 6, width: 2.5, entry: reverse}\n");
-    parking_test::Random random(2);
-    const std::string nasty = "[]{}:,#&*!|>'\"%@`-?\n\t 0e9.+\\";
-    for (const std::string &text : {CASE, SCENARIO, slot})
-        for (std::size_t i = 0; i < text.size(); ++i)
-        {
-            SCOPED_TRACE("position " + std::to_string(i));
-            expectSound(folder_.write("damaged", text.substr(0, i) + (i ? "" : " ")));
-            std::string changed = text;
-            changed[i] = static_cast<char>(random.index(256));
-            expectSound(folder_.write("damaged", changed));
-            changed = text;
-            changed[i] = nasty[random.index(nasty.size())];
-            expectSound(folder_.write("damaged", changed));
-            changed = text;
-            changed.insert(i, 1, nasty[random.index(nasty.size())]);
-            expectSound(folder_.write("damaged", changed));
-            changed = text;
-            changed.erase(i, 1);
-            expectSound(folder_.write("damaged", changed));
-        }
+    for (const std::string end : {"---\n", "...\n", "---\n# nothing\n", "---\n---\n", "...\n\n", "--- ~\n"})
+        EXPECT_EQ(read(PLAIN + end).polygons.size(), 2u) << end;
+    EXPECT_EQ(read("%YAML 1.2\n---\n" + PLAIN).polygons.size(), 2u);
+    const std::string second = "a second YAML document begins here";
+    expectYamlError(PLAIN + "---\nstart: [0, 0, 0]\n", {"example.yaml:7: " + second});
+    expectYamlError(PLAIN + "...\nwhatever\n", {"example.yaml:7: " + second});
+    expectYamlError(PLAIN + "---\n---\n\n- 1\n", {"example.yaml:9: " + second});
+    expectYamlError("{start: [0, 0, 0], goal: [1, 0, 0], polygons: []} x\n", {"example.yaml:1: " + second});
+    expectYamlError("{start: [0, 0, 0], goal: [1, 0, 0], polygons: []},\n", {"example.yaml:1: " + second});
+    expectYamlError(PLAIN + "--- {\n", {"example.yaml:", "not valid YAML"});
+    expectYamlError("---\n---\n" + PLAIN, {"example.yaml:3: " + second});
+}
+
+TEST_F(YamlReader, SaysWhatElseAValueMayBe)
+{
+    for (const std::string blank : {"polygons:", "polygons: # later", "polygons: ~"})
+    {
+        const std::string poses = "start: [1, 1, 0]\ngoal: [2, 1, 0]\n";
+        expectYamlError(poses + blank + "\n",
+                        {"example.yaml:3: polygons is nothing", "list of polygons", "[] for none"});
+        expectYamlError(poses + "map:\n  " + blank + "\n", {"example.yaml:4: polygons is nothing"});
+    }
+    expectYamlError(PLAIN + "vehicle: [1]\n",
+                    {"example.yaml:6: vehicle is a list; it must be the name", "file", "mapping"});
+    expectYamlError("start: [0, 0, 0]\ngoal: [1, 0, 0]\nmap: [1]\n",
+                    {"example.yaml:3: map is a list; it must be the path", "mapping"});
 }

@@ -1,4 +1,3 @@
-#include "benchmarks/worlds/Random.h"
 #include "parking_geometry/io/ScenarioReader.h"
 #include "tests/parking_geometry/ExpectError.h"
 #include "tests/parking_geometry/TemporaryFolder.h"
@@ -148,25 +147,4 @@ TEST_F(SurroundOcc, ServesAsTheMapOfAScenario)
     EXPECT_EQ(scenario.grid->at(110, 100), Cell::Occupied);
     EXPECT_EQ(scenario.grid->origin().y, -50.0 + 0.94);
     EXPECT_TRUE(scenario.unknownIsOccupied);
-}
-
-TEST_F(SurroundOcc, DamagedFilesGiveErrorsAndNothingWorse)
-{
-    const std::string bytes = encodeNpy({1, 2, 3, 4, 5, 6, 7, 8});
-    parking_test::Random random(6);
-    for (std::size_t i = 1; i < bytes.size(); ++i)
-        for (const bool cut : {true, false})
-        {
-            std::string changed = cut ? bytes.substr(0, i) : bytes;
-            if (!cut)
-                changed[i] = static_cast<char>(random.index(256));
-            try
-            {
-                readSurroundOcc(folder_.write("x.npy", changed));
-            }
-            catch (const Error &error)
-            {
-                EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-            }
-        }
 }

@@ -36,7 +36,8 @@ TEST(MultiStretchParking, ExitsLieInTheAisleAndAlongIt)
             EXPECT_TRUE(world.isFree(exit));
             EXPECT_NEAR(std::sin(exit.yaw - slot.aisleYaw(slot.side)), 0.0, 1e-9);
             for (const Eigen::Vector2d &corner : car.footprint(exit))
-                EXPECT_TRUE((corner.array() > task.min.array()).all() && (corner.array() < task.max.array()).all());
+                EXPECT_TRUE((corner.array() > task.bounds.min.array()).all() &&
+                            (corner.array() < task.bounds.max.array()).all());
         }
         // The single sweep leaves the slot in the direction of these exits.
         const ReverseParkingResult sweep = ReverseParking(car).plan(slot);

@@ -56,7 +56,6 @@ TEST(ReverseParking, ManoeuvresEndInTheSlotTurnTangentiallyAndKeepTheRadius)
         // P lies along the aisle, headed so that the car drives off in its direction.
         const bool turned = slot.entry == SlotEntry::Forward && slot.kind != SlotKind::Parallel;
         ASSERT_NEAR(wrapAngle(result.path.start.yaw - slot.aisleYaw(slot.side) - (turned ? PI : 0.0)), 0.0, 1e-9);
-        ASSERT_EQ(result.guardLength, options.guardLength);
         if (options.guardLength > 0.0)
         {
             ASSERT_NEAR(std::abs(result.path.pieces.front().length), options.guardLength, 1e-12);
@@ -285,7 +284,7 @@ TEST(ReverseParking, TheWorldMayBeHarsherThanTheModel)
     const PolygonWorld closed(car, obstacles);
     const ReverseParkingResult shorter = parking.plan(slot, closed.queries());
     ASSERT_TRUE(shorter.fits()) << shorter.message;
-    EXPECT_LT(shorter.guardLength, parking.options().guardLength);
+    EXPECT_LT(std::abs(shorter.path.pieces.front().length), parking.options().guardLength);
     EXPECT_TRUE(closed.isPathFree(shorter.path));
     // A wall before the mouth blocks every variant.
     obstacles.push_back({{4.5, -20.0}, {5.0, -20.0}, {5.0, 20.0}, {4.5, 20.0}});

@@ -37,6 +37,35 @@ namespace
         EXPECT_FALSE(check.isFree({10.0, 1e6, 0.0}));  // outside of the world
     }
 
+    TEST(FreeSpace, ADiscReachesAsFarAsItsRadius)
+    {
+        Scenario scenario = scenarioOf("[[[10, -1], [11, -1], [11, 1], [10, 1]]]");
+        OccupancyGrid grid(40, 40, 1.0, {-10.0, -21.0, 0.0});
+        for (const std::size_t row : {20u, 21u})
+            grid.set(20, row, Cell::Occupied);  // the same square
+        for (const bool isGrid : {false, true})
+        {
+            if (isGrid)
+                scenario.grid = grid;
+            const FreeSpace check(scenario, 1.1);
+            for (const auto &[pose, towards] : {std::pair{Pose{8.9, 0.0, 2.0}, Pose{1.0, 0.0, 0.0}},
+                                                {Pose{10.4, 2.1, 0.0}, Pose{0.0, -1.0, 0.0}},
+                                                {Pose{11.66, 1.88, 0.0}, Pose{-1.0, 0.0, 0.0}}})
+            {
+                EXPECT_TRUE(check.isFree(pose)) << pose.x;
+                EXPECT_FALSE(check.isFree({pose.x + 0.02 * towards.x, pose.y + 0.02 * towards.y, 0.0})) << pose.x;
+            }
+            EXPECT_FALSE(check.isFree({10.5, 0.0, 0.0}));
+        }
+    }
+
+    TEST(FreeSpace, WhatLiesInSeveralObstaclesIsNotFree)
+    {
+        const FreeSpace check(
+            scenarioOf("[[[-15, -9], [15, -9], [15, 9], [-15, 9]], [[-14, -8], [14, -8], [14, 8], [-14, 8]]]"));
+        EXPECT_FALSE(check.isFree({0.0, 0.0, 0.3}));
+    }
+
     TEST(FreeSpace, AgreesWithTheOracle)
     {
         // Long slanting outlines among them.

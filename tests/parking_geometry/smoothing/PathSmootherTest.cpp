@@ -58,8 +58,8 @@ namespace
 
         void add(const SmoothPath &path)
         {
-            stretches += path.stretches.size();
-            continuous += path.continuousStretches();
+            stretches += path.path.stretches().size();
+            continuous += parking_test::continuousStretches(path);
         }
 
         double percent() const
@@ -156,8 +156,7 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
     const Path path{{}, {{full, 1.5}, {-full, 1.5}}};
     const SmoothPath result = PathSmoother(car).smooth(path);
     ASSERT_EQ(result.stops.size(), 1u);
-    EXPECT_EQ(result.continuousStretches(), 0u);
-    EXPECT_FALSE(result.stretches[0].changed);
+    EXPECT_EQ(result.path.pieces.size(), path.pieces.size());
     EXPECT_LT(gap(result.path.part(result.stops[0], 2).start, advance({}, full, 1.5)), 1e-12);
     // A radius 5 % larger leaves the room.
     const Path wider{{}, {{full / 1.05, 1.5}, {-full / 1.05, 1.5}}};
@@ -168,7 +167,7 @@ TEST(PathSmoother, FullLockFromSideToSideStopsToSteer)
         const Path line{{}, {{full, direction * 1.5}, {-full, direction * 1.5}, {0.0, direction * 2.0}}};
         const SmoothPath smooth = PathSmoother(car).smooth(line);
         EXPECT_EQ(smooth.stops.size(), 0u);
-        EXPECT_TRUE(smooth.stretches[0].changed);
+        EXPECT_NE(smooth.path.pieces.front().sharpness, 0.0);
     }
 }
 
@@ -267,7 +266,6 @@ TEST(PathSmoother, PathsWithoutMotionStayEmpty)
     const SmoothPath none = PathSmoother(Vehicle()).smooth(Path{{1.0, 2.0, 0.5}, {}});
     EXPECT_EQ(none.path.start.x, 1.0);
     EXPECT_TRUE(none.path.pieces.empty());
-    EXPECT_TRUE(none.stretches.empty());
     EXPECT_TRUE(none.free);
 }
 

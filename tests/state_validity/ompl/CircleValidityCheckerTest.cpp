@@ -2,6 +2,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "state_validity/ompl/OmplPose.h"
+#include "tests/state_validity/DistanceByDefinition.h"
 
 #include <cmath>
 #include <limits>
@@ -27,26 +28,11 @@ namespace
         return std::make_shared<ob::SpaceInformation>(space);
     }
 
-    /** From a point to the nearest obstacle, edge by edge; 0 inside of one. */
+    /** From a point to the nearest obstacle; 0 inside of one. */
     double distanceByDefinition(const ObstacleSet &obstacles, double x, double y)
     {
-        const Pose pose = obstacles.toLocal({x, y, 0.0});
-        const Eigen::Vector2d point(pose.x, pose.y);
-        bool inside = (point.array() <= obstacles.bounds().min.array()).any() ||
-                      (point.array() >= obstacles.bounds().max.array()).any();
-        for (const Polygon &polygon : obstacles.polygons())
-            inside = inside || contains(polygon, point);
-        for (const Box &rectangle : obstacles.rectangles())
-            inside = inside ||
-                     ((point.array() >= rectangle.min.array()).all() && (point.array() <= rectangle.max.array()).all());
-        double least = std::numeric_limits<double>::infinity();
-        for (const Edge &edge : obstacles.edges())
-        {
-            const Eigen::Vector2d along = edge.to - edge.from;
-            const double t = std::clamp((point - edge.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-            least = std::min(least, (point - edge.from - t * along).norm());
-        }
-        return inside ? 0.0 : least;
+        const Pose local = obstacles.toLocal({x, y, 0.0});
+        return std::max(0.0, signedDistance(obstacles, {local.x, local.y}));
     }
 
     const Box BOX{{-20.0, -20.0}, {20.0, 20.0}};
@@ -80,7 +66,7 @@ TEST(CircleValidityChecker, IsTheDistanceToTheNearestObstacle)
                     continue;
                 setPose(state.get(), pose);
                 const bool within = si->satisfiesBounds(state.get());
-                ASSERT_EQ(checker.isFree(pose.x, pose.y), distance > radius) << world.name << " " << radius;
+                ASSERT_EQ(checker.circle().isFree(pose.x, pose.y), distance > radius) << world.name << " " << radius;
                 ASSERT_EQ(checker.isValid(state.get()), within && distance > radius);
                 const double clearance = checker.clearance(state.get()), expected = std::max(0.0, distance - radius);
                 ASSERT_LE(clearance, expected + 1e-9);
@@ -91,46 +77,6 @@ TEST(CircleValidityChecker, IsTheDistanceToTheNearestObstacle)
             }
         }
     }
-}
-
-TEST(CircleValidityChecker, TheHeadingDoesNotMatter)
-{
-    const World world = randomPolygonWorld(4);
-    const ob::SpaceInformationPtr si = spaceOf(world.bounds);
-    const CircleValidityChecker checker(si, world.obstacles, 1.5);
-    ob::ScopedState<> state(si), turned(si);
-    Random random(4);
-    for (int i = 0; i < 1000; ++i)
-    {
-        const Pose pose = world.anywhere(random);
-        setPose(state.get(), pose);
-        setPose(turned.get(), {pose.x, pose.y, random.between(-PI, PI)});
-        ASSERT_EQ(checker.isValid(state.get()), checker.isValid(turned.get()));
-        ASSERT_EQ(checker.clearance(state.get()), checker.clearance(turned.get()));
-    }
-}
-
-TEST(CircleValidityChecker, TheCircleRoundTheCarHoldsTheCarAndItsDoors)
-{
-    const Vehicle vehicle;
-    const double radius = CircleValidityChecker::radiusAround(vehicle);
-    EXPECT_NEAR(radius, std::hypot(0.5 * vehicle.length(), 0.5 * vehicle.width), 1e-12);
-    EXPECT_NEAR(CircleValidityChecker::radiusAround(vehicle, 0.7), radius + 0.7, 1e-12);
-    // A car whose middle is at a valid position is free at every heading.
-    const World world = randomPolygonWorld(8);
-    const CircleValidityChecker checker(spaceOf(world.bounds), world.obstacles, radius);
-    const double ahead = vehicle.centreOffset();
-    Random random(8);
-    int free = 0;
-    for (int i = 0; i < 3000; ++i)
-    {
-        const Pose middle = world.anywhere(random);
-        if (!checker.isFree(middle.x, middle.y))
-            continue;
-        ++free;
-        ASSERT_TRUE(world.oracle.isFree(compose(middle, {-ahead, 0.0, 0.0}), vehicle));
-    }
-    EXPECT_GT(free, 100);
 }
 
 TEST(CircleMotionValidator, ProvesMotionsFreeAndNamesTheLastValidState)
@@ -177,21 +123,19 @@ TEST(CircleValidityChecker, RefusesBadInput)
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     for (const double radius : {0.0, -1.0, nan, infinity})
         EXPECT_THROW(CircleValidityChecker(spaceOf(BOX), empty, radius), ompl::Exception) << radius;
-    for (const double margin : {-0.1, nan, infinity})
-        EXPECT_THROW(CircleValidityChecker::radiusAround({}, margin), ompl::Exception) << margin;
     const auto line = std::make_shared<ob::SpaceInformation>(std::make_shared<ob::RealVectorStateSpace>(2));
     EXPECT_THROW(CircleValidityChecker(line, empty, 1.0), ompl::Exception);
 
     // Nothing fits: plainly invalid. Positions that are no numbers, too.
     const CircleValidityChecker large(spaceOf(BOX), empty, 25.0);
-    EXPECT_FALSE(large.isFree(0.0, 0.0));
+    EXPECT_FALSE(large.circle().isFree(0.0, 0.0));
     const CircleValidityChecker checker(spaceOf(BOX), empty, 1.0);
-    EXPECT_TRUE(checker.isFree(0.0, 0.0));
-    EXPECT_TRUE(checker.isFree(18.999, 0.0));
-    EXPECT_FALSE(checker.isFree(19.001, 0.0));
+    EXPECT_TRUE(checker.circle().isFree(0.0, 0.0));
+    EXPECT_TRUE(checker.circle().isFree(18.999, 0.0));
+    EXPECT_FALSE(checker.circle().isFree(19.001, 0.0));
     for (const double bad : {nan, infinity, -infinity, 30.0})
     {
-        EXPECT_FALSE(checker.isFree(bad, 0.0)) << bad;
-        EXPECT_FALSE(checker.isFree(0.0, bad)) << bad;
+        EXPECT_FALSE(checker.circle().isFree(bad, 0.0)) << bad;
+        EXPECT_FALSE(checker.circle().isFree(0.0, bad)) << bad;
     }
 }

@@ -140,19 +140,3 @@ TEST(FclFootprintChecker, BadValuesAreExceptionsOfOmplThatNameThem)
     const auto line = std::make_shared<ob::SpaceInformation>(std::make_shared<ob::RealVectorStateSpace>(3));
     expect([&] { FclFootprintChecker(line, empty, {}); }, "SE2");
 }
-
-TEST(FclFootprintChecker, StatesThatAreNotFiniteAreInvalid)
-{
-    const ob::SpaceInformationPtr si = spaceOf(std::make_shared<ob::SE2StateSpace>(), BOX);
-    const FclFootprintChecker checker(si, ObstacleSet::fromPolygons({}, BOX), {});
-    ob::ScopedState<> state(si);
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        for (int i = 0; i < 3; ++i)
-        {
-            auto *se2 = state->as<ob::SE2StateSpace::StateType>();
-            se2->setXY(i == 0 ? bad : 0.0, i == 1 ? bad : 0.0);
-            se2->setYaw(i == 2 ? bad : 0.0);
-            EXPECT_FALSE(checker.isValid(state.get()));
-            EXPECT_EQ(checker.clearance(state.get()), 0.0);
-        }
-}

@@ -83,53 +83,39 @@ namespace
         }
     }
 
-    void expectVaried(const Tally &tally)
+    /** Worlds of one kind, where they lie, and how poses round there. */
+    struct Place
     {
-        EXPECT_EQ(tally.accepted, 10 * ACCEPTED);
-        EXPECT_GT(tally.rejected, tally.accepted / 10);
-        EXPECT_GT(tally.close, tally.accepted / 50);
+        const char *name;
+        World (*make)(std::uint64_t seed, const Eigen::Vector2d &offset);
+        Eigen::Vector2d offset;
+        double rounding;  ///< metres
+    };
+
+    World polygonsOrCells(std::uint64_t seed, const Eigen::Vector2d &offset)
+    {
+        return seed % 2 ? randomGridWorld(seed, offset) : randomPolygonWorld(seed, offset);
     }
+
+    const Place PLACES[] = {{"AmongPolygons", randomPolygonWorld, {0.0, 0.0}, 0.0},
+                            {"OnGrids", randomGridWorld, {0.0, 0.0}, 0.0},
+                            {"OnNoisyMaps", noisyGridWorld, {0.0, 0.0}, 0.0},
+                            {"AThousandKilometresAway", polygonsOrCells, {1e6, -1e6}, 2e-9},
+                            {"AtFourBillionMetres", polygonsOrCells, {4.1e9, -5.3e9}, 5e-6}};
+
+    using MotionProperty = testing::TestWithParam<Place>;
 }  // namespace
 
-TEST(MotionProperty, AcceptedMotionsAreFreeAmongPolygons)
+TEST_P(MotionProperty, AcceptedMotionsAreFree)
 {
-    Tally tally;
-    for (std::uint64_t seed = 0; seed < 10 && !HasFatalFailure(); ++seed)
-        tryMotions(randomPolygonWorld(seed), seed, tally);
-    expectVaried(tally);
-}
-
-TEST(MotionProperty, AcceptedMotionsAreFreeOnGrids)
-{
+    const Place &place = GetParam();
     Tally tally;
     for (std::uint64_t seed = 10; seed < 20 && !HasFatalFailure(); ++seed)
-        tryMotions(randomGridWorld(seed), seed, tally);
-    expectVaried(tally);
+        tryMotions(place.make(seed, place.offset), seed, tally, place.rounding);
+    EXPECT_EQ(tally.accepted, 10 * ACCEPTED);
+    EXPECT_GT(tally.rejected, tally.accepted / 10);
+    EXPECT_GT(tally.close, tally.accepted / 50);
 }
 
-TEST(MotionProperty, AcceptedMotionsAreFreeOnNoisyMaps)
-{
-    Tally tally;
-    for (std::uint64_t seed = 20; seed < 30 && !HasFatalFailure(); ++seed)
-        tryMotions(noisyGridWorld(seed), seed, tally);
-    expectVaried(tally);
-}
-
-TEST(MotionProperty, AcceptedMotionsAreFreeAThousandKilometresAway)
-{
-    Tally tally;
-    for (std::uint64_t seed = 30; seed < 40 && !HasFatalFailure(); ++seed)
-        tryMotions(seed % 2 ? randomGridWorld(seed, {1e6, -1e6}) : randomPolygonWorld(seed, {1e6, -1e6}), seed, tally,
-                   2e-9);
-    expectVaried(tally);
-}
-
-/** A double resolves half a micrometre there. */
-TEST(MotionProperty, AcceptedMotionsAreFreeAtFourBillionMetres)
-{
-    Tally tally;
-    for (std::uint64_t seed = 40; seed < 50 && !HasFatalFailure(); ++seed)
-        tryMotions(seed % 2 ? randomGridWorld(seed, {4.1e9, -5.3e9}) : randomPolygonWorld(seed, {4.1e9, -5.3e9}), seed,
-                   tally, 5e-6);
-    expectVaried(tally);
-}
+INSTANTIATE_TEST_SUITE_P(Places, MotionProperty, testing::ValuesIn(PLACES),
+                         [](const auto &each) { return each.param.name; });

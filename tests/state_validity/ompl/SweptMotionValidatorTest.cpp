@@ -64,27 +64,6 @@ namespace
         return std::make_shared<ob::SE2StateSpace>();
     }
 
-    /** Counts how often a curve is computed for a sample of it. */
-    class CountingSpace : public ob::ReedsSheppStateSpace
-    {
-    public:
-        using ob::ReedsSheppStateSpace::ReedsSheppStateSpace;
-
-        double distance(const ob::State *a, const ob::State *b) const override
-        {
-            ++asked;
-            return ob::ReedsSheppStateSpace::distance(a, b);
-        }
-
-        void interpolate(const ob::State *a, const ob::State *b, double t, ob::State *state) const override
-        {
-            ++asked;
-            ob::ReedsSheppStateSpace::interpolate(a, b, t, state);
-        }
-
-        mutable int asked{0};
-    };
-
     Pose between(const Planar &setup, const ob::State *a, const ob::State *b, double t, ob::State *scratch)
     {
         setup.si->getStateSpace()->interpolate(a, b, t, scratch);
@@ -164,29 +143,6 @@ TEST(SweptMotionValidator, IsSoundInPlainSE2)
 {
     for (std::uint64_t seed = 0; seed < 10 && !HasFatalFailure(); ++seed)
         expectSound(plain(), seed % 2 ? randomGridWorld(seed) : randomPolygonWorld(seed), 400, seed, 2.0);
-}
-
-/** The curve of a motion is computed once; no sample of it is asked from the space, which would compute it anew. */
-TEST(SweptMotionValidator, AsksTheSpaceForNoSamples)
-{
-    const World world = randomPolygonWorld(11);
-    const auto space = std::make_shared<CountingSpace>(3.0056);
-    const Planar setup(space, world.obstacles, world.bounds);
-    ob::ScopedState<> a(setup.si), b(setup.si), last(setup.si);
-    Random random(11);
-    int valid = 0;
-    for (int i = 0; i < 500; ++i)
-    {
-        const Pose from = world.anywhere(random);
-        setPose(a.get(), from);
-        setPose(b.get(), compose(from, {random.between(-3.0, 3.0), random.between(-1.0, 1.0), 0.3}));
-        space->asked = 0;
-        valid += setup.validator->checkMotion(a.get(), b.get());
-        std::pair<ob::State *, double> lastValid{last.get(), 0.0};
-        setup.validator->checkMotion(a.get(), b.get(), lastValid);
-        ASSERT_EQ(space->asked, 0);
-    }
-    EXPECT_GT(valid, 50);
 }
 
 /** Not only sound: what is free with twice the tolerance to spare is accepted. */

@@ -64,7 +64,7 @@ namespace
                     fcl->isFree(pose),
                     footprint->isValid(a),
                     motion->checkMotion(a, b),
-                    circle->isFree(pose.x, pose.y),
+                    circle->circle().isFree(pose.x, pose.y),
                     checker.clearance(pose),
                     checker.freeLength(pose, 0.3, 2.0)};
         }

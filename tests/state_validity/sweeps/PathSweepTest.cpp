@@ -13,14 +13,6 @@ using parking_test::RandomParking;
 
 namespace
 {
-    Polygon box(double x, double y, double halfSize)
-    {
-        return {{x - halfSize, y - halfSize},
-                {x + halfSize, y - halfSize},
-                {x + halfSize, y + halfSize},
-                {x - halfSize, y + halfSize}};
-    }
-
     /** Arcs and clothoids, and here and there a turn on the spot. */
     Path anyPath(RandomParking &random, bool turns)
     {
@@ -97,7 +89,7 @@ TEST(PathSweep, AgreesWithDenseSampling)
             const Pose spot = compose(
                 near, {random.between(-2.0, 5.0),
                        (random.chance(0.5) ? 1.0 : -1.0) * (0.5 * car.width + random.between(-0.05, 0.6)), 0.0});
-            obstacles.push_back(box(spot.x, spot.y, random.between(0.01, 0.1)));
+            obstacles.push_back(parking_test::square(spot.x, spot.y, random.between(0.01, 0.1)));
         }
         const PolygonWorld world(car, obstacles);
         const FootprintChecker checker(ObstacleSet::fromPolygons(obstacles, Box{{-100.0, -100.0}, {100.0, 100.0}}),
@@ -137,14 +129,15 @@ TEST(PathSweep, APathThatPassesWithinAMillimetreTouchesNothing)
         double halfSize = 0.2, least = 0.0;
         for (int grown = 0; grown < 10; ++grown)
         {
-            least = leastClearance(path, PolygonWorld(car, {box(spot.x, spot.y, halfSize)}));
+            least = leastClearance(path, PolygonWorld(car, {parking_test::square(spot.x, spot.y, halfSize)}));
             if (std::abs(least - wanted) < 1e-4)
                 break;
             halfSize = std::max(1e-3, halfSize + (least < 0.0 ? -0.01 : 0.7 * (least - wanted)));
         }
-        least = leastClearance(path, PolygonWorld(car, {box(spot.x, spot.y, halfSize)}));
-        const FootprintChecker checker(
-            ObstacleSet::fromPolygons({box(spot.x, spot.y, halfSize)}, Box{{-100.0, -100.0}, {100.0, 100.0}}), car);
+        least = leastClearance(path, PolygonWorld(car, {parking_test::square(spot.x, spot.y, halfSize)}));
+        const FootprintChecker checker(ObstacleSet::fromPolygons({parking_test::square(spot.x, spot.y, halfSize)},
+                                                                 Box{{-100.0, -100.0}, {100.0, 100.0}}),
+                                       car);
         if (least < 0.0)
         {
             ++touched;
@@ -201,7 +194,7 @@ TEST(PathSweep, TheEndOfAPathCountsAndSoDoesItsOnlyPose)
 {
     const Vehicle car;
     const double front = car.wheelbase + car.frontOverhang;
-    const std::vector<Polygon> wall{box(front + 3.0, 0.0, 1.0)};
+    const std::vector<Polygon> wall{parking_test::square(front + 3.0, 0.0, 1.0)};
     const FootprintChecker checker(ObstacleSet::fromPolygons(wall, Box{{-20.0, -20.0}, {20.0, 20.0}}), car);
     EXPECT_TRUE(isPathFree(checker, {{}, {{0.0, 1.9}}}));
     EXPECT_FALSE(isPathFree(checker, {{}, {{0.0, 2.1}}}));

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "parking_geometry/Box.h"
 #include "parking_geometry/Pose.h"
 
 #include <cmath>
 
 namespace parking
 {
-    /** \brief A rectangle at a place in the local frame: centre, heading as cosine and sine, half lengths. */
+    /** \brief A rectangle at any angle: centre, heading as cosine and sine, half lengths. */
     struct OrientedBox
     {
         double x,           ///< of the centre, metres
@@ -15,6 +16,22 @@ namespace parking
             sine;           ///< of the heading
         double halfLength,  ///< metres from the centre to either end along the heading
             halfWidth;      ///< metres from the centre to either side
+
+        /** \brief A point as seen from the centre: metres along the heading and to the left of it. */
+        Eigen::Vector2d toFrame(const Eigen::Vector2d &point) const
+        {
+            const double dx = point.x() - x, dy = point.y() - y;
+            return {cosine * dx + sine * dy, cosine * dy - sine * dx};
+        }
+
+        /** \brief The axis-parallel box round it. */
+        Box bounds() const
+        {
+            const Eigen::Vector2d centre(x, y);
+            const Eigen::Vector2d reach(halfLength * std::abs(cosine) + halfWidth * std::abs(sine),
+                                        halfLength * std::abs(sine) + halfWidth * std::abs(cosine));
+            return {centre - reach, centre + reach};
+        }
     };
 
     /** \brief The body of a car whose rear axle is at \e pose. \param centreOffset of its middle ahead of the axle */
