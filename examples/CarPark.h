@@ -13,7 +13,7 @@
 
 namespace parking_examples
 {
-    /** \brief A Reeds-Shepp space of 30 m by 30 m round the origin, for a car by name. */
+    /** \brief A Reeds-Shepp space of 30 m by 30 m about the origin with the turning radius of \e car. */
     inline std::shared_ptr<ompl::base::ReedsSheppStateSpace> spaceFor(const parking::Vehicle &car)
     {
         auto space = std::make_shared<ompl::base::ReedsSheppStateSpace>(car.minTurningRadius());
@@ -24,7 +24,7 @@ namespace parking_examples
         return space;
     }
 
-    /** \brief Sets OMPL's state validity checker and motion validator for the obstacles. */
+    /** \brief Sets the state validity checker and the motion validator for \e car among \e obstacles. */
     inline void setObstacles(const ompl::base::SpaceInformationPtr &si, const parking::ObstacleSet &obstacles,
                              const parking::Vehicle &car)
     {
@@ -33,7 +33,7 @@ namespace parking_examples
         si->setup();
     }
 
-    /** \brief A state of the space: metres, and radians counter-clockwise from +x. */
+    /** \brief A state of \e space: x and y in metres, yaw in radians counter-clockwise from +x. */
     inline ompl::base::ScopedState<ompl::base::SE2StateSpace> state(const ompl::base::StateSpacePtr &space, double x,
                                                                     double y, double yaw)
     {

@@ -15,18 +15,17 @@
 
 namespace parking_examples
 {
-    /** \brief A length to the centimetre. */
+    /** \brief A length as text, rounded to centimetres. */
     inline std::string inMetres(double length)
     {
         return parking::formatNumber(std::round(100.0 * length) / 100.0) + " m";
     }
 
-    /** \brief A slot between parked cars, kerbs and walls, and the picture of a car that parks there: what the examples
-        have in common. */
+    /** \brief A slot between parked cars, kerbs and walls, and the figure of a car that parks there. */
     class StreetScene
     {
     public:
-        /** \brief An empty world of 40 m around the origin; the car parks from \e start in \e slot. */
+        /** \brief An empty world of 40 m by 40 m about the origin. The car parks from \e start in \e slot. */
         StreetScene(const parking::Vehicle &car, const parking::ParkingSlot &slot, const parking::Pose &start)
         {
             scenario_.vehicle = car;
@@ -36,7 +35,7 @@ namespace parking_examples
             scenario_.bounds = {{-20.0, -20.0}, {20.0, 20.0}};
         }
 
-        /** \brief Another car, which does not move, in the middle of \e slot. */
+        /** \brief Adds a parked car as an obstacle at the goal pose of \e slot. */
         void addParkedCar(const parking::ParkingSlot &slot, const std::string &name)
         {
             const parking::Vehicle car = parking::vehicleByName(name);
@@ -45,23 +44,23 @@ namespace parking_examples
             scenario_.polygons.emplace_back(corners.begin(), corners.end());
         }
 
-        /** \brief A kerb or a wall, from corner to corner. */
+        /** \brief Adds a kerb or a wall between two opposite corners. */
         void addWall(double minX, double minY, double maxX, double maxY)
         {
             scenario_.polygons.push_back({{minX, minY}, {maxX, minY}, {maxX, maxY}, {minX, maxY}});
         }
 
-        /** \brief What the planner is asked. */
+        /** \brief The planning problem. */
         const parking::Scenario &problem() const
         {
             return scenario_;
         }
 
-        /** \brief Map with the car along its way, and its curvature below. */
+        /** \brief Draws a map with the car along its path and a plot of its curvature. */
         void draw(const parking::ParkingPlan &plan, const std::string &title, const std::string &subtitle,
                   const std::string &file) const
         {
-            // Finely, since the curvature changes linearly between the states.
+            // Small steps, because the curvature changes linearly between the states.
             const parking::SampledPath path = plan.smooth.path.sample(0.02);
             parking::SvgMap map(parking::viewAround(scenario_, path, 2.0));
             parking::drawScenario(map, scenario_);

@@ -4,13 +4,13 @@
 
 namespace parking
 {
-    /** \brief An axis-parallel box in metres: the bounds of a world, an obstacle, what a drawing shows.
+    /** \brief An axis-parallel box in metres, for example the bounds of a world, an obstacle or the view of a drawing.
 
-        In which frame it lies is said where it is used. A rectangle at any angle is an OrientedBox. */
+        Each user documents the frame of its boxes. A rectangle at any angle is an OrientedBox. */
     struct Box
     {
-        Eigen::Vector2d min{0.0, 0.0};  ///< the lower left corner
-        Eigen::Vector2d max{0.0, 0.0};  ///< the upper right corner
+        Eigen::Vector2d min{0.0, 0.0};  ///< lower left corner
+        Eigen::Vector2d max{0.0, 0.0};  ///< upper right corner
 
         /** \brief Lengths along x and y in metres; negative where max lies below min. */
         Eigen::Vector2d size() const
@@ -18,19 +18,19 @@ namespace parking
             return max - min;
         }
 
-        /** \brief Does the point lie inside, or on the outline? */
+        /** \brief Whether the point lies inside or on the outline. */
         bool contains(double x, double y) const
         {
             return x >= min.x() && x <= max.x() && y >= min.y() && y <= max.y();
         }
 
-        /** \brief The point of the box that is nearest to the given one. */
+        /** \brief The point of the box nearest to \e point. */
         Eigen::Vector2d nearest(const Eigen::Vector2d &point) const
         {
             return point.cwiseMax(min).cwiseMin(max);
         }
 
-        /** \brief Grows until it contains the point. */
+        /** \brief Enlarges the box until it contains the point. */
         void include(const Eigen::Vector2d &point)
         {
             min = min.cwiseMin(point);

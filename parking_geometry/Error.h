@@ -6,13 +6,15 @@
 
 namespace parking
 {
-    /** \brief A bad value or file. The message is one line that names the file, line or field and says what would be
-        right; programs print it and exit with status 2. */
+    /** \brief The exception for an invalid value or file.
+
+        The message is one line. It names the file, line or field and states the valid values. Programs print it and
+        exit with status 2. */
     class Error : public std::runtime_error
     {
     public:
-        /** \brief An error that says \e message. Names from files may contain line ends and other control characters;
-            each becomes a '?'. */
+        /** \brief An error with this message. Each control character, such as a line end in a file name, becomes
+            '?'. */
         explicit Error(const std::string &message) : std::runtime_error(onOneLine(message))
         {
         }
@@ -27,16 +29,16 @@ namespace parking
         }
     };
 
-    /** \brief An Error about one field of a thing: readers of files look up by its name on which line it stands. */
+    /** \brief An Error about one field. Readers of files use its name to look up the line of the field. */
     class FieldError : public Error
     {
     public:
-        /** \brief An error that says \e message, about \e field. */
+        /** \brief An error with \e message about \e field. */
         FieldError(const std::string &message, std::string field) : Error(message), field_(std::move(field))
         {
         }
 
-        /** \brief What the message calls the field: the key of files, where there is one for it. */
+        /** \brief Name of the field as in the message: its key in files, if it has one. */
         const std::string &field() const
         {
             return field_;

@@ -8,29 +8,30 @@
 
 namespace parking
 {
-    /** \brief All that manoeuvres and smoothing ask about the world. Any of the callables may be left empty; with all
-        of them empty the world is free.
+    /** \brief Collision queries of manoeuvres and smoothing. Each callable may be empty; if all are, the world has no
+        obstacles.
 
-        They must agree with each other, be safe to call at any finite pose and give the same answer every time. */
+        The callables must agree with each other, accept every finite pose and return the same result at every call. */
     struct FootprintQueries
     {
-        /** \brief Does the body at this pose keep clear of every obstacle? Exact. */
+        /** \brief Whether the body at this pose touches no obstacle. The result must be exact. */
         std::function<bool(const Pose &)> isFree;
 
         /** \brief A lower bound, in metres, of the distance between the body at this pose and the nearest obstacle.
 
-            Every pose at which no point of the body has moved as far as this is free. 0 promises nothing: the body may
-            collide there or be too near to tell, and isFree decides (without isFree it counts as colliding). */
+            A pose is free if no point of the body has moved as far as this bound. With 0 the bound is no evidence:
+            isFree decides, and without isFree the pose counts as colliding. */
         std::function<double(const Pose &)> clearance;
 
-        /** \brief Is the whole motion free? Takes precedence over the other two where whole paths are checked. */
+        /** \brief Whether the whole motion is free. Checks of whole paths use only this callable if it is set. */
         std::function<bool(const Path &)> isPathFree;
     };
 
-    /** \brief Is every motion along \e path free, turns on the spot included?
+    /** \brief Whether every motion along \e path is free, including turns on the spot.
 
-        Asks isPathFree when there is one. Otherwise each piece is covered by poses on it: with clearance, until what
-        they promise to be free overlaps, down to motions of the body of 5 mm, below which the ends decide; with isFree
-        alone, by its ends and poses at most 10 cm apart. */
+        Calls isPathFree if it is set. Otherwise the function checks poses along each piece:
+        - With clearance, it halves the piece until the free regions of neighbouring poses overlap. Motions of the body
+          below 5 mm are decided by their ends.
+        - With isFree alone, it checks the ends and poses at most 10 cm apart. */
     bool isPathFree(const FootprintQueries &queries, const Vehicle &vehicle, const Path &path);
 }  // namespace parking

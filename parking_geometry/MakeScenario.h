@@ -8,31 +8,34 @@
 
 namespace parking
 {
-    /** \brief How far from the start anything of a scenario may lie, in metres. Farther away coordinates are mixed up,
-        and a planner would drown in the empty space between. */
+    /** \brief Largest distance of goals and obstacles from the start, in metres. Larger distances indicate mixed
+        coordinate systems and exceed what a planner can search. */
     constexpr double WORLD_REACH = 1e5;
 
-    /** \brief A part of a scenario that may be wrong. */
+    /** \brief The part of a scenario that an error concerns. */
     enum class ScenarioPart
     {
-        Start,   ///< where the car stands
-        Goal,    ///< or the slot that it follows from
-        Map,     ///< the grid
-        Outline  ///< one of the polygons, by its index
+        Start,   ///< the start pose
+        Goal,    ///< the goal, or the slot that determines it
+        Map,     ///< the occupancy grid
+        Outline  ///< one of the polygons, given by its index
     };
 
-    /** \brief Says where a part of a scenario stands, as "file:line"; the index is that of a polygon. */
+    /** \brief Returns the place of a part of a scenario as "file:line". \e index selects the polygon of an outline. */
     using PlaceOfPart = std::function<std::string(ScenarioPart part, std::size_t index)>;
 
-    /** \brief What all scenarios have in common once their parts are local: checks the start (its coordinates in the
-        world up to FARTHEST_COORDINATE), the outlines and the reach of the world, and sets the bounds. Throws
-        parking::Error naming \e source, or the place of the part that is wrong where \e placeOf is given. */
+    /** \brief Validates a scenario in local coordinates and sets its bounds.
+
+        Checks the start, the outlines and the extent of the world. World coordinates of the start may be up to
+        FARTHEST_COORDINATE.
+        Throws parking::Error naming \e source or, if \e placeOf is given, the place of the invalid part. */
     void completeScenario(Scenario &scenario, const std::string &source, const PlaceOfPart &placeOf = {});
 
-    /** \brief A scenario from parts in world coordinates, without a file: what the readers do with theirs.
+    /** \brief Makes a valid scenario from parts in world coordinates, as the file readers do.
 
-        \param scenario vehicle, start, either goals or a slot, either polygons or a grid; worldOffset and bounds are
-       set here, goals too where a slot is given \param source what messages call it, a file for example Throws
-       parking::Error naming the part and the value that is wrong. */
+        \param scenario vehicle, start, either goals or a slot, either polygons or a grid. The function sets
+        worldOffset, bounds and, for a slot, the goals.
+        \param source name of the scenario in messages, for example its file
+        Throws parking::Error naming the invalid part and its value. */
     Scenario makeScenario(Scenario scenario, const std::string &source);
 }  // namespace parking

@@ -10,29 +10,29 @@
 
 namespace parking
 {
-    /** \brief What a map says of a cell. A map that says nothing of it (Unknown) will never say more. */
+    /** \brief Occupancy of a cell in a map. */
     enum class Cell : std::uint8_t
     {
-        Free = 0,      ///< no obstacle in it
-        Occupied = 1,  ///< an obstacle, as large as the cell
-        Unknown = 2    ///< nothing was seen of it: an obstacle or not, as the user says
+        Free = 0,      ///< contains no obstacle
+        Occupied = 1,  ///< the whole cell is an obstacle
+        Unknown = 2    ///< not observed; an option of the user decides whether it is an obstacle
     };
 
     /** \brief A map of square cells.
 
-        Cell (0, 0) is the lower left one; column i covers x in [i, i + 1] * resolution and row j likewise in the frame
-        \e origin (the pose of the lower left corner of the map, yaw included). Outside of the map nothing is known;
-        checkers treat it as occupied. */
+        The frame \e origin is the pose of the lower left corner of the map, including its yaw. In this frame cell (i,
+        j) covers x in [i, i + 1] * resolution and y in [j, j + 1] * resolution. Checkers treat the outside of the map
+        as occupied. */
     class OccupancyGrid
     {
     public:
-        /** \brief An empty grid of no cells: usable only to be assigned to. */
+        /** \brief A grid without cells. Assign another grid before use. */
         OccupancyGrid() = default;
 
-        /** \brief A grid with every cell \e fill.
+        /** \brief A grid whose cells all have the value \e fill.
 
-            Throws parking::Error when a side is zero, the resolution is not a positive finite number, the origin is not
-            finite or the map would have more than 2^31 cells. */
+            Throws parking::Error if a side is zero, the resolution is not positive, a value is not finite or there are
+            more than 2^31 cells. */
         OccupancyGrid(std::size_t width, std::size_t height, double resolution, const Pose &origin = {},
                       Cell fill = Cell::Free);
 
@@ -59,19 +59,19 @@ namespace parking
             return origin_;
         }
 
-        /** \brief Moves the map; the cells stay as they are. The pose must be finite, which is not checked. */
+        /** \brief Moves the map without changing its cells. \param origin finite; not checked */
         void setOrigin(const Pose &origin)
         {
             origin_ = origin;
         }
 
-        /** \brief What is known of a cell, which must lie in the map: that is not checked. */
+        /** \brief Occupancy of a cell. The indices must lie in the map, which is not checked. */
         Cell at(std::size_t column, std::size_t row) const
         {
             return cells_[row * width_ + column];
         }
 
-        /** \brief Changes a cell, which must lie in the map: that is not checked. */
+        /** \brief Sets a cell. The indices must lie in the map, which is not checked. */
         void set(std::size_t column, std::size_t row, Cell cell)
         {
             cells_[row * width_ + column] = cell;
@@ -83,7 +83,7 @@ namespace parking
             return cells_;
         }
 
-        /** \brief The four corners of the map in the frame that the origin is given in, counter-clockwise. */
+        /** \brief Corners of the map, counter-clockwise, in the frame in which the origin is given. */
         std::vector<Eigen::Vector2d> outline() const;
 
     private:

@@ -10,21 +10,21 @@ namespace parking
     /** \brief A rectangle at any angle: centre, heading as cosine and sine, half lengths. */
     struct OrientedBox
     {
-        double x,           ///< of the centre, metres
-            y;              ///< of the centre, metres
-        double cosine,      ///< of the heading
-            sine;           ///< of the heading
+        double x,           ///< x of the centre, metres
+            y;              ///< y of the centre, metres
+        double cosine,      ///< cosine of the heading
+            sine;           ///< sine of the heading
         double halfLength,  ///< metres from the centre to either end along the heading
             halfWidth;      ///< metres from the centre to either side
 
-        /** \brief A point as seen from the centre: metres along the heading and to the left of it. */
+        /** \brief A point in the frame of the box: metres along the heading and to its left. */
         Eigen::Vector2d toFrame(const Eigen::Vector2d &point) const
         {
             const double dx = point.x() - x, dy = point.y() - y;
             return {cosine * dx + sine * dy, cosine * dy - sine * dx};
         }
 
-        /** \brief The axis-parallel box round it. */
+        /** \brief The axis-parallel bounding box. */
         Box bounds() const
         {
             const Eigen::Vector2d centre(x, y);
@@ -34,7 +34,8 @@ namespace parking
         }
     };
 
-    /** \brief The body of a car whose rear axle is at \e pose. \param centreOffset of its middle ahead of the axle */
+    /** \brief The body of a car whose rear axle is at \e pose. \param centreOffset metres from the axle to the centre
+        of the body */
     inline OrientedBox bodyAt(const Pose &pose, double centreOffset, double halfLength, double halfWidth)
     {
         const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);

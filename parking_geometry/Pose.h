@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-/** \brief Everything of this project but the planner's own class, ompl::geometric::ImprovedAStar.
+/** \brief All code of this project except the planner class ompl::geometric::ImprovedAStar.
 
-    Units are metres, radians, seconds and what follows from them, unless a name says otherwise. */
+    Units are metres, radians and seconds and their combinations unless a name or comment states another unit. */
 namespace parking
 {
     /** \brief Half the circumference of the unit circle. */
     constexpr double PI = 3.14159265358979323846;
 
-    /** \brief An angle brought into [-pi, pi]. \param angle radians, finite. */
+    /** \brief The equivalent angle in [-pi, pi]. \param angle radians, finite */
     inline double wrapAngle(double angle)
     {
-        // The same as the remainder, which takes longer: within three half turns the difference is exact.
+        // Faster than the remainder and equal to it: within three half turns the difference is exact.
         if (angle > PI && angle < 3.0 * PI)
             return angle - 2.0 * PI;
         if (angle < -PI && angle > -3.0 * PI)
@@ -23,8 +23,7 @@ namespace parking
 
     /** \brief A pose of the car in the plane: the midpoint of its rear axle and its heading.
 
-        Metres and radians; yaw counter-clockwise from +x. Everything in this project that speaks of a pose of the car
-        means this point, never the centre of the body. */
+        Every pose of a car in this project refers to this point, not to the centre of the body. */
     struct Pose
     {
         double x{0.0};    ///< metres
@@ -32,12 +31,13 @@ namespace parking
         double yaw{0.0};  ///< radians, counter-clockwise from +x
     };
 
-    /** \brief Coordinates of scenarios and slots that are larger in magnitude are refused, metres: beyond this two
-        neighbouring doubles are more than 2 micrometres apart, and what is found in exact numbers nearby (everything is
-        computed relative to the start) is no longer exact where it lies. */
+    /** \brief Largest magnitude of coordinates of scenarios and slots, in metres.
+
+        All computations are relative to the start. Beyond this magnitude neighbouring doubles are more than 2
+        micrometres apart, so results would lose their accuracy when they are moved back. */
     constexpr double FARTHEST_COORDINATE = 1e10;
 
-    /** \brief Are all three numbers finite? */
+    /** \brief Whether all three coordinates are finite. */
     inline bool isFinite(const Pose &pose)
     {
         return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
@@ -49,14 +49,14 @@ namespace parking
         return std::hypot(a.x - b.x, a.y - b.y);
     }
 
-    /** \brief Are the positions no farther apart than \e tolerance metres, and the headings than \e tolerance radians?
-        Full turns between the headings do not count. */
+    /** \brief Whether the positions differ by at most \e tolerance metres and the headings by at most \e tolerance
+        radians, modulo full turns. */
     inline bool isSamePose(const Pose &a, const Pose &b, double tolerance)
     {
         return positionDistance(a, b) <= tolerance && std::abs(wrapAngle(a.yaw - b.yaw)) <= tolerance;
     }
 
-    /** \brief The pose \e local, given in the frame \e frame, expressed in the frame that \e frame is given in. */
+    /** \brief Expresses the pose \e local, given in the frame \e frame, in the parent frame of \e frame. */
     inline Pose compose(const Pose &frame, const Pose &local)
     {
         const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
@@ -64,7 +64,7 @@ namespace parking
                 wrapAngle(frame.yaw + local.yaw)};
     }
 
-    /** \brief The pose \e pose expressed in the frame \e frame (inverse of compose). */
+    /** \brief Expresses \e pose in the frame \e frame; the inverse of compose(). */
     inline Pose relativeTo(const Pose &frame, const Pose &pose)
     {
         const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
@@ -72,14 +72,14 @@ namespace parking
         return {c * dx + s * dy, -s * dx + c * dy, wrapAngle(pose.yaw - frame.yaw)};
     }
 
-    /** \brief Where the car is after driving \e distance along a circular arc: exact, also for the straight line.
+    /** \brief Pose after driving \e distance along a circular arc or a straight line. The result is exact up to
+        rounding and its yaw is not wrapped, so long arcs keep their number of turns.
 
         \param curvature 1/m, positive to the left
-        \param distance metres along the arc, negative in reverse
-        The yaw of the result is not wrapped, so that long arcs keep count of their turns. */
+        \param distance metres along the arc, negative in reverse */
     inline Pose advance(const Pose &pose, double curvature, double distance)
     {
-        // Half-angle form: no cancellation for small curvature, one formula for arcs and lines.
+        // The half-angle form avoids cancellation for small curvatures and covers arcs and lines.
         const double half = 0.5 * curvature * distance;
         const double chord =
             std::abs(half) < 1e-6 ? distance * (1.0 - half * half / 6.0) : distance * std::sin(half) / half;

@@ -17,25 +17,25 @@ namespace parking
 {
     /** \brief A parking problem: obstacles, a car, its start and its goals.
 
-        All coordinates are local: metres relative to \e worldOffset, which readers choose so that numbers near the
-        problem are small (some cases sit at 4e9 m, where a double resolves a micrometre only). A world coordinate is
-        the local one plus worldOffset; yaw is the same in both.
+        All coordinates are local: metres relative to \e worldOffset. Readers choose the offset so that coordinates near
+        the problem are small. Some cases lie at 4e9 m, where a double resolves only a micrometre. A world coordinate is
+        the local one plus worldOffset. The yaw is the same in both.
 
-        The world is either polygons in a bounded box, or a grid. The car may not leave \e bounds, or the grid, with any
-        part of its body. */
+        The world consists of either polygons in a bounded box or a grid. No part of the car's body may leave \e bounds
+        or the grid. */
     struct Scenario
     {
-        std::string name;                       ///< for titles and results
-        Vehicle vehicle;                        ///< the car that shall park
-        Pose start;                             ///< where the car stands, local
-        std::vector<Pose> goals;                ///< at least one; several when the slot may be entered either way
-        std::optional<ParkingSlot> slot;        ///< present when the file described a slot
+        std::string name;                       ///< name in titles and results
+        Vehicle vehicle;                        ///< the car to park
+        Pose start;                             ///< start pose, local
+        std::vector<Pose> goals;                ///< local goals, at least one; several if the slot has several entries
+        std::optional<ParkingSlot> slot;        ///< the slot, if the file describes one
         std::vector<Polygon> polygons;          ///< obstacles of a polygon world
         std::optional<OccupancyGrid> grid;      ///< obstacles of a grid world
-        bool unknownIsOccupied{true};           ///< how unknown cells of the grid count
-        Box bounds;                             ///< local; for a grid world the box round the map
-        Eigen::Vector2d worldOffset{0.0, 0.0};  ///< metres; where the local origin lies in the coordinates of the file
-        std::vector<std::string> files;         ///< all that it was read from: itself, its map and image, its car
+        bool unknownIsOccupied{true};           ///< whether unknown cells of the grid are obstacles
+        Box bounds;                             ///< local bounds of the world; for a grid, the bounding box of the map
+        Eigen::Vector2d worldOffset{0.0, 0.0};  ///< local origin in the coordinates of the file, metres
+        std::vector<std::string> files;         ///< all files that were read: scenario, map, image, vehicle
 
         /** \brief Expresses a local pose in the coordinates of the file. */
         Pose toWorld(const Pose &local) const
@@ -44,6 +44,6 @@ namespace parking
         }
     };
 
-    /** \brief How far the free world of a polygon scenario reaches beyond start, goals and obstacles, in metres. */
+    /** \brief Margin between the bounds of a polygon scenario and its start, goals and obstacles, in metres. */
     constexpr double POLYGON_WORLD_MARGIN = 10.0;
 }  // namespace parking

@@ -11,77 +11,79 @@
 
 namespace parking
 {
-    /** \brief A car: its rectangle round the rear axle and the limits of its steering and drive.
+    /** \brief A car: its rectangular body relative to the rear axle and the limits of its steering and drive.
 
-        Lengths in metres, angles in radians, SI units for the limits. The defaults are the car of the Trajectory
-        Planning Competition of Automated Parking (TPCAP). */
+        Units are metres, radians and seconds. The defaults describe the car of the Trajectory Planning Competition of
+        Automated Parking (TPCAP). */
     struct Vehicle
     {
-        static constexpr double LEAST_LIMIT = 0.02;      ///< m/s, m/s^2 and rad/s that a car's limits are at least
-        static constexpr double GREATEST_LIMIT = 100.0;  ///< and at most
+        static constexpr double LEAST_LIMIT = 0.02;  ///< lowest maximum of speed, acceleration and steering rate, SI
+        static constexpr double GREATEST_LIMIT =
+            100.0;  ///< highest maximum of speed, acceleration and steering rate, SI
 
-        std::string name{"tpcap"};      ///< for results; one of vehicleNames() or of the user's own
-        double wheelbase{2.8};          ///< rear axle to front axle
-        double frontOverhang{0.96};     ///< front axle to front bumper
-        double rearOverhang{0.929};     ///< rear axle to rear bumper
-        double width{1.942};            ///< of the body
-        double maxSteeringAngle{0.75};  ///< mean angle of the front wheels
-        double maxSpeed{2.5};           ///< m/s, either direction
-        double maxAcceleration{1.0};    ///< m/s^2, either sign
-        double maxSteeringRate{0.5};    ///< rad/s
+        std::string name{"tpcap"};      ///< name in results, from vehicleNames() or chosen by the user
+        double wheelbase{2.8};          ///< distance from the rear to the front axle, metres
+        double frontOverhang{0.96};     ///< distance from the front axle to the front bumper, metres
+        double rearOverhang{0.929};     ///< distance from the rear axle to the rear bumper, metres
+        double width{1.942};            ///< width of the body, metres
+        double maxSteeringAngle{0.75};  ///< largest mean angle of the front wheels, radians
+        double maxSpeed{2.5};           ///< largest speed in either direction, m/s
+        double maxAcceleration{1.0};    ///< largest acceleration and deceleration, m/s^2
+        double maxSteeringRate{0.5};    ///< largest rate of the steering angle, rad/s
 
-        /** \brief Bumper to bumper. */
+        /** \brief Length of the body from bumper to bumper, metres. */
         double length() const
         {
             return rearOverhang + wheelbase + frontOverhang;
         }
 
-        /** \brief How far the middle of the body lies ahead of the rear axle. */
+        /** \brief Distance from the rear axle forward to the centre of the body, metres. */
         double centreOffset() const
         {
             return 0.5 * length() - rearOverhang;
         }
 
-        /** \brief Radius of the largest circle round the rear axle's midpoint that lies within the body, enlarged by
-            \e margin (metres) on each side: no obstacle can be nearer to the axle than this. */
+        /** \brief Radius of the largest circle about the rear axle's midpoint within the body, enlarged by \e margin
+            metres on each side. No obstacle can be nearer to this point. */
         double inscribedRadius(double margin = 0.0) const
         {
             return margin + std::min({0.5 * width, rearOverhang, wheelbase + frontOverhang});
         }
 
-        /** \brief Radius of the largest circle that lies within the body wherever its centre is, enlarged likewise: no
-            gap that the car drives through is narrower than twice this. */
+        /** \brief Radius of the largest circle within the body, enlarged by \e margin metres on each side. Every gap
+            that the car passes is at least twice as wide. */
         double bodyRadius(double margin = 0.0) const
         {
             return margin + 0.5 * std::min(width, length());
         }
 
-        /** \brief Width of the lane that the body, enlarged likewise, covers while it drives in a circle at full lock.
-         */
+        /** \brief Width of the annulus that the body, enlarged by \e margin metres on each side, sweeps at full
+            lock. */
         double turningLane(double margin = 0.0) const;
 
-        /** \brief Of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle). */
+        /** \brief Smallest turning radius of the rear axle's midpoint: wheelbase / tan(maxSteeringAngle), metres. */
         double minTurningRadius() const;
 
-        /** \brief Curvature that a steering angle gives, tan(angle) / wheelbase. */
+        /** \brief Curvature for a steering angle, tan(angle) / wheelbase, in 1/m. */
         double curvature(double steeringAngle) const;
 
-        /** \brief Steering angle that a curvature needs. */
+        /** \brief Steering angle for a curvature, radians. */
         double steeringAngle(double curvature) const;
 
-        /** \brief Corners of the body at \e pose: rear right, front right, front left, rear left
-            (counter-clockwise). */
+        /** \brief Corners of the body at \e pose, counter-clockwise: rear right, front right, front left, rear left. */
         std::array<Eigen::Vector2d, 4> footprint(const Pose &pose) const;
 
-        /** \brief Throws parking::Error naming the first field that is not finite or out of its range: lengths up to
-            50 m, wheelbase and width from 1 cm, a turning radius of 1 cm to 1 km, speed, acceleration and steering rate
-            from LEAST_LIMIT to GREATEST_LIMIT. */
+        /** \brief Throws parking::Error naming the first field that is not finite or out of range.
+
+            Lengths may be up to 50 m, wheelbase and width must be at least 1 cm. The turning radius must be 1 cm to 1
+            km. Speed, acceleration and steering rate must be from LEAST_LIMIT to GREATEST_LIMIT. */
         void validate() const;
     };
 
-    /** \brief A car known by name (see vehicleNames()). Throws parking::Error listing the known names otherwise. */
+    /** \brief The car of this name, one of vehicleNames(). Throws parking::Error listing the known names for any other
+        name. */
     Vehicle vehicleByName(const std::string &name);
 
-    /** \brief The names that vehicleByName() knows. */
+    /** \brief Names that vehicleByName() accepts. */
     std::vector<std::string> vehicleNames();
 }  // namespace parking

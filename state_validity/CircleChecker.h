@@ -6,28 +6,30 @@
 
 namespace parking
 {
-    /** \brief Is a circle free of obstacles, and how far is it from them? The paper's model of the car (section
-        "Introducing Vehicle Volume").
+    /** \brief Collision test and clearance of a circle, the paper's model of the car (section "Introducing Vehicle
+        Volume").
 
-        Exact on occupancy grids and among polygons alike: the distance field decides where it can, the distance to the
-        obstacles' edges elsewhere. Const calls from several threads are safe. */
+        The results are exact for grids and polygons. The distance field decides clear cases, the distance to the
+        obstacles' edges the others. Const calls from several threads are safe. */
     class CircleChecker
     {
     public:
-        /** \brief \param radius metres, positive; otherwise parking::Error */
+        /** \brief A checker for a circle of this radius. Throws parking::Error unless \e radius (metres) is
+            positive. */
         CircleChecker(ObstacleSet obstacles, double radius);
 
-        /** \brief Is the circle round (x, y), in the coordinates of the obstacle set, free? False where x or y is not
-            finite. */
+        /** \brief Whether the circle about (x, y), in the coordinates of the obstacle set, touches no obstacle. False
+            if x or y is not finite. */
         bool isFree(double x, double y) const;
 
-        /** \brief The distance between the circle and the nearest obstacle; 0 when they touch. Exact up to a metre, a
-            lower bound beyond. */
+        /** \brief Distance in metres between the circle and the nearest obstacle; 0 if they touch. The result is exact
+            up to a metre and a lower bound beyond. */
         double clearance(double x, double y) const;
 
-        /** \brief How much of the straight line between two points the circle can go along: 1 when all of it, otherwise
-            the share up to where it comes nearer than a millimetre, or than it is at the start if that is less. The
-            first point is taken to be free. */
+        /** \brief Share of the straight line between two points along which the circle is free, 1 for the whole line.
+
+            If an obstacle is near, the share ends where the distance to an obstacle falls below a millimetre, or below
+            the distance at the start if that is smaller. The circle at \e from must be free. */
         double freeShare(const Pose &from, const Pose &to) const;
 
     private:

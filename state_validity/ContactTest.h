@@ -7,12 +7,13 @@
 
 namespace parking
 {
-    /** \brief Does a body, in the local frame, touch an obstacle? Asked from several threads at once. */
+    /** \brief Returns whether a body, given in the local frame, touches an obstacle. It must be safe to call from
+        several threads. */
     using ContactTest = std::function<bool(const OrientedBox &body)>;
 
-    /** \brief Makes the contact test for a world and for bodies of one size, given by its half lengths in metres.
+    /** \brief Makes the contact test for a world and bodies of one size, given by half lengths in metres.
 
-        May throw parking::Error. fclContactTest() is the one that this project brings. */
+        It may throw parking::Error. This project provides fclContactTest(). */
     using ContactTestMaker =
         std::function<ContactTest(const ObstacleSet &obstacles, double halfLength, double halfWidth)>;
 }  // namespace parking

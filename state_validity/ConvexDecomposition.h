@@ -8,10 +8,10 @@ namespace parking
 {
     /** \brief Cuts a simple counter-clockwise polygon into convex counter-clockwise pieces that cover it exactly.
 
-        Ears are clipped (G. H. Meisters, "Polygons have ears", 1975) and triangles joined again across every diagonal
-        that leaves the result convex (S. Hertel and K. Mehlhorn, 1983), at most four times the smallest number of
-        pieces. Pieces of no area are dropped.
+        The function clips ears (G. H. Meisters, "Polygons have ears", 1975). It then joins triangles across every
+        diagonal that leaves the result convex (S. Hertel and K. Mehlhorn, 1983). The number of pieces is at most four
+        times the minimum. Pieces without area are dropped.
 
-        Throws parking::Error when the outline crosses itself. */
+        Throws parking::Error if the outline crosses itself. */
     std::vector<Polygon> convexPieces(const Polygon &polygon);
 }  // namespace parking

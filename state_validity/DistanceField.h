@@ -24,23 +24,24 @@ namespace parking
 
             value - side * sqrt(2)  <=  distance(q, obstacles)  <=  value + side * sqrt(2),
 
-        the upper bound since a blocked cell holds at least one obstacle point. In a grid world, whose cells may be a
-        metre wide, a blocked cell is an obstacle as a whole, and with it the circle round b of half a side, so that
+        The upper bound holds because a blocked cell contains at least one obstacle point. In a grid world, whose cells
+        may be a metre wide, every blocked cell is entirely an obstacle. It contains the circle about b with a radius of
+        half a side, so
 
             distance(q, obstacles)  <=  value + |q - c| - side / 2.
 
-        Cells that lie entirely inside of an obstacle are marked, so that a point deep inside of a large obstacle is
-        known to be blocked. The outside of the bounds is an obstacle; points there have distance zero.
+        The field marks cells that lie entirely inside of an obstacle, so it proves that a point deep inside of a large
+        obstacle is blocked. The outside of the bounds is an obstacle; points there have distance zero.
 
-        Immutable after construction, so const calls from several threads are safe. */
+        An object is immutable after construction. Const calls from several threads are safe. */
     class DistanceField
     {
     public:
-        /** \brief The field of \e obstacles.
+        /** \brief Computes the field of \e obstacles.
 
-            \param resolution side of a cell in metres for polygon worlds; 0 chooses one. Grid worlds use their own
-            cells. Throws parking::Error when the resolution is negative, not finite, or would need more than 2^28
-            cells. */
+            \param resolution side of a cell in metres for polygon worlds; 0 selects it automatically. Grid worlds use
+            their own cells.
+            Throws parking::Error if the resolution is negative, not finite or would require more than 2^28 cells. */
         explicit DistanceField(const ObstacleSet &obstacles, double resolution = 0.0);
 
         /** \brief Side of a cell in metres. */
@@ -49,69 +50,70 @@ namespace parking
             return resolution_;
         }
 
-        /** \brief How far lowerBound() and upperBound() are from the value of the cell, in metres. */
+        /** \brief Distance of lowerBound() and upperBound() from the value of the cell, in metres. */
         double errorBound() const
         {
             return error_;
         }
 
-        /** \brief Never more than the distance from the local point to the nearest obstacle; 0 when it may be blocked.
-            Points that are not finite give 0. */
+        /** \brief Lower bound of the distance from the local point to the nearest obstacle; 0 if the point may be
+            blocked or is not finite. */
         double lowerBound(double x, double y) const
         {
             return lowerBoundOf(valueAt(x, y));
         }
 
-        /** \brief Never less than the distance from the local point to the nearest obstacle; 0 when it is surely inside
-            of one. */
+        /** \brief Upper bound of the distance from the local point to the nearest obstacle; 0 if the point is certainly
+            inside of one. */
         double upperBound(double x, double y) const
         {
             return upperBoundOf(valueAt(x, y));
         }
 
-        /** \brief upperBound(), in a grid world closer by up to two sides, at the price of a square root. */
+        /** \brief An upper bound that in grid worlds is tighter than upperBound() by up to two sides, at the cost of a
+            square root. */
         double closeUpperBound(double x, double y) const
         {
             const double value = valueAt(x, y);
             if (value < 0.0 || !isGrid_)
                 return upperBoundOf(value);
             const double u = (x - origin_.x()) * inverse_, v = (y - origin_.y()) * inverse_;
-            // Neither is negative here, and a conversion is cheaper than std::floor.
+            // Neither is negative, and a conversion is faster than std::floor.
             const double du = u - static_cast<double>(static_cast<std::ptrdiff_t>(u)) - 0.5,
                          dv = v - static_cast<double>(static_cast<std::ptrdiff_t>(v)) - 0.5;
             return value * (1.0 + ROUNDING) + (std::sqrt(du * du + dv * dv) - INSCRIBED) * resolution_;
         }
 
-        /** \brief Between what the distance from a point to the nearest obstacle lies, in metres. */
+        /** \brief Bounds of the distance from a point to the nearest obstacle, in metres. */
         struct Bounds
         {
-            double lower;  ///< never more than the distance
-            double upper;  ///< never less
+            double lower;  ///< lower bound of the distance
+            double upper;  ///< upper bound of the distance
         };
 
-        /** \brief lowerBound() and upperBound() of the local point, at the price of one. */
+        /** \brief lowerBound() and upperBound() of the local point at the cost of one. */
         Bounds bounds(double x, double y) const
         {
             const double value = valueAt(x, y);
             return {lowerBoundOf(value), upperBoundOf(value)};
         }
 
-        /** \brief Is the local point surely inside of an obstacle, or outside of the bounds? */
+        /** \brief Whether the local point is certainly inside of an obstacle or outside of the bounds. */
         bool isInside(double x, double y) const
         {
             return valueAt(x, y) < 0.0;
         }
 
-        /** \brief Does no obstacle touch the cell of the local point? */
+        /** \brief Whether no obstacle touches the cell of the local point. */
         bool isOutside(double x, double y) const
         {
             return valueAt(x, y) > 0.0;
         }
 
     private:
-        /** Relative error of a float, twice over. */
+        /** Twice the relative error of a float. */
         static constexpr double ROUNDING = 1.2e-7;
-        /** Radius of a circle inside of a cell, in sides: a hair less than half, for rounding. */
+        /** Radius of a circle inside of a cell, in sides: slightly less than half because of rounding. */
         static constexpr double INSCRIBED = 0.5 * (1.0 - 1e-5);
 
         double lowerBoundOf(double value) const
@@ -131,7 +133,7 @@ namespace parking
             // Written so that NaN takes the branch.
             if (!(u >= 0.0 && v >= 0.0 && u < width_ && v < height_))
                 return -1.0;
-            // Signed: doubles become such in one instruction.
+            // A double becomes a signed integer in one instruction.
             return values_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(v)) * columns_ +
                            static_cast<std::size_t>(static_cast<std::ptrdiff_t>(u))];
         }
@@ -140,11 +142,11 @@ namespace parking
 
         std::size_t columns_{0};
         std::size_t rows_{0};
-        double width_{0.0}, height_{0.0};  // columns and rows once more, to compare with
+        double width_{0.0}, height_{0.0};  // columns and rows as doubles, for comparisons
         double resolution_{1.0};
         double inverse_{1.0};
         double error_{0.0};
-        bool isGrid_{false};  // blocked cells are obstacles as a whole
+        bool isGrid_{false};  // whether a blocked cell is entirely an obstacle
         Eigen::Vector2d origin_{0.0, 0.0};
         std::vector<float> values_;
     };

@@ -13,61 +13,66 @@
 
 namespace parking
 {
-    /** \brief The edges of all obstacles, found quickly near a point, and how far an oriented box is from them.
+    /** \brief A spatial index of the edges of all obstacles, with distances between them and an oriented box.
 
-        The world is cut into square cells, and edges at the borders between cells; edges of a cell that lie together
-        form blocks of eight with a box round them, so that most blocks are passed over whole. Smaller squares, the
-        buckets, have lists of the blocks within \e reach of any of their points, so one list answers a query whole.
-        Blocks and lists are made lazily: their cost grows with the area that is searched, not with the
-        map. Safe for const calls from several threads. */
+        The index divides the world into square cells and cuts edges at the borders. Adjacent edges of a cell form
+        blocks of eight with a bounding box, so a query skips most blocks. Smaller squares, the buckets, list all blocks
+        within \e reach of any of their points, so a query requires only one list.
+
+        The index computes blocks and lists lazily. Their cost grows with the searched area, not with the map. Const
+        calls from several threads are safe. */
     class EdgeIndex
     {
     public:
-        /** \brief \param reach metres, positive: how far from the queried point edges matter. */
+        /** \brief An index of \e edges.
+
+            \param bounds area of the world
+            \param reach largest distance in metres from the query point to a relevant edge, positive */
         EdgeIndex(const std::vector<Edge> &edges, const Box &bounds, double reach);
         ~EdgeIndex();
         EdgeIndex(const EdgeIndex &) = delete;
         EdgeIndex &operator=(const EdgeIndex &) = delete;
 
-        /** \brief How far from a queried point edges matter, in metres. */
+        /** \brief Largest distance in metres from the query point to a relevant edge. */
         double reach() const
         {
             return reach_;
         }
 
-        /** \brief The smallest separation of the box and the edges within reach of its centre.
+        /** \brief Smallest separation in metres of the box and the edges within reach of its centre; infinite without
+            edges.
 
-            Per piece of an edge this is the largest gap along the axes of the box and the edge's normal (separating
-           axes): positive when apart, and then never more than their distance (equal to it unless corner faces corner);
-           negative when they cross, by how much they would have to be moved along the best of those axes. Infinite
-           without edges.
+            For a piece of an edge, the separation is the largest gap along the axes of the box and the edge's normal
+            (separating axes). A positive value is a lower bound of the distance, and equal to it unless corner faces
+            corner. A negative value is the displacement along the best axis that would separate the two.
 
-            \param ignored separations of at least this need not be told apart: when all are, the result is some number
-            that is at least this */
+            \param ignored if all separations are at least this value, the result is any value of at least \e ignored */
         double separation(const OrientedBox &box, double ignored = std::numeric_limits<double>::infinity()) const;
 
-        /** \brief Is separation() at least \e least? */
+        /** \brief Whether separation() is at least \e least. */
         bool isSeparate(const OrientedBox &box, double least) const;
 
-        /** \brief Whether the smallest separation is above \e band (1), below minus \e band (-1), or between (0). */
+        /** \brief Sign of the separation: 1 if it is above \e band, -1 if it is below minus \e band, otherwise 0. */
         int side(const OrientedBox &box, double band) const;
 
-        /** \brief The exact distance between the box's outline or interior and the nearest edge; 0 when they cross.
-            Infinite when no edge is within reach. */
+        /** \brief Exact distance in metres between the solid box and the nearest edge; 0 if they touch, infinite if no
+            edge is within reach. */
         double distance(const OrientedBox &box) const;
 
-        /** \brief The distance to the nearest of all edges, however far: looks farther and farther out, and gathers no
-            list. */
+        /** \brief Exact distance in metres between the solid box and the nearest edge at any distance. Searches rings
+            of growing size and builds no list. */
         double distanceToAll(const OrientedBox &box) const;
 
-        /** \brief distance() for the point (x, y). */
+        /** \brief Exact distance in metres from the point (x, y) to the nearest edge; infinite if no edge is within
+            reach. */
         double distance(double x, double y) const;
 
-        /** \brief Metres along an arc until the box first touches an edge; infinite when it does not.
+        /** \brief Metres along an arc until the box first touches an edge; infinite if it touches none.
 
-            \param sweep the motion; its half lengths take the place of those of \e box
-            \param middleCosine, middleSine of half the angle turned through, not negative
-            Edges farther than reach() from the centre of \e box may be missed: the sweep must not get there. The box
+            \param sweep the motion; its half lengths replace those of \e box
+            \param middleCosine, middleSine cosine and sine of half the angle of the turn, not negative
+
+            The sweep must stay within reach() of the centre of \e box because edges farther away may be missed. The box
             must not touch an edge at the beginning. */
         double firstContact(const OrientedBox &box, const BoxSweep &sweep, double middleCosine,
                             double middleSine) const;
@@ -88,8 +93,8 @@ namespace parking
         double bucketSize_, inverseBucketSize_;
         Eigen::Vector2d origin_;
         std::size_t columns_, rows_;
-        /** Edges by the cells that their boxes overlap, in one array: cell k has ofCells_[first_[k]...]. They are
-           copies, side by side: what cuts a cell would otherwise wait for memory all over the map. */
+        /** Edges by the cells that their bounding boxes overlap, in one array: those of cell k begin at
+            ofCells_[first_[k]]. Contiguous copies avoid cache misses when a cell is cut. */
         std::size_t cellColumns_, cellRows_;
         double cellSize_;
         std::vector<std::size_t> first_;

@@ -8,39 +8,42 @@
 
 namespace parking
 {
-    /** \brief Where the body surely collides, for whole cells of places and headings at a time.
+    /** \brief Proves collisions of the body for whole cells of positions and headings.
 
-        The body's middle is somewhere in a square, its heading somewhere in a part of the circle; a cell is blocked
-        when the body touches an obstacle at all of these. What a body of the cell covers in any case is at least the
-        body at the cell's middle, made narrower and shorter by what its points move within the cell: when an obstacle
-        reaches into a circle in that box, by the distance field, the cell is blocked. A yes is proven; a no says
-        nothing. */
+        A cell is a square of positions of the body's centre and an interval of headings. It is blocked if the body
+        touches an obstacle at each of its poses.
+
+        All bodies of a cell cover a common box: the body at the cell's centre, reduced by the motion of its points
+        within the cell. The cell is blocked if, by the distance field, an obstacle reaches into a circle in this box. A
+        cell that is not reported as blocked may still be blocked. */
     class FootprintCells
     {
     public:
-        static constexpr int MOST_HEADINGS = 128;  ///< parts of the circle at the most
+        static constexpr int MOST_HEADINGS = 128;  ///< largest number of heading intervals
 
-        /** \brief A bit for each part of the circle, the first of which begins at a heading of minus pi. */
+        /** \brief One bit per heading interval. The first interval begins at -pi. */
         using Headings = std::array<std::uint64_t, MOST_HEADINGS / 64>;
 
-        /** \brief \param checker must outlive the cells
-            \param side of the squares in metres, positive; their sides are parallel to the axes of the problem
-            \param headings parts of the circle, from 8 to MOST_HEADINGS
-            Throws parking::Error for others. */
+        /** \brief Cells for the body of \e checker.
+
+            \param checker must outlive this object
+            \param side side of the squares in metres, positive; the squares are parallel to the axes of the problem
+            \param headings number of heading intervals, from 8 to MOST_HEADINGS
+            Throws parking::Error for other values. */
         FootprintCells(const FootprintChecker &checker, double side, int headings);
 
-        /** \brief The headings at which the cell is blocked whose square has the middle (x, y), in the coordinates of
-            the problem. All are blocked for coordinates that are not finite. */
+        /** \brief The blocked heading intervals of the cell whose square has its centre at (x, y), in the coordinates
+            of the problem. If a coordinate is not finite, all are blocked. */
         Headings blocked(double x, double y) const;
 
     private:
         struct Circle
         {
-            double offset;  // of its centre along the body from the body's middle
+            double offset;  // of its centre from the body's centre, along the body
             double radius;
         };
 
-        /** Circles inside of the box that all bodies of a cell with this heading cover. */
+        /** Circles inside of the common box of all bodies of a cell with this heading interval. */
         struct Body
         {
             double cosine, sine;  // of the heading
@@ -51,7 +54,7 @@ namespace parking
 
         const FootprintChecker &checker_;
         std::vector<Body> bodies_;
-        bool cannotTell_{false};  // the cells are as wide as the body
+        bool cannotTell_{false};  // the cells are as wide as the body: none is blocked
         double circumradius_, inradius_;
     };
 }  // namespace parking

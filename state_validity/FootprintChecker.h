@@ -16,48 +16,49 @@
 
 namespace parking
 {
-    /** \brief Which tier decided how many poses. */
+    /** \brief Number of poses that each tier has decided. */
     struct CheckCounts
     {
-        std::uint64_t states{0};         ///< poses asked about
-        std::uint64_t byField{0};        ///< decided by one look at the distance field
+        std::uint64_t states{0};         ///< number of poses checked
+        std::uint64_t byField{0};        ///< decided by a single value of the distance field
         std::uint64_t byCircles{0};      ///< decided by the covering or inscribed circles
         std::uint64_t byEdges{0};        ///< decided by the separation from the obstacles' edges
         std::uint64_t byContactTest{0};  ///< within CONTACT_BAND of contact: decided by the contact test
 
-        /** \brief Adds up, tier by tier. */
+        /** \brief Adds the counts of each tier. */
         CheckCounts &operator+=(const CheckCounts &other);
     };
 
-    /** \brief Does the car's rectangle touch an obstacle, and how far is it from them?
+    /** \brief Collision test, clearance and sweeps of the car's rectangle.
 
-        Three tiers, each sure of its answer or silent:
-        1. The distance field at the centre of the body, against the body's circumscribed and inscribed circle, then at
-          the centres of circles that cover the body (all clear: free) and of circles inscribed in it (one hit:
-          collision).
-        2. The separation of the body from the edges of the obstacles near it (separating axes). A positive one means
-          that no outline is crossed, so that the body lies wholly outside or wholly inside of every obstacle, and the
-          field at its centre tells which.
-        3. The contact test that the checker was given, for bodies within CONTACT_BAND of touching, where rounding
-          decides. Without one they count as touching.
+        Three tiers decide a pose. Each one returns a certain result or leaves the decision to the next:
+        1. The distance field at the centre of the body is compared with the radii of the circumscribed and the
+           inscribed circle. Then the field is evaluated for circles that cover the body (free if all are) and circles
+           inside of it (collision if one collides).
+        2. The separation of the body from the edges near it is computed (separating axes). If it is positive, the body
+           crosses no outline. It is then wholly outside or wholly inside of each obstacle, which the field at its
+           centre determines.
+        3. Within CONTACT_BAND of contact, where rounding matters, the contact test decides. Without a contact test the
+           body counts as touching.
 
-        Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. This class knows
-        nothing of OMPL and FCL; FclFootprintChecker is its face in OMPL, fclContactTest() a contact test. */
+        Poses are in the coordinates of the obstacle set. Const calls from several threads are safe. The class does not
+        depend on OMPL and FCL. FclFootprintChecker is its interface to OMPL, fclContactTest() a contact test. */
     class FootprintChecker
     {
     public:
-        /** \brief Half width in metres of the band round contact inside of which the contact test decides. */
+        /** \brief Half width in metres of the band about contact in which the contact test decides. */
         static constexpr double CONTACT_BAND = 1e-9;
 
-        /** \brief The largest tolerance in metres that motions are swept with. */
+        /** \brief Largest tolerance of sweeps in metres. */
         static constexpr double MAX_TOLERANCE = 0.3;
 
-        /** \brief \param margin metres by which the body is enlarged on each of its four sides, not negative
-            \param contact what makes the contact test, called with the first pose that needs it; may be empty
-            \param fieldResolution side of the distance field's cells in metres; 0 chooses one
+        /** \brief A checker for a vehicle among obstacles.
 
-            Throws parking::Error for an invalid vehicle, margin or field resolution, and when the enlarged body is
-            larger than the world. */
+            \param margin metres by which the body is enlarged on each side, not negative
+            \param contact makes the contact test, called for the first pose that requires it; may be empty
+            \param fieldResolution side of the distance field's cells in metres; 0 selects it automatically
+            Throws parking::Error for an invalid vehicle, margin or field resolution, and if the enlarged body is larger
+            than the world. */
         FootprintChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0,
                          ContactTestMaker contact = {}, double fieldResolution = 0.0);
 
@@ -67,84 +68,89 @@ namespace parking
             return vehicle_;
         }
 
-        /** \brief Metres by which the body is enlarged on each of its four sides. */
+        /** \brief Metres by which the body is enlarged on each side. */
         double margin() const
         {
             return margin_;
         }
 
-        /** \brief What the body must not touch. */
+        /** \brief Obstacles of the world. */
         const ObstacleSet &obstacles() const
         {
             return obstacles_;
         }
 
-        /** \brief The distances that the first tier looks at. */
+        /** \brief Distance field of the first tier. */
         const DistanceField &field() const
         {
             return field_;
         }
 
-        /** \brief Is the body free of obstacles? False for poses that are not finite. */
+        /** \brief Whether the body touches no obstacle. False for poses that are not finite. */
         bool isFree(const Pose &pose) const;
 
-        /** \brief As isFree(), counting in \e counts which tier decided. */
+        /** \brief Whether the body touches no obstacle. Adds the deciding tier to \e counts. */
         bool isFree(const Pose &pose, CheckCounts &counts) const;
 
-        /** \brief A lower bound of the distance between the body and the obstacles in metres; 0 when they may touch.
+        /** \brief Lower bound of the distance between the body and the obstacles in metres; 0 if they may touch.
 
-            Within reach (one metre) it is exact but where a corner of the body faces a corner of an obstacle, and then
-            at least 0.7 of the distance; beyond it may be lower by the error of the field. */
+            Up to one metre the result is exact unless a corner of the body faces a corner of an obstacle. It is then at
+            least 0.7 of the distance. Beyond, the error of the distance field reduces it. */
         double clearance(const Pose &pose) const;
 
-        /** \brief As clearance(), but content with less: stops at the first bound that is at least \e enough. */
+        /** \brief Lower bound of the clearance that stops at the first bound of at least \e enough metres. Adds the
+            deciding tier to \e counts. */
         double clearance(const Pose &pose, double enough, CheckCounts &counts) const;
 
-        /** \brief Is clearance() at least so many metres? Cheaper than asking how large it is. */
+        /** \brief Whether clearance() is at least \e clearance metres, faster than by computing it. Adds the deciding
+            tier to \e counts. */
         bool keeps(const Pose &pose, double clearance, CheckCounts &counts) const;
 
-        /** \brief The distance between the body and the nearest obstacle up to rounding; 0 when they touch. For
-           reports: costly where no obstacle is within a metre. */
+        /** \brief Distance in metres between the body and the nearest obstacle, exact up to rounding; 0 if they touch.
+            The function is slow if no obstacle is within a metre. */
         double exactClearance(const Pose &pose) const;
 
-        /** \brief How far the car can drive along an arc without touching an obstacle: exact, not sampled.
+        /** \brief Length that the car can drive along an arc without touching an obstacle, computed without sampling.
 
-            The body, enlarged by \e tolerance on each side, is swept along the arc, and the first contact with every
-            edge near the way is computed in closed form (see SweepFront). Where the distance field shows that nothing
-            is near, no edge is looked at. The enlargement stands for all rounding, so a motion during which the body
-            touches an obstacle is never called free; one that passes nearer than 1.5 times the tolerance may be cut
-            short. A start that is nearer than that is given a smaller enlargement, so that a car can drive away from
-            what it all but touches.
+            The function sweeps the body, enlarged by \e tolerance on each side, along the arc. It computes the first
+            contact with each edge near the path in closed form (see SweepFront). If the distance field proves that no
+            edge is near, it skips the edges.
+
+            The enlargement covers all rounding errors, so a motion with a contact is never reported as free. A motion
+            that passes nearer than 1.5 times the tolerance may be shortened. A start nearer than that uses a smaller
+            enlargement, so a car can drive away from an obstacle that it almost touches.
 
             \param length signed metres
             \param tolerance metres, positive and at most MAX_TOLERANCE, otherwise parking::Error
-            \return between 0 and |length|: the length that is proven free, less the tolerance where it ends at an
-            obstacle; |length| itself when all of it is free; 0 when the pose is not free or an argument is not
-            finite */
+            \return the length that is proven free: |length| if the whole arc is free, otherwise that to the obstacle
+            less the tolerance; 0 if the pose is not free or an argument is not finite */
         double freeLength(const Pose &from, double curvature, double length, double tolerance,
                           CheckCounts &counts) const;
 
-        /** \brief As freeLength() with the default tolerance of one millimetre. */
+        /** \brief Length that the car can drive along an arc without touching an obstacle, with a tolerance of one
+            millimetre. */
         double freeLength(const Pose &from, double curvature, double length) const;
 
-        /** \brief A pose prepared for freeLength(), for callers who try several arcs from the same one. */
+        /** \brief A pose prepared for freeLength(), for callers that sweep several arcs from it. */
         struct SweepStart
         {
-            OrientedBox box;   ///< the body, local
-            double tolerance;  ///< metres
-            /** Metres by which the body is enlarged on the way; negative when the pose is not free. */
+            OrientedBox box;   ///< body in the local frame
+            double tolerance;  ///< tolerance of the sweeps, metres
+            /** Metres by which the sweeps enlarge the body; negative if the pose is not free. */
             double enlargement;
-            /** Metres that the enlarged body may move in any way; none when negative. */
+            /** Metres that the enlarged body may move in any direction; negative values allow no motion. */
             double room;
         };
 
-        /** \brief Prepares a pose. \param tolerance as for freeLength() */
+        /** \brief Prepares a pose for freeLength(). \param tolerance metres, positive and at most MAX_TOLERANCE */
         SweepStart sweepStart(const Pose &from, double tolerance, CheckCounts &counts) const;
 
-        /** \brief freeLength() from a prepared pose: the same result, without looking at the pose again. */
+        /** \brief Length that the car can drive along an arc from a prepared pose without touching an obstacle. The
+            result is that of freeLength() for this pose. */
         double freeLength(const SweepStart &start, double curvature, double length, CheckCounts &counts) const;
 
-        /** \brief Metres that the fastest point of the body moves per metre of the rear axle on such an arc. */
+        /** \brief Metres that the fastest point of the body moves per metre of the rear axle on an arc of this
+            curvature. */
         double speedFactor(double curvature) const;
 
         /** \brief Largest distance of a point of the body from the rear axle's midpoint. */
@@ -162,7 +168,7 @@ namespace parking
 
         struct Circle
         {
-            double offset;  // of its centre along the body from the body's centre
+            double offset;  // of its centre from the body's centre, along the body
             double radius;
         };
 

@@ -7,13 +7,14 @@
 
 namespace parking
 {
-    /** \brief Two arcs that lead from \e from to \e to exactly, with one tangent where they meet.
+    /** \brief Two arcs with a common tangent at their joint that lead exactly from \e from to \e to.
 
-        For poses that are nearly on one arc already, such as neighbouring states on a smooth curve: what is
-        missing is spread over both arcs. Of all such pairs the one whose tangents reach equally far from either end is
-        taken (K. M. Bolton, "Biarc curves", Computer-Aided Design 7(2), 1975).
+        The function is intended for poses that lie nearly on one arc, such as neighbouring states of a smooth curve. Of
+        the possible pairs it returns the one with tangents of equal length at both ends (K. M. Bolton, "Biarc curves",
+        Computer-Aided Design 7(2), 1975).
 
         \param direction 1 forwards, -1 in reverse
-        \return a path of one or two pieces; nothing when \e to is not ahead in that direction or is the same place */
+        \return a path of one or two pieces; nothing if \e to coincides with \e from or is not ahead in that
+        direction */
     std::optional<Path> biarc(const Pose &from, const Pose &to, int direction);
 }  // namespace parking

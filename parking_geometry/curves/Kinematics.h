@@ -6,20 +6,23 @@
 
 namespace parking
 {
-    /** \brief How fast the curvature may change per metre driven, 1/m^2, when the wheels turn at the vehicle's steering
-        rate while it drives at \e speed: rate (1 + (kappa L)^2) / (L v).
+    /** \brief Largest change of curvature per metre driven, 1/m^2, if the wheels turn at the vehicle's maximum steering
+        rate.
+
+        It is rate (1 + (kappa L)^2) / (L v) with the wheelbase L and the speed v.
 
         \param speed m/s, positive
-        \param curvature where along the steering range; 0, the default, gives the smallest value */
+        \param curvature kappa at which the steering moves, 1/m; 0 gives the smallest value */
     double maxSharpness(const Vehicle &vehicle, double speed, double curvature = 0.0);
 
-    /** \brief The highest speed, m/s, at which the steering keeps up with a curvature that changes by \e sharpness per
-        metre: the inverse of maxSharpness; infinite for 0. */
+    /** \brief Highest speed, m/s, at which the steering follows a curvature that changes by \e sharpness per metre.
+
+        This is the inverse of maxSharpness(); it is infinite for a sharpness of 0. */
     double maxSpeedForSharpness(const Vehicle &vehicle, double sharpness, double curvature = 0.0);
 
     /** \brief The circular arc that leaves \e from with its heading and ends at \e to.
 
-        Exact when such an arc exists (\e to then ends with its heading, at most half a circle away); otherwise the one
-        whose change of heading is that of the poses and whose chord has the length of theirs. */
+        If an arc of at most half a circle joins both poses, the result is exact. Otherwise it has the change of heading
+        and the length of chord of the two poses. */
     Arc arcBetween(const Pose &from, const Pose &to);
 }  // namespace parking

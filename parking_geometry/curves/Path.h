@@ -14,16 +14,16 @@ namespace parking
         double length{0.0};     ///< metres, negative when driven in reverse
     };
 
-    /** \brief What a Path is made of: a drive whose curvature changes evenly with the distance, or a turn on the spot.
+    /** \brief A piece of a Path: a drive whose curvature is linear in the distance, or a turn on the spot.
 
-        Arcs and straight lines have no sharpness; a piece with sharpness is a clothoid. No car turns on the spot: such
-        pieces join the straight moves of the paper's grid planner, whose heading jumps from one to the next. */
+        A piece with sharpness 0 is an arc or a straight line, any other drive is a clothoid. Cars cannot turn on the
+        spot. Such pieces join the straight moves of the paper's grid planner, between which the heading jumps. */
     struct PathPiece
     {
-        double curvature{0.0};  ///< 1/m where the piece begins, positive to the left
+        double curvature{0.0};  ///< curvature at the beginning, 1/m, positive to the left
         double length{0.0};     ///< metres, negative when driven in reverse
-        double sharpness{0.0};  ///< 1/m^2, change of curvature per metre driven, whichever the direction
-        double turn{0.0};       ///< radians turned on the spot, positive to the left; the other members are then 0
+        double sharpness{0.0};  ///< change of curvature per metre driven in either direction, 1/m^2
+        double turn{0.0};       ///< turn on the spot in radians, positive to the left; requires that the others are 0
 
         PathPiece() = default;
 
@@ -39,18 +39,18 @@ namespace parking
         {
         }
 
-        /** \brief The arc as a piece. */
+        /** \brief A drive along \e arc. */
         PathPiece(const Arc &arc) : curvature(arc.curvature), length(arc.length)
         {
         }
 
-        /** Radians of a turn up to which its end alone says which way it goes. */
+        /** Largest turn on the spot in radians whose direction follows from its end heading alone. */
         static constexpr double LONGEST_TURN = 0.5 * PI;
 
         /** \brief A turn on the spot by \e angle radians. */
         static PathPiece turnOnTheSpot(double angle);
 
-        /** \brief 1 forwards, -1 in reverse, 0 for what does not drive. */
+        /** \brief Direction of the drive: 1 forwards, -1 in reverse, 0 for a piece that does not drive. */
         int direction() const
         {
             return (length > 0.0) - (length < 0.0);
@@ -74,12 +74,14 @@ namespace parking
             return curvatureAt(driven());
         }
 
-        /** \brief The same motion from its end to its start. */
+        /** \brief The same motion driven from its end to its start. */
         PathPiece reversed() const;
     };
 
-    /** \brief The pose after \e driven metres (0 to piece.driven()) of \e piece from \e pose, to about 1e-12 m; for a
-        turn on the spot, the pose after all of it. The yaw is not wrapped. */
+    /** \brief The pose after \e driven metres (0 to piece.driven()) of \e piece from \e pose, accurate to about 1e-12
+        m.
+
+        For a turn on the spot, this is the pose after the whole turn. The yaw is not wrapped. */
     Pose advance(const Pose &pose, const PathPiece &piece, double driven);
 
     /** \brief The pose at the end of \e piece. The yaw is not wrapped. */
@@ -88,39 +90,41 @@ namespace parking
         return advance(pose, piece, piece.driven());
     }
 
-    /** \brief One state of a sampled path; curvature and direction are those with which it is reached (the first state:
-        those with which it is left). */
+    /** \brief One state of a sampled path.
+
+        Curvature and direction are those of the motion that ends in the state. The first state has those of the motion
+        that begins in it. */
     struct PathState
     {
-        Pose pose;              ///< of the rear axle; Path::sample() wraps the yaw
+        Pose pose;              ///< pose of the rear axle; Path::sample() wraps the yaw
         double arcLength{0.0};  ///< metres driven since the start, never decreasing
         double curvature{0.0};  ///< 1/m, positive to the left
         int direction{1};       ///< 1 forwards, -1 in reverse
     };
 
-    /** \brief States along a path, for drawing, writing and asking about poses: a picture of a Path, from which it is
-        not made again. */
+    /** \brief States along a path for drawing, export and checks of poses. A Path cannot be recovered from them. */
     using SampledPath = std::vector<PathState>;
 
-    /** \brief A part of a path between two cusps: driven in one direction, from piece \e first to before \e last. */
+    /** \brief A part of a path between two cusps, driven in one direction: its pieces from \e first up to but excluding
+        \e last. */
     struct Stretch
     {
         std::size_t first{0};  ///< index of its first piece in Path::pieces
-        std::size_t last{0};   ///< index of the piece behind its last one
+        std::size_t last{0};   ///< index of the piece after its last one
         int direction{1};      ///< 1 forwards, -1 in reverse
-        double begin{0.0};     ///< metres driven along the path before it: behind the first stretch, where a cusp is
+        double begin{0.0};     ///< metres driven along the path before this stretch
     };
 
-    /** \brief A path in exact form: where it starts, and its pieces in the order in which they are driven.
+    /** \brief A path in exact form: its start and its pieces in driving order.
 
-        From the search to the controller a path is this one type: curvature, direction and length travel with it and
-        are never guessed back from samples. */
+        Planners, smoothers and controllers share this type, so curvature, direction and length need not be estimated
+        from samples. */
     struct Path
     {
         Pose start;                     ///< pose of the rear axle at the beginning
-        std::vector<PathPiece> pieces;  ///< what is driven from there, in order
+        std::vector<PathPiece> pieces;  ///< motions from the start, in driving order
 
-        /** \brief Metres driven, both directions counted positive. */
+        /** \brief Metres driven; both directions count as positive. */
         double length() const;
 
         /** \brief Number of changes between forwards and reverse. */
@@ -132,34 +136,34 @@ namespace parking
         /** \brief The same motion driven backwards from its end to its start. */
         Path reversed() const;
 
-        /** \brief Adds a piece; pieces that do nothing are dropped and equal neighbouring arcs are merged. */
+        /** \brief Adds a piece. Pieces without motion are dropped and equal neighbouring arcs are merged. */
         void append(const PathPiece &piece);
 
         /** \brief Adds the pieces of a path that starts where this one ends. */
         void extend(const Path &path);
 
-        /** \brief The pieces from \e first to before \e last as a path of their own, from where the first of them
-            begins. */
+        /** \brief The pieces from \e first up to but excluding \e last as a path. */
         Path part(std::size_t first, std::size_t last) const;
 
-        /** \brief What is left of the path behind its first \e driven metres (0 to length()); the piece that is under
-            way there is cut, or left whole where it begins or ends within a nanometre. */
+        /** \brief The remainder of the path after its first \e driven metres (0 to length()).
+
+            The piece at this place is cut unless it begins or ends within a nanometre. */
         Path rest(double driven) const;
 
-        /** \brief The pose after \e driven metres (0 to length()): where rest() starts. */
+        /** \brief The pose after \e driven metres (0 to length()), the start of rest(). */
         Pose at(double driven) const;
 
-        /** \brief The stretches in order. A turn on the spot belongs to the stretch that it precedes; one at the very
-            end belongs to the last stretch. Pieces that do nothing are passed over. Empty for a path that never
-            drives. */
+        /** \brief The stretches in order; empty for a path that never drives.
+
+            A turn on the spot belongs to the stretch after it, a final one to the last stretch. Pieces without motion
+            are skipped. */
         std::vector<Stretch> stretches() const;
 
-        /** \brief States no more than \e step metres apart, with every end of a piece among them.
+        /** \brief States at most \e step metres apart that include both ends of every piece.
 
-            \param step metres, positive
-            The last state of the sample is end() up to rounding. A turn on the spot is a second state at the same
-            place. The curvature of a state is that of the path there; where two pieces meet with different curvatures,
-            that of the earlier one. */
+            The last state is end() up to rounding. A turn on the spot adds a second state at the same position. Where
+            two pieces with different curvatures meet, the state has the curvature of the earlier one.
+            \param step metres, positive */
         SampledPath sample(double step) const;
     };
 

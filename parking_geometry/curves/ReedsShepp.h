@@ -10,21 +10,21 @@
 
 namespace parking
 {
-    /** \brief A Reeds-Shepp curve: up to five arcs at the turning radius or lines.
+    /** \brief A Reeds-Shepp curve: up to five pieces, each an arc at the turning radius or a line.
 
-        Not a Path because a search tries thousands of them: its size is fixed, so nothing is allocated, and it has no
-        start of its own. */
+        A search evaluates thousands of curves. Unlike a Path, a curve has a fixed size, allocates no memory and has no
+        start. */
     struct ReedsSheppCurve
     {
-        std::array<Arc, 5> pieces{};  ///< the first \e count of them are driven, in this order
-        std::size_t count{0};         ///< how many pieces; 0 from a pose to itself, and where there is no curve
-        double length{std::numeric_limits<double>::infinity()};  ///< metres, both directions counted positive
+        std::array<Arc, 5> pieces{};  ///< pieces in driving order, of which the first \e count are used
+        std::size_t count{0};         ///< number of pieces; 0 from a pose to itself and if there is no curve
+        double length{std::numeric_limits<double>::infinity()};  ///< metres; both directions count as positive
 
         /** \brief Number of changes between forwards and reverse. */
         std::size_t cusps() const;
     };
 
-    /** \brief Which curves to consider. */
+    /** \brief Family of curves. */
     enum class CurveFamily
     {
         ReedsShepp,  ///< forwards and reverse
@@ -33,15 +33,17 @@ namespace parking
 
     /** \brief Shortest curves of bounded curvature between two poses.
 
-        The words and their formulas are those of J. A. Reeds and L. A. Shepp, "Optimal paths for a car that goes both
-        forwards and backwards", Pacific Journal of Mathematics 145(2), 1990 (equations 8.1 to 8.11), and of L. E.
-        Dubins, "On curves of minimal length with a constraint on average curvature", 1957. Unlike a solver that returns
-        the shortest curve only, candidates() returns all of them: among obstacles the second or tenth best is often the
-        one that is free. No allocation but the growth of the caller's vector. */
+        The words and formulas are from J. A. Reeds and L. A. Shepp, "Optimal paths for a car that goes both forwards
+        and backwards", Pacific Journal of Mathematics 145(2), 1990 (equations 8.1 to 8.11), and from L. E. Dubins, "On
+        curves of minimal length with a constraint on average curvature", 1957.
+
+        Among obstacles a longer curve is often the shortest free one, so candidates() returns all words. The class
+        allocates no memory except when the caller's vector grows. */
     class ReedsShepp
     {
     public:
-        /** \brief \param turningRadius metres, positive and finite (otherwise parking::Error). */
+        /** \brief Curves of this radius. Throws parking::Error unless \e turningRadius (metres) is positive and
+            finite. */
         explicit ReedsShepp(double turningRadius, CurveFamily family = CurveFamily::ReedsShepp);
 
         /** \brief Radius of all arcs in metres. */
@@ -50,7 +52,7 @@ namespace parking
             return radius_;
         }
 
-        /** \brief Which curves are considered. */
+        /** \brief Family of the curves. */
         CurveFamily family() const
         {
             return family_;
@@ -62,9 +64,9 @@ namespace parking
         /** \brief The shortest curve. */
         ReedsSheppCurve shortest(const Pose &from, const Pose &to) const;
 
-        /** \brief Every word that joins the poses, in the order of length; \e curves is overwritten.
+        /** \brief Writes every word that joins the poses into \e curves, sorted by length.
 
-            \param longest words longer than this many metres are left out */
+            \param longest length in metres above which words are omitted */
         void candidates(const Pose &from, const Pose &to, std::vector<ReedsSheppCurve> &curves,
                         double longest = std::numeric_limits<double>::infinity()) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The figures of the project, all in one include: SvgFigure holds one SvgMap, on which the functions of SvgScenario.h
-// draw, and any number of SvgPlots.
+// All SVG figures in one include. An SvgFigure holds one SvgMap and any number of SvgPlots. The functions of
+// SvgScenario.h draw on the map.
 #include "parking_geometry/drawing/SvgFigure.h"
 #include "parking_geometry/drawing/SvgMap.h"
 #include "parking_geometry/drawing/SvgPlot.h"

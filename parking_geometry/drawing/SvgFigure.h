@@ -9,23 +9,26 @@
 
 namespace parking
 {
-    /** \brief A figure: a title, a map with its legend, and line plots below it. Self-contained SVG. */
+    /** \brief A self-contained SVG figure: a title, a map with its legend, and line plots below. */
     class SvgFigure
     {
     public:
-        /** \brief \param title may be empty \param subtitle a second line, smaller */
+        /** \brief A figure without a map and plots.
+
+            \param title text of the first line, may be empty
+            \param subtitle text of the second, smaller line, may be empty */
         explicit SvgFigure(std::string title = {}, std::string subtitle = {});
 
-        /** \brief The map panel; a figure has at most one. */
+        /** \brief Sets the map panel. A figure has at most one. */
         void setMap(const SvgMap &map);
 
-        /** \brief Another plot below what is there. */
+        /** \brief Adds a plot below the existing panels. */
         void addPlot(const SvgPlot &plot);
 
-        /** \brief The whole file. Throws what SvgPlot::toSvg throws. */
+        /** \brief Content of the SVG file. Throws the errors of SvgPlot::toSvg(). */
         std::string toString() const;
 
-        /** \brief Writes the file whole or not at all; throws parking::Error like writeFileAtomically. */
+        /** \brief Writes the SVG file atomically. Throws parking::Error like writeFileAtomically(). */
         void write(const std::string &file) const;
 
     private:

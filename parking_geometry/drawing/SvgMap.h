@@ -10,42 +10,42 @@
 
 namespace parking
 {
-    /** \brief Colours that mean the same in every figure of the project. */
+    /** \brief Colours with the same meaning in every figure of the project. */
     namespace svg_colour
     {
-        constexpr const char *FORWARD = "#2563eb";        ///< driven forwards
-        constexpr const char *REVERSE = "#ea580c";        ///< driven in reverse
-        constexpr const char *START = "#334155";          ///< the car where it stands
+        constexpr const char *FORWARD = "#2563eb";        ///< forward motion
+        constexpr const char *REVERSE = "#ea580c";        ///< reverse motion
+        constexpr const char *START = "#334155";          ///< the car at its start
         constexpr const char *GOAL = "#059669";           ///< the car at its goal, and its slot
-        constexpr const char *OBSTACLE = "#b4bdca";       ///< inside of an obstacle
+        constexpr const char *OBSTACLE = "#b4bdca";       ///< interior of an obstacle
         constexpr const char *OBSTACLE_EDGE = "#66717f";  ///< outline of an obstacle
-        constexpr const char *OUTSIDE = "#e1e6ed";        ///< beyond the end of the map, or of a world of polygons
+        constexpr const char *OUTSIDE = "#e1e6ed";        ///< outside of the map or of the bounds of a polygon world
 
-        /** \brief Cells of which nothing is known: of another hue than all other grounds, on the axis that the
-            red-green blind see too, and of another lightness, which is all that a print in black and white has. */
+        /** \brief Unknown cells. Hue and lightness differ from all other grounds, also for red-green blind readers and
+            in black and white prints. */
         constexpr const char *UNKNOWN = "#e3cf9b";
 
-        /** \brief What a simulated car drove, where it stands beside what was planned. */
+        /** \brief The driven track of a simulated car, beside the planned one. */
         constexpr const char *DRIVEN = "#be185d";
-        constexpr const char *PLANNED = "#0f172a";  ///< what was planned, beside what came of it
+        constexpr const char *PLANNED = "#0f172a";  ///< the planned track, beside the driven one
     }                                               // namespace svg_colour
 
-    /** \brief How a shape is drawn. Widths and dashes in pixels. */
+    /** \brief Style of a shape. Widths and dashes are in pixels. */
     struct SvgStyle
     {
-        std::string fill{"none"};                 ///< colour of the inside as in SVG
-        std::string stroke{"none"};               ///< colour of the outline as in SVG
-        double strokeWidth{1.0};                  ///< of the outline
-        double fillOpacity{1.0};                  ///< 0 (invisible) to 1
-        double strokeOpacity{1.0};                ///< 0 (invisible) to 1
-        std::string dash;                         ///< for example "6 4"; empty: solid
-        std::map<std::string, std::string> data;  ///< attributes data-KEY, for programs that read the picture
+        std::string fill{"none"};                 ///< SVG colour of the interior
+        std::string stroke{"none"};               ///< SVG colour of the outline
+        double strokeWidth{1.0};                  ///< width of the outline
+        double fillOpacity{1.0};                  ///< opacity of the interior, 0 to 1
+        double strokeOpacity{1.0};                ///< opacity of the outline, 0 to 1
+        std::string dash;                         ///< SVG dash pattern, for example "6 4"; empty for a solid line
+        std::map<std::string, std::string> data;  ///< attributes data-KEY for programs that read the file
     };
 
-    /** \brief What lies above what on a map. */
+    /** \brief Layers of a map, from bottom to top. */
     enum class SvgLayer
     {
-        Ground,     ///< lowest: unknown cells, the outside of the map, the slot
+        Ground,     ///< unknown cells, the outside of the map, the slot
         Obstacles,  ///< polygons and occupied cells
         Sweep,      ///< footprints along a path
         Lines,      ///< paths
@@ -53,51 +53,51 @@ namespace parking
         Marks       ///< texts and symbols
     };
 
-    /** \brief What the sample of a legend looks like. */
+    /** \brief Shape of the sample in a legend. */
     enum class SvgSample
     {
-        Box,   ///< for areas and cars
-        Line,  ///< for paths
-        Dot    ///< for places
+        Box,   ///< sample for areas and cars
+        Line,  ///< sample for paths
+        Dot    ///< sample for positions
     };
 
-    /** \brief An entry of the legend: a sample of the style beside its meaning. */
+    /** \brief An entry of the legend: a sample of a style and its label. */
     struct SvgLegendEntry
     {
-        std::string label;                 ///< plain text; listed once
-        SvgStyle style;                    ///< of the sample
-        SvgSample sample{SvgSample::Box};  ///< its shape
+        std::string label;                 ///< plain text; the legend lists equal labels once
+        SvgStyle style;                    ///< style of the sample
+        SvgSample sample{SvgSample::Box};  ///< shape of the sample
     };
 
     /** \brief The map panel of a figure: shapes in metres, y up, at equal scale, with ticks at its frame.
 
-        Coordinates are local ones of a scenario; the ticks are labelled with those of the world, see
-        setWorldOffset(). Shapes that lie outside of the view are left out; what draws a shape tells whether it can be
-        seen, so that legends name only that. */
+        Coordinates are local ones of a scenario. The ticks show world coordinates, see setWorldOffset(). Shapes outside
+        of the view are omitted. Each drawing function returns whether the shape is visible, so that legends can list
+        visible shapes only. */
     class SvgMap
     {
     public:
-        static constexpr double LEFT_OF_FRAME = 62.0;  ///< pixels on the left of the panel that its ticks take
-        static constexpr double BELOW_FRAME = 40.0;    ///< and below
-        /** \brief A panel \e width pixels wide that shows at least \e view: the shorter side is widened until the panel
-            is neither a strip nor a tower.
+        static constexpr double LEFT_OF_FRAME = 62.0;  ///< pixels for the ticks on the left of the panel
+        static constexpr double BELOW_FRAME = 40.0;    ///< pixels for the ticks below the panel
+        /** \brief A panel of \e width pixels that shows at least \e view, enlarged if necessary to a moderate aspect
+            ratio.
 
-            Throws parking::Error when the view is empty or not finite. */
+            Throws parking::Error if the view is empty or not finite. */
         explicit SvgMap(const Box &view, double width = 912.0);
 
-        /** \brief What is shown, in metres. */
+        /** \brief The visible area, in metres. */
         const Box &view() const
         {
             return view_;
         }
 
-        /** \brief Pixels across the panel. */
+        /** \brief Width of the panel in pixels. */
         double width() const
         {
             return width_;
         }
 
-        /** \brief Pixels down the panel; follows from the view. */
+        /** \brief Height of the panel in pixels. It follows from the view. */
         double height() const
         {
             return height_;
@@ -108,47 +108,49 @@ namespace parking
             return scale_;
         }
 
-        /** \brief Where the local origin lies in the world, metres; without it the local coordinates are the world's.
+        /** \brief Sets the world coordinates of the local origin, metres; 0, 0 by default.
 
-            At coordinates of more digits than can be read at a tick, an axis names a round number once and its ticks
-            what has to be added to it. */
+            If world coordinates have too many digits for the ticks, an axis shows a round base once and the ticks show
+            offsets from it. */
         void setWorldOffset(const Eigen::Vector2d &offset)
         {
             worldOffset_ = offset;
         }
 
-        /** \brief A closed shape. \param corners metres \return can its inside be seen? */
+        /** \brief Draws a closed shape. \return whether its interior is visible
+            \param corners metres */
         bool drawPolygon(SvgLayer layer, const Polygon &corners, const SvgStyle &style);
 
-        /** \brief An open line. \return can it be seen? */
+        /** \brief Draws an open line. \return whether it is visible */
         bool drawLine(SvgLayer layer, const std::vector<Eigen::Vector2d> &points, const SvgStyle &style);
 
-        /** \brief A disc. \param radius pixels \return can it be seen? */
+        /** \brief Draws a disc. \return whether it is visible
+            \param radius pixels */
         bool drawDot(SvgLayer layer, const Eigen::Vector2d &centre, double radius, const SvgStyle &style);
 
-        /** \brief Several closed outlines as one shape, where holes stay open (even-odd rule). What outlines of
-           neighbours have in common is not drawn: a stroke shows on the outer side only.
+        /** \brief Draws several closed outlines as one shape with holes (even-odd rule).
 
-            \param outlines holes run the other way round than what they are in \return can its inside be seen? */
+            A stroke is visible on the outer side only, so common edges of neighbouring outlines are not drawn.
+            \param outlines corners in metres; a hole has the opposite orientation of the outline round it
+            \return whether the interior is visible */
         bool drawOutlines(SvgLayer layer, const std::vector<Polygon> &outlines, const SvgStyle &style);
 
-        /** \brief Explains a style in the figure's legend; the same label is listed once, an empty one never. */
+        /** \brief Adds an entry to the figure's legend. Equal labels are listed once, empty labels are omitted. */
         void addLegend(const SvgLegendEntry &entry);
 
-        /** \brief What addLegend() was told, in that order. */
+        /** \brief The entries that addLegend() has added, in that order. */
         const std::vector<SvgLegendEntry> &legend() const
         {
             return legend_;
         }
 
-        /** \brief The panel as an svg element whose upper left corner is at \e x, \e y pixels, and its ticks beside it.
-         */
+        /** \brief The panel as an svg element with its upper left corner at \e x, \e y pixels, and its ticks. */
         std::string toSvg(double x, double y) const;
 
     private:
         Eigen::Vector2d toPixels(const Eigen::Vector2d &point) const;
         bool isVisible(const std::vector<Eigen::Vector2d> &points) const;
-        /** Pixels of an outline's inside that lie in the view; negative for one that runs clockwise. */
+        /** Visible area of an outline in square pixels, negative for a clockwise one. */
         double visibleArea(const Polygon &outline) const;
         std::string scaleBar() const;
         std::string &layerText(SvgLayer layer);

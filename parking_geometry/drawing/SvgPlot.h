@@ -7,26 +7,26 @@
 
 namespace parking
 {
-    /** \brief A curve of a plot. Values that are not finite interrupt it. */
+    /** \brief A curve of a plot. Values that are not finite interrupt the curve. */
     struct SvgSeries
     {
-        std::string label;      ///< empty: not listed; the same label is listed once
-        std::vector<double> x;  ///< in the unit of the axis
-        std::vector<double> y;  ///< as many as x
-        std::string colour;     ///< empty: the next one of the palette
-        bool dashed{false};     ///< drawn as dashes, otherwise solid
+        std::string label;      ///< legend label, equal ones listed once; empty for no entry
+        std::vector<double> x;  ///< x values in the unit of the axis
+        std::vector<double> y;  ///< y values, one per x value
+        std::string colour;     ///< SVG colour; empty for the next colour of the palette
+        bool dashed{false};     ///< whether the curve is dashed instead of solid
     };
 
-    /** \brief A stretch of the x axis with a tinted background, for example where the car drives in reverse. */
+    /** \brief An interval of the x axis with a tinted background, for example where the car drives in reverse. */
     struct SvgBand
     {
-        double begin{0.0};   ///< value of x
-        double end{0.0};     ///< value of x, not less than begin
-        std::string colour;  ///< as in SVG; drawn pale
-        std::string label;   ///< empty: not listed; the same label is listed once
+        double begin{0.0};   ///< lower x value
+        double end{0.0};     ///< upper x value, not less than begin
+        std::string colour;  ///< SVG colour, drawn pale
+        std::string label;   ///< legend label, equal ones listed once; empty for no entry
     };
 
-    /** \brief A line plot: a panel below the map. */
+    /** \brief A line plot, one panel of a figure. */
     struct SvgPlot
     {
         static constexpr double LEFT = 62.0;   ///< pixels on the left of the frame, for its ticks
@@ -34,20 +34,20 @@ namespace parking
         static constexpr double ABOVE = 30.0;  ///< pixels above the frame, for the title
         static constexpr double BELOW = 40.0;  ///< pixels below the frame, for its ticks
 
-        std::string title;                                ///< above the panel
-        std::string xLabel;                               ///< with the unit
-        std::string yLabel;                               ///< with the unit
-        std::vector<SvgSeries> series;                    ///< drawn in this order
-        std::vector<SvgBand> bands;                       ///< behind all series
-        std::optional<std::pair<double, double>> xRange;  ///< without it: that of the values
-        std::optional<std::pair<double, double>> yRange;  ///< without it: that of the values, with some room
-        std::vector<double> limits;                       ///< values of y marked by dashed lines
-        std::string limitsLabel;                          ///< empty: not listed
-        double height{190.0};                             ///< pixels
+        std::string title;                                ///< text above the panel
+        std::string xLabel;                               ///< label of the x axis with its unit
+        std::string yLabel;                               ///< label of the y axis with its unit
+        std::vector<SvgSeries> series;                    ///< curves in drawing order
+        std::vector<SvgBand> bands;                       ///< tinted intervals behind all curves
+        std::optional<std::pair<double, double>> xRange;  ///< range of the x axis; default: that of the values
+        std::optional<std::pair<double, double>> yRange;  ///< range of the y axis; default: values and a margin
+        std::vector<double> limits;                       ///< y values that dashed lines mark
+        std::string limitsLabel;                          ///< legend label of the limits; empty for no entry
+        double height{190.0};                             ///< height of the panel in pixels
 
-        /** \brief The panel as a group whose upper left corner is at \e x, \e y pixels.
+        /** \brief The panel as an SVG group with its upper left corner at \e x, \e y pixels.
 
-            Throws parking::Error naming the series whose x and y differ in number. */
+            Throws parking::Error naming a series with different numbers of x and y values. */
         std::string toSvg(double x, double y, double width) const;
     };
 }  // namespace parking

@@ -10,32 +10,34 @@
 
 namespace parking
 {
-    /** \brief What a picture of a path should show: the car at all states, at start and goals, and the slot, with some
-        metres round them; far obstacles are left out. \param margin metres */
+    /** \brief A suitable view for a path: contains the car at all states, at the start and the goals, and the slot.
+
+        \param margin metres between these shapes and the edge of the view */
     Box viewAround(const Scenario &scenario, const SampledPath &path = {}, double margin = 3.0);
 
-    /** \brief Draws obstacles, unknown cells, what lies outside of the world, the slot, and the car at its start and
-        goals; the map's ticks get the world's coordinates. */
+    /** \brief Draws obstacles, unknown cells, the outside of the world, the slot, and the car at its start and goals.
+        Labels the ticks with world coordinates. */
     void drawScenario(SvgMap &map, const Scenario &scenario);
 
-    /** \brief Draws the track of the rear axle and the car along it, forwards and reverse in different colours, with a
-        dot at every change of direction. Cars are thinned out so that they stay legible.
+    /** \brief Draws the track of the rear axle and footprints along it, with one colour per direction and a dot at
+        every change of direction.
 
-        \param what the car goes along, for the legend */
+        \param what name of the track in the legend */
     void drawPath(SvgMap &map, const SampledPath &path, const Vehicle &vehicle, const std::string &what = "path");
 
-    /** \brief Draws a car seen from above; its outer line is its footprint, the dot on it its pose.
+    /** \brief Draws a car from above. Its outline is the footprint, the dot is the pose.
 
-        \param label names it in the legend, empty for none \return can it be seen? */
+        \param label entry in the legend, empty for none
+        \return whether the car is visible */
     bool drawCar(SvgMap &map, const Pose &pose, const Vehicle &vehicle, const std::string &colour,
                  const std::string &label = {});
 
-    /** \brief Draws another track, for example what was planned where the car drove otherwise, as a thin line.
-
-        \param dash as in SvgStyle */
+    /** \brief Draws another track as a thin line, for example the planned path of a driven car. \param dash as in
+        SvgStyle */
     void drawTrack(SvgMap &map, const std::vector<Pose> &poses, const std::string &colour, const std::string &label,
                    const std::string &dash = "5 3");
 
-    /** \brief Curvature over the metres driven, with reverse stretches tinted and the car's limits marked. */
+    /** \brief A plot of the curvature over the driven length. Reverse stretches are tinted and the car's limits are
+        marked. */
     SvgPlot curvaturePlot(const SampledPath &path, const Vehicle &vehicle);
 }  // namespace parking

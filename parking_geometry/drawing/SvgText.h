@@ -8,38 +8,38 @@
 
 namespace parking
 {
-    /** \brief A length or coordinate in pixels, to a hundredth; never in the style of a locale. */
+    /** \brief A length or coordinate in pixels with two decimals, independent of the locale. */
     std::string px(double value);
 
-    /** \brief Text that may stand in an SVG file: markup escaped, control characters and broken UTF-8 replaced. */
+    /** \brief Text for an SVG file: markup is escaped, control characters and invalid UTF-8 are replaced. */
     std::string escaped(std::string_view text);
 
-    /** \brief The attributes fill, stroke and so on of a style, each with a leading blank. */
+    /** \brief The SVG attributes of a style, such as fill and stroke, each with a leading blank. */
     std::string attributes(const SvgStyle &style);
 
-    /** \brief A text element. \param anchor start, middle or end */
+    /** \brief An SVG text element. \param anchor start, middle or end
+        \param more further attributes, with a leading blank */
     std::string textElement(double x, double y, double size, const std::string &colour, const std::string &anchor,
                             std::string_view text, const std::string &more = "");
 
-    /** \brief Adds an entry to a legend that has none of its label; one without a label is left out. */
+    /** \brief Adds an entry to a legend unless the label is empty or already present. */
     void addToLegend(std::vector<SvgLegendEntry> &legend, const SvgLegendEntry &entry);
 
-    /** \brief The sample of a legend's entry, SAMPLE_WIDTH wide and 16 pixels high; its upper left corner is at \e x,
-        \e y. */
+    /** \brief The sample of a legend entry, SAMPLE_WIDTH by 16 pixels, with its upper left corner at \e x, \e y. */
     std::string legendSample(const SvgLegendEntry &entry, double x, double y);
 
-    /** \brief Pixels across the sample of a legend's entry. */
+    /** \brief Width of the sample of a legend entry in pixels. */
     constexpr double SAMPLE_WIDTH = 22.0;
 
-    /** \brief About how wide a text is in the figures' font, in pixels. */
+    /** \brief Approximate width of a text in the figures' font, in pixels. */
     double textWidth(std::string_view text, double size);
 
-    /** \brief The 1, 2 or 5 times a power of ten next below or at \e value. */
+    /** \brief The largest of 1, 2 and 5 times a power of ten that is not above \e value. */
     double roundStep(double value);
 
-    /** \brief The multiples of \e step from \e begin to \e end. */
+    /** \brief All multiples of \e step from \e begin to \e end. */
     std::vector<double> roundTicks(double begin, double end, double step);
 
-    /** \brief A tick's label: as many decimals as \e step needs. */
+    /** \brief Label of a tick with the number of decimals that \e step requires. */
     std::string tickLabel(double value, double step);
 }  // namespace parking

@@ -10,24 +10,24 @@
 
 namespace parking
 {
-    /** \brief Most bytes of a text file (case, scenario, vehicle, map description) that are read. */
+    /** \brief Size limit in bytes of a text file: case, scenario, vehicle or map description. */
     constexpr std::size_t TEXT_FILE_LIMIT = std::size_t(16) << 20;
 
-    /** \brief The last part of \e file without its extension: what a scenario is called that has no name. */
+    /** \brief Default name of a scenario: the last part of \e file without its extension. */
     std::string scenarioName(const std::string &file);
 
-    /** \brief The keys of a vehicle in files: name and the fields of Vehicle in snake case. */
+    /** \brief Reads a vehicle from the keys of \e map: name and the fields of Vehicle in snake case. */
     Vehicle vehicleFromYaml(const YamlMap &map);
 
-    /** \brief A TPCAP case, see readScenario().
+    /** \brief Parses a TPCAP case, see readScenario().
 
-        \param file named in errors
-        \param vehicle as for readVehicle(); empty: the car of TPCAP */
+        \param file name in errors
+        \param vehicle as for readVehicle(); empty for the car of TPCAP */
     Scenario parseTpcapCase(const std::string &file, const std::string &text, const std::string &vehicle);
 
-    /** \brief A scenario in YAML, see readScenario().
+    /** \brief Parses a scenario in YAML, see readScenario().
 
-        \param file named in errors, and where a vehicle file that it names is looked for
-        \param vehicle as for readVehicle(), in the place of the one that the text names; empty: that one */
+        \param file name in errors; relative paths in the text start at its folder
+        \param vehicle replaces the vehicle of the text, as for readVehicle(); empty for that of the text */
     Scenario parseYamlScenario(const std::string &file, const std::string &text, const std::string &vehicle);
 }  // namespace parking

@@ -14,51 +14,60 @@ namespace parking
     /** \brief Options of the readers. */
     struct ReaderOptions
     {
-        /** \brief Car to use instead of the one the file names: a known name or a YAML file; empty: the file's, and
-            TPCAP's car for its cases. */
+        /** \brief Car that replaces the one of the scenario: a known name or a YAML file. If empty, the scenario's car
+            is used, and for a TPCAP case the car of TPCAP. */
         std::string vehicle;
-        std::optional<Pose> start{};  ///< instead of the file's, in the coordinates of the file
-        std::optional<Pose> goal{};   ///< likewise; it takes the place of a slot, too
+        std::optional<Pose> start{};  ///< replaces the start of the file; in its coordinates
+        std::optional<Pose> goal{};   ///< replaces the goal or slot of the file; in its coordinates
     };
 
-    /** \brief Reads a scenario file, recognised by content: YAML (see docs/scenarios.md) or a TPCAP case.
+    /** \brief Reads a scenario file and detects its format from the content: YAML (see docs/scenarios.md) or a TPCAP
+        case.
 
-        A case is one line of comma-separated numbers: start x, y, yaw, goal x, y, yaw, the number of obstacles, the
-        vertex count of each, then all vertices. The local frame of either has its origin at the start.
+        A case is one line of comma-separated numbers: start x, y, yaw and goal x, y, yaw. The number of obstacles, the
+        vertex count of each and all vertices follow. The origin of the local frame lies at the start.
 
-        Throws parking::Error with one line naming the file and the line or field that is wrong. So do all readers here,
-        also for missing, empty, truncated and absurdly large files. Files of CommonParking and Bench-MR are refused
-        with the command that makes a scenario of them. */
+        Throws parking::Error with one line naming the file and the invalid line or field, also for missing, empty,
+        truncated and oversized files. For files of CommonParking and Bench-MR the message states the command that
+        converts them. */
     Scenario readScenario(const std::string &file, const ReaderOptions &options = {});
 
-    /** \brief readScenario() of what \e file holds, which is then not read: for a pipe, which can be read once only.
+    /** \brief Parses the content of a scenario file like readScenario(), for example of a pipe that can be read only
+        once.
 
-        \param file named in errors, and where files that the text names are looked for */
+        \param file name in errors; relative paths in the text start at its folder
+        \param text content of the file */
     Scenario parseScenario(const std::string &file, std::string text, const ReaderOptions &options = {});
 
     /** \brief Reads a ROS map_server map: the YAML file and the PGM (P2, P5) or PNG image that it names.
 
-        Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown; `negate`,
-        `mode` and an origin with yaw are honoured. One thing differs from map_server: a pixel that is not opaque is
-        unknown in every mode. map_server's trinary mode averages alpha with the colours instead, which turns the usual
-        grey for unknown (205) into free in every image that has an alpha channel.
+        Cells with occupancy above occupied_thresh are occupied, below free_thresh free, in between unknown. The reader
+        supports `negate`, `mode` and an origin with yaw.
 
-        \param files the names of both files are added to it, unless it is null */
+        Unlike map_server, the reader treats a pixel that is not opaque as unknown in every mode. The trinary mode of
+        map_server averages alpha with the colours. This turns the usual grey for unknown (205) into free in every image
+        with an alpha channel.
+
+        \param files unless it is null, the names of both files are appended to it
+        Throws parking::Error naming the file and the invalid line or field. */
     OccupancyGrid readRosMap(const std::string &yamlFile, std::vector<std::string> *files = nullptr);
 
     /** \brief Reads SurroundOcc occupancy voxels (.npy, int64 (n, 4) = ix, iy, iz, label) as a 200x200 grid of 0.5 m
         cells in the lidar frame.
 
-        A cell is occupied when something other than ground stands in its column up to 2.2 m above the ground, or when
-        the ground is pavement or terrain; free when it is drivable; else unknown. Unknown cells with at least five free
-        neighbours become free (three times), since a lidar's rings leave gaps, and so do those under the car itself. */
+        A cell is occupied if its column contains an object up to 2.2 m above the ground or if its ground is pavement or
+        terrain. It is free if its ground is drivable and otherwise unknown. In three passes, unknown cells with at
+        least five free neighbours become free because a lidar's rings leave gaps. Cells under the car become free too.
+
+        Throws parking::Error naming the file and the invalid field. */
     OccupancyGrid readSurroundOcc(const std::string &npyFile);
 
-    /** \brief A car by its name, or read from a YAML file with the fields of Vehicle in snake case.
+    /** \brief A car by its name, or from a YAML file with the fields of Vehicle in snake case.
 
-        Without a field for it, a limit of speed, acceleration or steering rate is TPCAP's; the sizes and the steering
-        angle must be given.
+        A file must contain the sizes and the steering angle. Missing limits of speed, acceleration and steering rate
+        are those of TPCAP.
 
-        \param files the name of the file, if one is read, is added to it, unless it is null */
+        \param files unless it is null, the name of the file is appended to it if one is read
+        Throws parking::Error naming the file and the invalid line or field. */
     Vehicle readVehicle(const std::string &nameOrFile, std::vector<std::string> *files = nullptr);
 }  // namespace parking

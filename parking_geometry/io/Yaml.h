@@ -9,70 +9,74 @@
 
 namespace parking
 {
-    /** \brief A YAML mapping read strictly: every error names the file, the line and the key.
+    /** \brief A YAML mapping with strict validation. Every error names the file, the line and the key.
 
-        Unknown keys, keys given twice and values of another kind than required are errors; numbers are
-        finite. */
+        Duplicate keys, values of the wrong type and numbers that are not finite are errors, and so are unknown keys
+        after allowOnly(). */
     class YamlMap
     {
     public:
-        /** \brief Parses a file's text. Throws when it is no YAML, holds more than one document or its top is not a
+        /** \brief Parses the text of a file. Throws parking::Error unless it is YAML with a single document that is a
             mapping. */
         YamlMap(const std::string &file, const std::string &text);
 
-        /** \brief Views \e node. \param what how messages call it, for example "slot" */
+        /** \brief Views \e node of a document. \param what name in messages, for example "slot" */
         YamlMap(const std::string &file, const YAML::Node &node, const std::string &what);
 
-        /** \brief Throws for the first key that is not in \e known, naming the nearest one. */
+        /** \brief Throws parking::Error for the first key that is not in \e known, naming the nearest known key. */
         void allowOnly(const std::vector<std::string> &known) const;
 
-        /** \brief Throws for the first key that is not in \e known but is a letter or two away from one of them: for
-            files of other programs, where more keys may stand than are read here. */
+        /** \brief Throws parking::Error for the first key that differs from a known one by one or two letters.
+
+            This check is for files of other programs, which may contain further keys. */
         void refuseMisspelt(const std::vector<std::string> &known) const;
 
-        /** \brief Is the key there, whatever its value? */
+        /** \brief Whether the key is present, with any value. */
         bool has(const std::string &key) const;
 
         /** \name Values
-            Each of these throws parking::Error when the key is missing, and when its value is not of the kind.
+            Each of these throws parking::Error if the key is missing or its value has the wrong type.
             @{ */
-        YAML::Node node(const std::string &key) const;   ///< of any kind
-        std::string text(const std::string &key) const;  ///< a word or text, not empty
-        double number(const std::string &key) const;     ///< finite
-        bool flag(const std::string &key) const;         ///< true, yes, on, 1; false, no, off, 0
-        Pose pose(const std::string &key) const;         ///< a list x, y, yaw; the yaw is wrapped
-        YamlMap map(const std::string &key) const;       ///< called key in messages
+        YAML::Node node(const std::string &key) const;   ///< value of any type
+        std::string text(const std::string &key) const;  ///< text that is not empty
+        double number(const std::string &key) const;     ///< finite number
+        bool flag(const std::string &key) const;         ///< one of true, yes, on, 1, false, no, off, 0
+        Pose pose(const std::string &key) const;         ///< pose from a list x, y, yaw; its yaw is wrapped
+        YamlMap map(const std::string &key) const;       ///< mapping, named like the key in messages
         /** @} */
 
-        /** \brief text() of a key that may have other values, too: \e right says which, after "it must be". */
+        /** \brief text() of a key that also allows other values. \param right all valid values, for "it must be ..." in
+            messages */
         std::string textOr(const std::string &key, const std::string &right) const;
 
-        /** \brief A sequence, maybe of nothing. \param right what it must be, as for textOr() */
+        /** \brief A sequence, which may be empty. \param right valid values, for "it must be ..." in messages */
         YAML::Node list(const std::string &key, const std::string &right) const;
 
-        /** \brief number(), or \e otherwise when the key is missing. */
+        /** \brief number(), or \e otherwise if the key is missing. */
         double numberOr(const std::string &key, double otherwise) const;
 
-        /** \brief One of \e names, as its position among them. */
+        /** \brief Index in \e names of the value, which must be one of them. */
         std::size_t choice(const std::string &key, const std::vector<std::string> &names) const;
 
-        /** \brief The numbers of a sequence of exactly \e count. \param what how messages call it */
+        /** \brief The numbers of a sequence of exactly \e count elements. \param what name of the sequence in
+            messages */
         std::vector<double> numbers(const YAML::Node &sequence, std::size_t count, const std::string &what) const;
 
-        /** \brief Throws parking::Error with the file, the line of \e at and \e message. A value that was left blank
-            has no line; its key's is named. */
+        /** \brief Throws parking::Error with the file, the line of \e at and \e message. For a blank value the message
+            names the line of its key. */
         [[noreturn]] void fail(const YAML::Node &at, const std::string &message) const;
 
-        /** \brief The same for the line on which the value of \e key stands, or the key when it has none. */
+        /** \brief Throws parking::Error with the file, the line of the value of \e key and \e message. For a blank
+            value the message names the line of the key. */
         [[noreturn]] void failAt(const std::string &key, const std::string &message) const;
 
-        /** \brief The file and the line of \e at, for messages: "lot.yaml:12". */
+        /** \brief The file and the line of \e at for messages, for example "lot.yaml:12". */
         std::string place(const YAML::Node &at) const;
 
-        /** \brief The same of the value of \e key. */
+        /** \brief The file and the line of the value of \e key for messages, for example "lot.yaml:12". */
         std::string placeOf(const std::string &key) const;
 
-        /** \brief The file that messages name. */
+        /** \brief Name of the file in messages. */
         const std::string &file() const
         {
             return file_;

@@ -11,36 +11,35 @@
 
 namespace parking
 {
-    /** \brief Leaving a slot that is too tight for one sweep: a small planning problem, to be solved out of the
-        slot. */
+    /** \brief A small planning problem: leave a slot that is too tight for a single sweep. */
     struct SlotExitTask
     {
-        Pose parked;  ///< where the search begins
-        std::vector<Pose>
-            exits;   ///< any of these will do: in the aisle, along it, beyond the slot's mouth; nearest first
-        Box bounds;  ///< within which to look, in the frame of the poses
-        SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
-        SlotSide side{SlotSide::Right};       ///< Right or Left
+        Pose parked;              ///< start of the search
+        std::vector<Pose> exits;  ///< goals of the search, nearest first: poses along the aisle beyond the slot's mouth
+        Box bounds;               ///< bounds of the search in the frame of the poses
+        SlotEntry entry{SlotEntry::Reverse};  ///< entry of the later manoeuvre, Reverse or Forward
+        SlotSide side{SlotSide::Right};       ///< side of the slot, Right or Left
     };
 
-    /** \brief The task for \e slot, entered that way.
+    /** \brief The task of leaving \e slot for an entry and a side.
 
-        The exits lie along the aisle, in its middle where its width is known and close to the slots otherwise. Throws
-        parking::Error like ParkingSlot::goals(). */
+        The exits lie along the aisle, in its middle if its width is known and otherwise close to the slots.
+        Throws parking::Error like ParkingSlot::goals(). */
     SlotExitTask slotExitTask(const ReverseParking &parking, const ParkingSlot &slot, SlotEntry entry, SlotSide side);
 
-    /** \brief A planner for such tasks: a path from \e parked to one of \e exits, as many changes of direction as it
-        takes; without pieces when there is none. */
+    /** \brief A planner for exit tasks. Returns a path from \e parked to one of \e exits with any number of cusps, or a
+        path without pieces if it finds none. */
     using SlotExitPlanner = std::function<Path(const SlotExitTask &)>;
 
-    /** \brief In one sweep where that fits, otherwise in several stretches found by \e planner.
+    /** \brief Plans a single sweep if one fits, otherwise a manoeuvre of several stretches from the paths of \e
+        planner.
 
-        The planner's path is checked: it must begin at the parked pose and end at an exit (1e-6 m, 1e-6 rad) and pass
-        the world's callables. Reversed it is the manoeuvre; its path counts its stretches, and
-        the radii are 0. Among the allowed entries and sides the one with the fewest stretches wins, then the
-        shortest. When none works, the verdict is that of the single sweep.
+        A path of the planner must begin at the parked pose, end at an exit (1e-6 m, 1e-6 rad) and pass the world's
+        callables. The manoeuvre is this path reversed, with radii of 0. Among the allowed entries and sides, the
+        function selects the fewest stretches, then the shortest path. If no path is valid, it returns the result of the
+        single sweep.
 
-        Throws parking::Error like ReverseParking::plan(), and when the planner's path is none of the above. */
+        Throws parking::Error like ReverseParking::plan() and if a path of the planner violates these conditions. */
     ReverseParkingResult planInStretches(const ReverseParking &parking, const ParkingSlot &slot,
                                          const FootprintQueries &world, const SlotExitPlanner &planner);
 }  // namespace parking

@@ -12,108 +12,112 @@
 
 namespace parking
 {
-    /** \brief What may be said about the world and the manoeuvre beforehand. */
+    /** \brief Options of ReverseParking. */
     struct ReverseParkingOptions
     {
-        /** Width of the aisle: from the line through the slots' mouths (parallel: the slot's edge) to what bounds it on
-            the other side, metres. */
+        /** Width of the aisle in metres, from the line through the slots' mouths, or from the edge of a parallel slot,
+            to the opposite boundary. */
         double aisleWidth{std::numeric_limits<double>::infinity()};
 
-        /** Gap kept all round the body in the construction, metres. 0: the car may graze. */
+        /** Gap on all sides of the body in the construction, metres. With 0 the car may touch its neighbours. */
         double clearance{0.05};
 
-        /** Straight line before (seen from the planner) the first arc, metres. */
+        /** Length of the guard line, the straight line that ends at the first arc of the entry, metres. */
         double guardLength{1.5};
 
-        /** Radius to use where there is room for it, metres; 0: 1.15 times the smallest, so that tracking and smoothing
-            keep a reserve of steering. Never below the smallest. */
+        /** Preferred radius in metres, used if the clearance suffices. 0 selects 1.15 times the minimum turning radius,
+            a steering reserve for tracking and smoothing. Smaller values are raised to the minimum turning radius. */
         double preferredRadius{0.0};
     };
 
-    /** \brief Whether there is a manoeuvre, and otherwise what is in its way. */
+    /** \brief Whether a manoeuvre exists, and otherwise the reason. */
     enum class ReverseParkingStatus
     {
-        Fits,  ///< there is one
+        Fits,  ///< a manoeuvre exists
 
-        /** No room at the closed end, or (parallel) R_min > R_max: the corner A of the car would hit the bound P of the
-            slot. */
+        /** The gap at the closed end is too small. For parallel slots R_min > R_max: the corner A of the car would hit
+            the corner P of the slot. */
         SlotTooShort,
-        SlotTooNarrow,   ///< no room beside the car, or (parallel) its tail would swing over the kerb
-        AisleTooNarrow,  ///< no radius gets the car round within the aisle
-        Blocked          ///< the construction is legal, but the world's callables refuse every variant of it
+        SlotTooNarrow,   ///< too narrow for the car, or the tail would cross the kerb of a parallel slot
+        AisleTooNarrow,  ///< the aisle is too narrow for every radius
+        Blocked          ///< the construction is legal, but the world's callables reject every variant
     };
 
-    /** \brief A manoeuvre into a slot, or why there is none. */
+    /** \brief A manoeuvre into a slot, or the reason for its absence. */
     struct ReverseParkingResult
     {
-        ReverseParkingStatus status{ReverseParkingStatus::Blocked};  ///< whether there is one, or what is missing
-        std::string message;  ///< one line; what is missing, in centimetres, unless the manoeuvre fits
+        ReverseParkingStatus status{ReverseParkingStatus::Blocked};  ///< existence, or the missing dimension
+        std::string message;  ///< one line with the missing centimetres unless the manoeuvre fits
 
-        SlotEntry entry{SlotEntry::Reverse};  ///< Reverse or Forward
-        SlotSide side{SlotSide::Right};       ///< Right or Left
-        Pose goal;                            ///< the parked car
+        SlotEntry entry{SlotEntry::Reverse};  ///< entry of the manoeuvre, Reverse or Forward
+        SlotSide side{SlotSide::Right};       ///< side of the slot, Right or Left
+        Pose goal;                            ///< pose of the parked car
 
-        /** From P, the start of the guard line and the planner's goal, to goal; no pieces unless it fits. Where the
-            world ends the guard line is shorter than required. */
+        /** Path from the start of the guard line, which is the goal of a path planner, to \e goal. It has no pieces
+            unless the manoeuvre fits. Near the end of the world the guard line is shorter than required. */
         Path path;
 
-        double firstRadius{0.0};  ///< metres, of the arc that meets the slot; chosen from [minRadius, maxRadius]
-        double minRadius{0.0};  ///< smallest radius: of the steering or, where larger, of the tail's swing to the kerb
-        double maxRadius{std::numeric_limits<double>::infinity()};  ///< the paper's R_max (parallel slots)
+        double firstRadius{0.0};  ///< radius of the arc next to the slot, metres, in [minRadius, maxRadius]
+        double minRadius{0.0};    ///< larger of the radii that the steering and the kerb require, metres
+        double maxRadius{std::numeric_limits<double>::infinity()};  ///< R_max of the paper (parallel slots), metres
 
-        double neededSlotLength{0.0};  ///< metres: the shortest slot that would do (other kinds: that holds the car)
-        double neededAisleWidth{0.0};  ///< metres: the narrowest aisle in which this slot can be entered in one sweep
-        double missing{0.0};           ///< metres of what status names; 0 when it fits or is blocked
+        double neededSlotLength{0.0};  ///< shortest slot for one sweep (parallel) or for the car (others), metres
+        double neededAisleWidth{0.0};  ///< narrowest aisle from which one sweep enters this slot, metres
+        double missing{0.0};           ///< missing metres of the dimension in status; 0 for Fits and Blocked
 
-        /** \brief Is there a manoeuvre? */
+        /** \brief Whether a manoeuvre exists. */
         bool fits() const
         {
             return status == ReverseParkingStatus::Fits;
         }
     };
 
-    /** \brief Reverse parking as in the paper (section "Reverse Parking Planning Method"): the way out of the slot is
-        planned and driven backwards.
+    /** \brief Reverse parking as in the paper (section "Reverse Parking Planning Method"): a path out of the slot,
+        driven backwards.
 
         - Perpendicular and angled: straight out, an arc into the aisle, a guard line.
         - Parallel: two tangent arcs and a guard line.
-        - Forward entry: the same with the car turned round.
+        - Forward entry: the same shapes with the car turned round.
 
-        \b Legality. The slot is taken to lie in the world of slotSurroundings(). Within the family of manoeuvres above
-        the answer is exact: R_min <= R_max for parallel slots, with R_max from the circle on which the leading outer
-        corner A of the body and the corner P of the slot both lie, and R_min the larger of the steering's limit and the
-        radius at which the tail clears the kerb; the smallest aisle over all radii for the others. (Forward entry into
-        a parallel slot: the kerb condition asks for a whole swing of the tail, which very long slots do not need.)
+        \b Legality. The class assumes the world of slotSurroundings(). Within the family of manoeuvres above, its
+        result is exact:
+        - Parallel slots require R_min <= R_max. R_max belongs to the circle through the leading outer corner A of the
+          body and the corner P of the slot. R_min is the larger of the minimum turning radius and the radius at which
+          the tail clears the kerb.
+        - Other slots require the narrowest aisle over all radii.
 
-        \b The world may be less regular than that. With callables in FootprintQueries the manoeuvre is checked along
-        its whole length; where the construction is refused, other radii and longer straight pieces are tried before the
-        status becomes Blocked, and a slot that is illegal between walls may still be entered when the callables say
-        that its neighbours are missing.
+        For forward entry into a parallel slot, the kerb condition includes a whole swing of the tail, which very long
+        slots do not need.
 
-        Every computation is made in the slot's frame: rotated, shifted and mirrored slots give rotated, shifted and
-        mirrored manoeuvres. */
+        \b Irregular \b worlds. With callables in FootprintQueries the class checks the manoeuvre along its whole
+        length. If they reject the construction, the class attempts other radii and longer straight pieces before it
+        returns Blocked. A slot that is illegal between walls is legal if the callables report that its neighbours are
+        absent.
+
+        All computations use the slot's frame. Rotated, shifted and mirrored slots yield rotated, shifted and mirrored
+        manoeuvres. */
     class ReverseParking
     {
     public:
         /** \brief Throws parking::Error for an invalid vehicle or option, naming it. */
         explicit ReverseParking(const Vehicle &vehicle, const ReverseParkingOptions &options = {});
 
-        /** \brief The first manoeuvre that fits, of the allowed entries and sides in their order; when none does, the
-            verdict that misses the least.
+        /** \brief The first manoeuvre that fits among the allowed entries and sides, in their order. If none fits, the
+            result with the smallest missing dimension.
 
-            Throws parking::Error for an invalid slot and for one smaller than the car. */
+            Throws parking::Error for an invalid slot and for one that is smaller than the car. */
         ReverseParkingResult plan(const ParkingSlot &slot, const FootprintQueries &world = {}) const;
 
-        /** \brief One result per allowed entry and side: each one that fits is a goal the planner may choose. */
+        /** \brief One result per allowed entry and side. Each one that fits is a possible goal of a path planner. */
         std::vector<ReverseParkingResult> planAll(const ParkingSlot &slot, const FootprintQueries &world = {}) const;
 
-        /** \brief The car that manoeuvres are made for. */
+        /** \brief The car of the manoeuvres. */
         const Vehicle &vehicle() const
         {
             return vehicle_;
         }
 
-        /** \brief What was said beforehand. */
+        /** \brief The options of the constructor. */
         const ReverseParkingOptions &options() const
         {
             return options_;
@@ -129,7 +133,7 @@ namespace parking
 
     /** \brief \e first followed by \e second as one path.
 
-        Throws parking::Error when \e second does not start where \e first ends, within 1e-6 m and 1e-6 rad; the end of
-        the result is off by what the gap is. */
+        Throws parking::Error unless \e second starts at the end of \e first within 1e-6 m and 1e-6 rad. The end of the
+        result deviates by this gap. */
     Path joined(const Path &first, const Path &second);
 }  // namespace parking

@@ -8,17 +8,16 @@
 
 namespace parking
 {
-    /** \brief The obstacles that a slot is taken to have round it where nothing else is known: the world of
-        ReverseParking's legality, of examples and of tests.
+    /** \brief Assumed obstacles round a slot, which define the legality of a manoeuvre of ReverseParking.
 
-        A row of equal slots without gaps, every neighbour filled up to the line through the outermost corners of the
-        slots' mouths (angled rows: on the outer side of the turn up to the neighbour's own corner), a wall at the
-        closed end, and a wall along the other side of the aisle. Parallel: kerb, neighbours ahead and behind, and that
-        wall.
+        - Perpendicular and angled slots: a row of equal slots without gaps, a wall at the closed end and a wall across
+          the aisle. The neighbours extend to the line through the outermost corners of the slots' mouths. On the outer
+          side of the turn, neighbours in angled rows extend to their own corners.
+        - Parallel slots: a kerb, neighbours ahead and behind, and a wall across the lane.
 
         \param side Right or Left, see ParkingSlot::side
-        \param aisleWidth metres from the slots' mouths to the wall across; infinite: no wall
-        \param reach metres that neighbours and walls extend from the slot
+        \param aisleWidth metres from the slots' mouths to the wall across; infinite for no wall
+        \param reach metres by which neighbours and walls extend from the slot
         \return convex polygons, counter-clockwise */
     std::vector<Polygon> slotSurroundings(const ParkingSlot &slot, SlotSide side,
                                           double aisleWidth = std::numeric_limits<double>::infinity(),

@@ -11,29 +11,33 @@
 
 namespace parking
 {
-    /** \brief Where the referee lets a shape stand, with code that has nothing in common with the checkers that
-       planners use: no outline of an obstacle crosses the shape, and its middle is outside of all obstacles.
+    /** \brief Collision test of the referee. It shares no code with the checkers that planners use.
 
-        A touch of up to a micrometre counts as free, since paths may end where numbers round. */
+        A shape is free if no outline of an obstacle crosses it and its centre is outside of all obstacles.
+
+        An overlap of up to a micrometre counts as free because of rounding at the ends of paths. */
     class FreeSpace
     {
     public:
-        /** \brief For the car's rectangle, or when \e circleRadius is positive for a disc round its rear axle. */
+        /** \brief Tests the car's rectangle or, if \e circleRadius is positive, a disc about its rear axle. */
         explicit FreeSpace(const Scenario &scenario, double circleRadius = 0.0);
 
-        /** \brief Is the shape at this local pose free of obstacles and inside of the world? */
+        /** \brief Whether the shape at this local pose touches no obstacle and lies within the world. */
         bool isFree(const Pose &pose) const;
 
-        /** \brief Metres between the shape and the nearest obstacle or the end of the world; 0 where it touches one. It
-           is exact if less than \e enough, otherwise some number from \e enough up to the distance. */
+        /** \brief Distance in metres between the shape and the nearest obstacle or the end of the world; 0 if they
+            touch.
+
+            The result is exact if it is less than \e enough. Otherwise it is a value between \e enough and the
+            distance. */
         double clearance(const Pose &pose, double enough) const;
 
-        /** \brief The least clearance on a straight drive from a free pose: that of all that the shape covers.
+        /** \brief Minimum clearance on a straight drive from a free pose, with \e enough as for clearance().
 
             \param length metres, negative in reverse */
         double clearanceAlong(const Pose &from, double length, double enough) const;
 
-        /** \brief Metres from the rear axle to the point of the shape that moves most when the heading turns. */
+        /** \brief Largest distance in metres of a point of the shape from the rear axle. */
         double farthestPoint() const
         {
             return farthest_;
@@ -48,10 +52,10 @@ namespace parking
         void addOutlinesOfCells();
 
         double radius_;
-        double centreOffset_{0.0}, halfLength_{0.0}, halfWidth_{0.0};  ///< of the body; a disc is its middle
+        double centreOffset_{0.0}, halfLength_{0.0}, halfWidth_{0.0};  ///< of the body; a disc has half lengths of 0
         double farthest_{0.0};
 
-        Box bounds_;  ///< in the frame of the obstacles
+        Box bounds_;  ///< bounds in the frame of the obstacles
         Outlines outlines_;
         std::optional<OccupancyGrid> grid_;
         bool unknownIsOccupied_;

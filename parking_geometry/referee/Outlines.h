@@ -10,34 +10,36 @@
 
 namespace parking
 {
-    /** \brief The outlines of all obstacles of a world, found by where they are: for the referee, and written for it.
+    /** \brief Spatial index of the outlines of all obstacles, used only by the referee.
 
-        Edges lie in square buckets of the world, a slanting one in those that it passes through. What lies outside of
-        the bounds is entered at their rim, which is nearer than it is. */
+        Square buckets store the edges that pass through them. Parts of edges outside of the bounds are stored in the
+        outermost buckets. */
     class Outlines
     {
     public:
         Outlines() = default;
 
-        /** \brief \param bounds of the world that is asked about, not empty */
+        /** \brief An index without outlines. \param bounds area of later queries, not empty */
         explicit Outlines(const Box &bounds);
 
-        /** \brief A solid obstacle. Self-intersecting ones are inside where a ray leaves them an odd number of times.
-         */
+        /** \brief Adds a solid obstacle. A self-intersecting polygon contains a point if a ray from it crosses the
+            outline an odd number of times. */
         void add(const Polygon &polygon);
 
-        /** \brief A piece of an outline that nothing is inside of. */
+        /** \brief Adds an edge without an interior. */
         void add(const Edge &edge);
 
-        /** \brief Metres between the box's outline or interior and the nearest edge, 0 when they meet; exact if less
-            than \e enough, otherwise some number from \e enough up to the distance. */
+        /** \brief Distance in metres between the solid box and the nearest edge; 0 if they touch.
+
+            The result is exact if it is less than \e enough. Otherwise it is a value between \e enough and the
+            distance. */
         double distance(const OrientedBox &box, double enough) const;
 
-        /** \brief Is the point, which lies within the bounds, inside of a polygon? */
+        /** \brief Whether the point is inside of a polygon. The point must lie within the bounds. */
         bool isInside(const Eigen::Vector2d &point) const;
 
     private:
-        /** An edge of a polygon, to be counted as crossed by a ray along the row. */
+        /** An edge of a polygon for the ray test along a row. */
         struct RowEdge
         {
             Edge edge;
@@ -48,12 +50,12 @@ namespace parking
         std::size_t rowOf(double y) const;
 
         Box bounds_;
-        double side_{1.0};  ///< of a bucket, metres
+        double side_{1.0};  ///< side of a bucket, metres
         std::size_t columns_{1}, rows_{1};
         std::vector<Edge> edges_;
-        std::vector<std::vector<std::size_t>> buckets_;  ///< indices of edges
+        std::vector<std::vector<std::size_t>> buckets_;  ///< indices of edges per bucket
         std::size_t polygons_{0};
-        /** By rows of buckets, each polygon's edges in succession. */
+        /** Edges per row of buckets; those of a polygon are contiguous. */
         std::vector<std::vector<RowEdge>> rowEdges_;
     };
 }  // namespace parking

@@ -11,78 +11,85 @@
 
 namespace parking
 {
-    /** \brief What may be wrong with a path. */
+    /** \brief Fault of a path. */
     enum class Fault
     {
-        None,         ///< nothing is wrong
-        NoPath,       ///< there is none: it has no state
-        NotFinite,    ///< a number is missing or infinite, or so large that it is no place in the world
-        WrongStart,   ///< it begins elsewhere than at the start
-        MissesGoal,   ///< it is said to reach a goal and ends elsewhere
-        NotDrivable,  ///< the car cannot steer like that, or would have to turn on the spot
-        Collision     ///< the shape touches an obstacle, or leaves the world
+        None,         ///< the path is valid
+        NoPath,       ///< the path has no state
+        NotFinite,    ///< a number is NaN, infinite or far outside of the world
+        WrongStart,   ///< the path does not begin at the start
+        MissesGoal,   ///< the path should end at a goal but does not
+        NotDrivable,  ///< the curvature is too large for the car, or it would have to turn on the spot
+        Collision     ///< the shape touches an obstacle or leaves the world
     };
 
-    /** \brief Names as in results: none, no_path, not_finite, wrong_start, misses_goal, not_drivable, collision. */
+    /** \brief Name of a fault in results: none, no_path, not_finite, wrong_start, misses_goal, not_drivable or
+        collision. */
     std::string toString(Fault fault);
 
-    /** \brief What the referee found. Without a path nothing is right, which is how it begins. */
+    /** \brief Result of the referee. The default is that of a missing path. */
     struct Verdict
     {
-        bool valid{false};              ///< nothing is wrong
-        Fault fault{Fault::NoPath};     ///< the first one found; None when valid
-        std::string reason{"no path"};  ///< what and where, in a few words; empty when valid
-        std::size_t states{0};          ///< poses decided
-        std::size_t collisions{0};      ///< of those in collision
-        double maxCurvature{0.0};       ///< 1/m, largest magnitude along the path
+        bool valid{false};              ///< whether the path has no fault
+        Fault fault{Fault::NoPath};     ///< first fault along the path; None if valid
+        std::string reason{"no path"};  ///< fault and position in a few words; empty if valid
+        std::size_t states{0};          ///< number of poses checked
+        std::size_t collisions{0};      ///< number of poses in collision
+        double maxCurvature{0.0};       ///< largest magnitude of the curvature along the path, 1/m
     };
 
-    /** \brief Has the last word on a finished path: is it one, from the start to a goal, for this car, in this world?
+    /** \brief Independent check of a finished path: whether it leads from the start to a goal, suits the car and is
+        free.
 
-        Nothing that planners say about their paths is believed, and nothing that they compute with is used here but the
-        types of the geometry: path and obstacles are gone through once more by code of its own, in steps between which
-        no point of the body moves farther than STEP. Where the distance to the nearest obstacle is more than the body
-        moves, the poses up to there are known to be free and are not looked at one by one; the verdict is the same. */
+        The referee ignores the planner's own results and shares only geometric types with the planners. Separate code
+        checks the path in steps between which no point of the body moves farther than STEP. It skips poses that the
+        distance to the nearest obstacle proves free, which does not change the verdict. */
     class Referee
     {
     public:
-        static constexpr double STEP = 0.005;  ///< metres
-        /** Metres, and radians, that a path may begin off the start and end off the goal. Goals of scenarios are poses:
-            this is for the rounding of long paths. */
+        static constexpr double STEP = 0.005;  ///< largest motion of the body between two checked poses, metres
+        /** Largest deviation of the ends of a path from the start and the goal, in metres and radians. It allows for
+            the rounding of long paths. */
         static constexpr double TOLERANCE = 1e-4;
-        /** Metres: no place farther than this from the world, and no longer drive, is looked at. */
+        /** Largest distance of a pose from the world and largest length of a path, metres. */
         static constexpr double FARTHEST = 1e6;
-        /** Poses in collision after which a path is not looked at any further: kilometres. */
+        /** Number of poses in collision after which the check ends. */
         static constexpr std::size_t MOST_COLLISIONS = 1000000;
 
-        static constexpr double CLEARANCE = 0.002;  ///< metres
+        static constexpr double CLEARANCE = 0.002;  ///< absolute tolerance of leastClearance(), metres
 
-        /** \brief For the car's rectangle, or when \e circleRadius is positive for a disc round its rear axle. */
+        /** \brief Checks the car's rectangle or, if \e circleRadius is positive, a disc about its rear axle. */
         explicit Referee(const Scenario &scenario, double circleRadius = 0.0);
 
-        /** \brief Where the shape may stand. */
+        /** \brief Collision test of the shape. */
         const FreeSpace &space() const
         {
             return space_;
         }
 
-        /** \brief Is \e path finite, from the start, to a goal, drivable and free?
+        /** \brief Checks that \e path is finite, leads from the start to a goal, is drivable and free.
 
-            \param exact false for one that only comes near to a goal: where it ends is then not looked at */
+            \param exact whether the path must end at a goal */
         Verdict check(const Path &path, bool exact = true) const;
 
-        /** \brief The same of straight lines from pose to pose along which the heading turns evenly, as planners of a
-            plain SE2 space mean them. No car drives like that, so drivable is whatever is finite. */
+        /** \brief Checks straight lines between poses along which the heading changes linearly, as in a plain SE2
+            space.
+
+            The curvature limit does not apply to such motions, which no car can drive.
+            \param exact whether the lines must end at a goal */
         Verdict checkLines(const std::vector<Pose> &poses, bool exact = true) const;
 
-        /** \brief Metres between the shape and the obstacles, the least along the path, 0 where it touches one: never
-           too little, and too much by no more than CLEARANCE or a hundredth of it. The path has to be a finite one. */
+        /** \brief Minimum distance in metres between the shape and the obstacles along a finite path; 0 if it touches
+            one.
+
+            The result is never too small. It is too large by at most CLEARANCE or one percent. */
         double leastClearance(const Path &path) const;
 
-        /** \brief The same along lines as of checkLines(), of which there has to be at least one pose. */
+        /** \brief Minimum distance in metres between the shape and the obstacles along lines as in checkLines(), with
+            at least one pose. The tolerance is that for paths. */
         double leastClearance(const std::vector<Pose> &poses) const;
 
-        /** \brief Is this a place that can be computed with: finite, and no farther than FARTHEST from the world? */
+        /** \brief Whether the pose is finite and at most FARTHEST from the world. */
         bool isPlace(const Pose &pose) const;
 
     private:
@@ -97,6 +104,6 @@ namespace parking
         bool isDisc_;
     };
 
-    /** \brief Referee(scenario).check(path). */
+    /** \brief Checks a single path, like Referee(scenario).check(path). */
     Verdict check(const Scenario &scenario, const Path &path);
 }  // namespace parking

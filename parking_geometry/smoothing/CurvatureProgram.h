@@ -9,75 +9,79 @@
 
 namespace parking
 {
-    /** \brief The quadratic program at the heart of PathSmoother: the curvature profile that follows a path of arcs
-        most closely under limits on curvature, on its rate and on the deviation, and that ends where the path ends.
+    /** \brief The quadratic program of PathSmoother. Its solution is the curvature profile that follows a path of arcs
+        most closely and ends at the end of the path.
 
-        Along the reference (nodes, joined by intervals of constant reference curvature) the car has a lateral deviation
-        y, a deviation of heading psi and a curvature k:
+        The curvature, its rate and the deviation are limited.
+
+        The reference consists of nodes joined by intervals of constant curvature kRef. Along it the car has a lateral
+        deviation y, a deviation of heading psi and a curvature k:
 
         y' = psi,  psi' = (k - kRef) - kRef^2 y,  k' = u   (first order in the deviations)
 
-        Minimised: the integral of (y^2 + lever^2 psi^2) / tolerance^2 + (u / uSoft)^2, under |k| <= kMax, |u| <= uMax
-        per interval and, where a node has a corridor, with y + front psi and y - rear psi inside of it. y and psi are 0
-        at both ends; k is free there or given.
+        The program minimises the integral of (y^2 + lever^2 psi^2) / tolerance^2 + (u / uSoft)^2 under |k| <= kMax and
+        |u| <= uMax per interval. At a node with a corridor, y + front psi and y - rear psi must lie in it. At both ends
+        y and psi are 0, and k is free or given.
 
-        Solved by a primal-dual interior point method whose linear systems are Riccati recursions, so the effort grows
-        with the number of nodes; bounds hold strictly. An object keeps its memory from one use to the next. */
+        The solver is a primal-dual interior point method whose linear systems are Riccati recursions. Its effort is
+        linear in the number of nodes, and the bounds hold strictly. An object reuses its memory. */
     class CurvatureProgram
     {
     public:
-        /** \brief What the program uses at all nodes. */
+        /** \brief Parameters common to all nodes. */
         struct Settings
         {
             double maxCurvature{0.3};  ///< kMax, 1/m
-            double lever{2.5};         ///< metres; how much a deviation of heading weighs against a lateral one
+            double lever{2.5};         ///< weight of a deviation of heading relative to a lateral one, metres
             double softRate{0.2};      ///< uSoft, 1/m^2
-            double tolerance{0.05};    ///< metres; deviations of this size cost as much as steering at the soft rate
+            double tolerance{0.05};    ///< deviation that costs as much as steering at the soft rate, metres
             double front{3.8};         ///< metres from the axle to the leading end of the body
             double rear{0.9};          ///< metres from the axle to the trailing end of the body
-            std::optional<double> startCurvature;  ///< k at the first node, where it is given
-            std::optional<double> endCurvature;    ///< k at the last node, where it is given
+            std::optional<double> startCurvature;  ///< k at the first node, if fixed
+            std::optional<double> endCurvature;    ///< k at the last node, if fixed
         };
 
-        /** \brief The reference between two nodes, and how fast the curvature may change there. */
+        /** \brief The reference between two nodes and the limit of the curvature rate. */
         struct Interval
         {
             double length{0.0};     ///< metres along the reference, positive
-            double curvature{0.0};  ///< of the reference
+            double curvature{0.0};  ///< kRef, curvature of the reference, 1/m
             double maxRate{1.0};    ///< uMax, 1/m^2
         };
 
-        /** \brief Lateral deviations that the ends of the body may have at a node, metres; infinite for no limit. */
+        /** \brief Limits of the lateral deviation of the body's ends at a node, metres; infinite for no limit. */
         struct Corridor
         {
-            double low{-std::numeric_limits<double>::infinity()};  ///< to the right, usually negative
-            double high{std::numeric_limits<double>::infinity()};  ///< to the left
+            double low{-std::numeric_limits<double>::infinity()};  ///< limit to the right, usually negative
+            double high{std::numeric_limits<double>::infinity()};  ///< limit to the left
         };
 
         /** \brief Deviations at a node: y, psi and the curvature k itself. */
         using State = Eigen::Vector3d;
 
-        /** \brief Starts a new problem. \param corridors per node (one more than intervals); empty for none at all. */
+        /** \brief Starts a new problem. \param corridors one per node, that is one more than intervals; empty for no
+            limits */
         void reset(const Settings &settings, const std::vector<Interval> &intervals,
                    const std::vector<Corridor> &corridors);
 
-        /** \brief Replaces the linear model by the one that is exact at \e states, which the caller simulated with
-            their curvatures, so that a second solve() removes what the first one left at the end.
+        /** \brief Replaces the linear model by the linearisation at \e states, which the caller has simulated with
+            their curvatures.
 
-            \param lengths what the car drives along each interval; maxRate is per metre of these */
+            A second solve() then removes the remaining error at the end.
+            \param lengths driven length of each interval, to which maxRate refers */
         void relinearise(const std::vector<State> &states, const std::vector<double> &lengths);
 
-        /** \brief Solves. False when there is no profile within the limits.
-            states() is the solution; its y and psi are those of the linear model. */
+        /** \brief Solves the program and stores the solution in states(), with y and psi of the linear model. \return
+            false if no profile satisfies the limits */
         bool solve();
 
-        /** \brief What solve() found, one per node. */
+        /** \brief Solution of the last solve(), one state per node. */
         const std::vector<State> &states() const
         {
             return x_;
         }
 
-        /** \brief Change of (y, psi) at the end per change of the curvature at each node, in the linear model. */
+        /** \brief Derivative of (y, psi) at the end by the curvature of each node, in the linear model. */
         void endSensitivity(std::vector<Eigen::Vector2d> &sensitivity) const;
 
     private:

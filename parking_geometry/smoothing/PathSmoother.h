@@ -9,51 +9,54 @@
 
 namespace parking
 {
-    /** \brief How PathSmoother makes curvature continuous. */
+    /** \brief Options of PathSmoother. */
     struct SmoothingOptions
     {
-        /** Planned speed, m/s, at which the steering must keep up; the vehicle's maximum where that is lower. */
+        /** Planned speed, m/s, at which the steering must follow the path. The vehicle's maximum speed limits it. */
         double speed{1.0};
 
-        /** Where a transition has no room at the planned speed, slower ones are tried, each half as fast, down to this,
-            m/s. Slower than that the car had better stop to steer. */
+        /** Lowest planned speed, m/s. If a transition does not fit at the planned speed, the smoother halves the speed
+            down to this limit. Below it the car stops to steer. */
         double minSpeed{0.1};
 
-        /** Deviation from the arcs, metres, that is worth steering at the full rate of the planned speed. Larger values
-            give softer steering and larger deviations. */
+        /** Deviation from the arcs, metres, that costs as much as steering at the full rate. Larger values result in
+            softer steering and larger deviations. */
         double tolerance{0.05};
     };
 
-    /** \brief A path whose curvature is continuous wherever the car moves, and what smoothing did to get there. */
+    /** \brief A path whose curvature is continuous while the car moves. */
     struct SmoothPath
     {
-        Path path;                       ///< of arcs, lines and clothoids
-        std::vector<std::size_t> stops;  ///< pieces before which the car stops to steer, ends of stretches apart
-        bool free{true};                 ///< whether the world's callables agree, kept arcs included
+        Path path;                       ///< arcs, lines and clothoids
+        std::vector<std::size_t> stops;  ///< pieces before which the car stops to steer within a stretch
+        bool free{true};                 ///< whether the world's callables accept the whole path
     };
 
-    /** \brief Turns a path of arcs and lines, the planner's or a manoeuvre's, into one that a car can drive without
-        stopping to steer (paper, sections "Reverse Parking Planning Method" and "Bezier Curve Trajectory
-        Optimization").
+    /** \brief Replaces a path of arcs and lines by one that a car can drive without steering at standstill.
 
-        Per stretch between changes of direction the arcs are replaced by pieces of linear curvature: position and
-        heading are continuous, the curvature is continuous and bounded by that of the minimum turning radius, and its
-        change per metre by what the steering can do at the planned speed. Start, goal and every change of direction
-        keep their exact poses. The car stands at those, so that a stretch may begin and end with any curvature.
+        The method follows the paper, sections "Reverse Parking Planning Method" and "Bezier Curve Trajectory
+        Optimization".
 
-        The result is checked by the world's callables. A stretch whose smooth curve collides is smoothed again within
-        what the clearance callable promises to be free on either side of its arcs, then at lower speeds, whose sharper
-        transitions deviate less. What still does not fit is divided: as many arcs as possible are joined smoothly, and
-        where two cannot be, the car stops to steer. Two arcs at full lock, one to each side, with no line before or
-        after them never can: a car that turns no tighter than planned has no other way to the same end pose. Plan with
-        a turning radius 2 to 5 % above the smallest to leave the room. */
+        In each stretch between cusps, pieces of linear curvature replace the arcs. Position, heading and curvature are
+        continuous. The minimum turning radius limits the curvature, and the steering rate at the planned speed limits
+        its change per metre. Start, goal and cusps keep their exact poses. The car stops there, so a stretch may begin
+        and end with any curvature.
+
+        The world's callables check the result. If the smooth curve of a stretch collides, the smoother repeats within
+        the clearance on either side of its arcs. It then attempts lower speeds, whose sharper transitions deviate less.
+        If this fails too, it divides the stretch: it joins as many arcs as possible, and the car stops to steer between
+        the parts.
+
+        Two arcs at full lock to opposite sides cannot be joined if there is no line before or after them. Plan with a
+        turning radius 2 to 5 % above the minimum to avoid this case. */
     class PathSmoother
     {
     public:
-        /** \brief Throws parking::Error for an invalid vehicle or option, naming it. */
+        /** \brief Uses \e options for \e vehicle. Throws parking::Error naming an invalid vehicle or option. */
         explicit PathSmoother(const Vehicle &vehicle, const SmoothingOptions &options = {});
 
-        /** \brief Throws parking::Error for pieces that are no arcs or lines: clothoids and turns on the spot. */
+        /** \brief The smooth version of \e path. Throws parking::Error for clothoids and turns on the spot in \e
+            path. */
         SmoothPath smooth(const Path &path, const FootprintQueries &world = {}) const;
 
     private:

@@ -5,21 +5,22 @@
 
 namespace parking
 {
-    /** \brief \e text with small letters for the capital ones of ASCII. */
+    /** \brief \e text with ASCII capital letters in lower case. */
     std::string lowerCase(std::string text);
 
-    /** \brief The name in \e known that \e name was most likely meant to be: the one with the fewest letters to change,
-        whatever their case, or one that \e name is a part of. Empty when none is near: when of each more than a third
-        of the letters would have to change, and more than half to be added. */
+    /** \brief The name in \e known that is most similar to \e name, ignoring case, for suggestions in messages.
+
+        This is the name with the smallest edit distance or one that contains \e name. The result is empty if each known
+        name requires changes of more than a third of the letters and additions of more than half. */
     std::string nearestName(const std::string &name, const std::vector<std::string> &known);
 
-    /** \brief Is \e name not in \e known, but at most two letters away from a name that is? */
+    /** \brief Whether \e name is not in \e known but differs from a known name by at most two letters. */
     bool isMisspelt(const std::string &name, const std::vector<std::string> &known);
 
-    /** \brief The one-line message for a name that nothing has, with the nearest, if one is near, and all known ones:
-        "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar", or "unknown planner 'tree'; known:
-       ...".
+    /** \brief The one-line message for an unknown name, with the most similar known name, if any, and all known names.
 
-        \param what what the name was to be, for example "planner" */
+        Examples are "unknown planner 'rrtstr'; did you mean 'rrtstar'? Known: prm, rrtstar" and "unknown planner
+        'tree'; known: ...".
+        \param what kind of the named thing, for example "planner" */
     std::string unknownName(const std::string &what, const std::string &name, const std::vector<std::string> &known);
 }  // namespace parking

@@ -5,26 +5,26 @@
 
 namespace parking
 {
-    /** \brief Checks the values of one thing.
+    /** \brief Checks the fields of one object.
 
-        A value that is not right is a parking::FieldError that names the thing, the field, its value and what would be
-        right, for example "mpc: step is 0; it must be above 0 and up to 1 second". */
+        For an invalid value the class throws a parking::FieldError that names the object, the field, its value and the
+        valid values. An example is "mpc: step is 0; it must be above 0 and up to 1 second". */
     class Require
     {
     public:
-        /** \param thing what the values belong to, for example "mpc" */
+        /** \param thing name of the object in messages, for example "mpc" */
         explicit Require(std::string thing);
 
-        /** \brief Throws unless \e ok; \e right goes on after "it must be". */
+        /** \brief Throws unless \e ok. \param right valid values, which follow "it must be" in the message */
         void that(bool ok, std::string_view field, double value, std::string_view right) const;
 
-        /** \brief Finite and above zero; \e unit as in "a positive number of metres", empty for none. */
+        /** \brief Requires a finite value above zero. \param unit as in "a positive number of metres", or empty */
         void positive(std::string_view field, double value, std::string_view unit = {}) const;
 
-        /** \brief Finite and not below zero. */
+        /** \brief Requires a finite value that is not negative. \param unit as in "a number of metres", or empty */
         void notNegative(std::string_view field, double value, std::string_view unit = {}) const;
 
-        /** \brief Not infinite and not NaN. */
+        /** \brief Requires a finite value. \param unit as in "a finite number of metres", or empty */
         void finite(std::string_view field, double value, std::string_view unit = {}) const;
 
     private:

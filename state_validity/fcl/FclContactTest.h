@@ -5,22 +5,24 @@
 
 namespace parking
 {
-    /** \brief FCL's judgement, for FootprintChecker to ask for where a body is so near to contact that rounding
-        decides. */
+    /** \brief A contact test by FCL for FootprintChecker, which decides poses so near to contact that rounding
+        matters. */
     ContactTestMaker fclContactTest();
 
-    /** \brief What FCL says of every pose, without a shortcut: what FootprintChecker's answers and times are compared
-        with. Const calls from several threads are safe. */
+    /** \brief Collision test by FCL for every pose, a baseline for results and times of FootprintChecker.
+
+        Const calls from several threads are safe. */
     class PlainFclChecker
     {
     public:
-        /** \brief \param margin metres by which the body is enlarged on each of its four sides
+        /** \brief A checker for a vehicle among obstacles.
 
-            Throws parking::Error for an invalid vehicle and when a polygon is not simple. */
+            \param margin metres by which the body is enlarged on each side
+            Throws parking::Error for an invalid vehicle and if a polygon is not simple. */
         PlainFclChecker(ObstacleSet obstacles, const Vehicle &vehicle, double margin = 0.0);
 
-        /** \brief Is the body, at a pose in the coordinates of the obstacle set, free? False for poses that are not
-            finite. */
+        /** \brief Whether the body at a pose in the coordinates of the obstacle set touches no obstacle. False for
+            poses that are not finite. */
         bool isFree(const Pose &pose) const;
 
     private:

@@ -13,35 +13,35 @@
 namespace parking
 {
     /** \anchor CircleValidityChecker
-        \brief The paper's model of the car (section "Introducing Vehicle Volume"): a circle round it, whatever its
-        heading.
+        \brief State validity checker for a circle, the paper's model of the car (section "Introducing Vehicle Volume").
 
-        A state is valid when it lies within the bounds of the space and every obstacle is farther from its position
-        than the radius. The position stands for the middle of the body here, not for its rear axle: a circle has no
-        heading that could tell the one from the other, and round the middle it is smallest. So paths found with this
-        checker are paths of the car's middle.
+        A state is valid if it lies within the bounds of the space and every obstacle is farther from its position than
+        the radius. The position is the centre of the body, not its rear axle, because the circumscribed circle about
+        the centre is the smallest. Paths found with this checker are therefore paths of the body's centre.
 
-        A CircleChecker's answers. Const members may be called from several threads at once. */
+        A CircleChecker computes the results. Const calls from several threads are safe. */
     class CircleValidityChecker : public ompl::base::StateValidityChecker
     {
     public:
-        /** \brief \param radius metres, positive
+        /** \brief A checker for a circle of this radius among obstacles.
 
-            Throws ompl::Exception naming the value that is wrong, and for spaces that hold no positions in the plane
-            with a heading. */
+            \param radius metres, positive
+            Throws ompl::Exception naming the invalid value, and for spaces other than SE2 spaces and those derived from
+            them. */
         CircleValidityChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles, double radius);
 
         using ompl::base::StateValidityChecker::clearance;
         using ompl::base::StateValidityChecker::isValid;
 
-        /** \brief Does the position lie within the bounds of the space, with the circle round it free? */
+        /** \brief Whether the position lies within the bounds of the space and the circle about it touches no
+            obstacle. */
         bool isValid(const ompl::base::State *state) const override;
 
-        /** \brief The distance between the circle and the nearest obstacle; 0 when they touch. Exact up to a metre, a
-            lower bound beyond. */
+        /** \brief Distance in metres between the circle and the nearest obstacle; 0 if they touch. The result is exact
+            up to a metre and a lower bound beyond. */
         double clearance(const ompl::base::State *state) const override;
 
-        /** \brief The checker behind this one. */
+        /** \brief The checker that computes the results. */
         const CircleChecker &circle() const
         {
             return circle_;
@@ -51,20 +51,22 @@ namespace parking
         CircleChecker circle_;
     };
 
-    /** \brief Proves straight motions of a circle free along their whole length (CircleChecker::freeShare()), in a
-        plain SE2 space. A motion that touches an obstacle is never accepted. */
+    /** \brief Proves straight motions of a circle in a plain SE2 space free along their whole length.
+
+        It uses CircleChecker::freeShare() and never accepts a motion that touches an obstacle. */
     class CircleMotionValidator : public ompl::base::MotionValidator
     {
     public:
-        /** \brief \param checker of the circle, for the same space */
+        /** \brief A motion validator for the circle of \e checker, which must belong to the same space. */
         CircleMotionValidator(const ompl::base::SpaceInformationPtr &si,
                               std::shared_ptr<const CircleValidityChecker> checker);
 
-        /** \brief Is \e s2 valid, and the circle free all along the line from \e s1, which is taken to be valid? */
+        /** \brief Whether \e s2 is valid and the circle is free along the whole line from \e s1, which must be
+            valid. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
 
-        /** \brief The same; otherwise \e lastValid becomes the fraction of the motion that is proven free and, unless
-            null, the state there. */
+        /** \brief Whether \e s2 is valid and the circle is free along the whole line from \e s1. If not, sets \e
+            lastValid to the fraction that is proven free and, unless null, the state there. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
                          std::pair<ompl::base::State *, double> &lastValid) const override;
 

@@ -7,56 +7,56 @@
 
 namespace parking
 {
-    /** \brief Which of OMPL's planar spaces a space is. */
+    /** \brief Kind of a planar state space of OMPL. */
     enum class SpaceKind
     {
-        SE2,         ///< straight lines, along which the heading turns evenly
+        SE2,         ///< straight lines along which the heading changes linearly
         ReedsShepp,  ///< arcs at the turning radius, forwards and in reverse
-        Dubins       ///< the same, forwards only
+        Dubins       ///< arcs at the turning radius, forwards only
     };
 
-    /** \brief What OMPL's planar spaces do between two states, in the terms of this project.
+    /** \brief The motions of OMPL's planar spaces between two states, as arcs of this project.
 
-        The only part of the project that touches OMPL's own curve types. Const calls from several threads are safe. */
+        Only this class uses OMPL's own curve types. Const calls from several threads are safe. */
     class CurveSpace
     {
     public:
-        /** \brief Looks at \e space, which must outlive this object.
+        /** \brief Inspects \e space, which must outlive this object.
 
-            Throws ompl::Exception when it is neither an SE2, nor a Reeds-Shepp, nor a Dubins space. */
+            Throws ompl::Exception unless it is an SE2, Reeds-Shepp or Dubins space. */
         explicit CurveSpace(const ompl::base::StateSpace &space);
 
-        /** \brief Which of them this one is. */
+        /** \brief Kind of the space. */
         SpaceKind kind() const
         {
             return kind_;
         }
 
-        /** \brief The radius that the space's curves turn with, in metres, up to rounding; 0 for a plain SE2 space.
+        /** \brief Turning radius of the space's curves in metres, up to rounding; 0 for a plain SE2 space.
 
-            OMPL has no getter for it. Its distance is the radius times the length of the curve for radius 1, and that
-            length is at hand. */
+            OMPL has no getter for it. The class divides a distance of the space by the known length of the same curve
+            for radius 1. */
         double turningRadius() const
         {
             return turningRadius_;
         }
 
-        /** \brief The arcs that the space's interpolate() follows from one state to another, in its order.
+        /** \brief Writes the arcs that the space's interpolate() follows from one state to another into \e curve.
 
-            Dubins spaces made symmetric drive the curve from \e to back in reverse where that one is shorter; the
-            lengths are negative then. Pieces without length are left out. Where there is no curve (states that are not
-            finite) the length of \e curve is infinite and it has no pieces.
-
-            Not for a plain SE2 space, whose states are joined by straight lines: throws ompl::Exception. */
+            A symmetric Dubins space drives the curve from \e to to \e from in reverse if it is shorter. Its lengths are
+            then negative. Pieces without length are omitted. For states that are not finite, \e curve has no pieces and
+            an infinite length.
+            Throws ompl::Exception for a plain SE2 space, whose states are joined by straight lines. */
         void curve(const ompl::base::State *from, const ompl::base::State *to, ReedsSheppCurve &curve) const;
 
-        /** \brief The same between states at two poses, which it allocates. */
+        /** \brief Writes the arcs that the space's interpolate() follows between two poses into \e curve. Allocates two
+            states for this. */
         void curve(const Pose &from, const Pose &to, ReedsSheppCurve &curve) const;
 
     private:
         const ompl::base::StateSpace *space_;
         SpaceKind kind_{SpaceKind::SE2};
         double turningRadius_{0.0};
-        bool symmetric_{false};  ///< a Dubins space that takes the shorter curve of the two directions
+        bool symmetric_{false};  ///< whether a Dubins space takes the shorter curve of both directions
     };
 }  // namespace parking

@@ -14,69 +14,75 @@
 namespace parking
 {
     /** \anchor FclFootprintChecker
-        \brief OMPL's view of FootprintChecker: is the car's rectangle free of obstacles, in any SE2, Dubins or
-        Reeds-Shepp space?
+        \brief State validity checker for the car's rectangle in any SE2, Dubins or Reeds-Shepp space; OMPL's interface
+        to FootprintChecker.
 
-        A state is valid when it lies within the bounds of the state space and the body, enlarged by the safety margin,
-        touches no obstacle and stays inside of the world. The answer is that of FCL, reached without asking FCL
-        wherever a bound decides; see FootprintChecker for the tiers.
+        A valid state lies within the bounds of the state space. Its body, enlarged by the safety margin, touches no
+        obstacle and lies inside of the world. The result is that of FCL, but the class calls FCL only if no bound
+        decides; see FootprintChecker for the tiers.
 
         The clearance is a lower bound of the distance between the enlarged body and the obstacles (specs:
-        BOUNDED_APPROXIMATE); 0 for states that are not valid. No valid direction is computed.
+        BOUNDED_APPROXIMATE). It is 0 for invalid states. The class does not compute nearby valid states.
 
-        All const members may be called from several threads at once, as OMPL demands. */
+        Const calls from several threads are safe, as OMPL requires. */
     class FclFootprintChecker : public ompl::base::StateValidityChecker
     {
     public:
-        /** \brief Uses \e footprint, which may be shared with others.
+        /** \brief Uses \e footprint, which may be shared with other objects.
 
-            Throws ompl::Exception when \e footprint is empty or when the space of \e si is no SE2 space (nor derived
-            from one). */
+            Throws ompl::Exception if \e footprint is empty or the space of \e si is neither an SE2 space nor derived
+            from one. */
         FclFootprintChecker(const ompl::base::SpaceInformationPtr &si,
                             std::shared_ptr<const FootprintChecker> footprint);
 
-        /** \brief Builds its own FootprintChecker. \param margin metres round the body, not negative
+        /** \brief Creates a FootprintChecker.
 
-            Throws ompl::Exception naming the value that is wrong. */
+            \param margin metres by which the body is enlarged on each side, not negative
+            Throws ompl::Exception naming the invalid value. */
         FclFootprintChecker(const ompl::base::SpaceInformationPtr &si, ObstacleSet obstacles, const Vehicle &vehicle,
                             double margin = 0.0);
 
-        /** \brief The same for the obstacles and the car of a scenario; states are in its local coordinates. */
+        /** \brief Creates a FootprintChecker for the obstacles and the car of a scenario. States are in its local
+            coordinates.
+
+            \param margin metres by which the body is enlarged on each side, not negative
+            Throws ompl::Exception naming the invalid value. */
         FclFootprintChecker(const ompl::base::SpaceInformationPtr &si, const Scenario &scenario, double margin = 0.0);
 
         using ompl::base::StateValidityChecker::isValid;
 
-        /** \brief Does the state lie within the bounds of the space, with the enlarged body free? */
+        /** \brief Whether the state lies within the bounds of the space and the enlarged body touches no obstacle. */
         bool isValid(const ompl::base::State *state) const override;
 
-        /** \brief A lower bound of the distance between the enlarged body and the obstacles in metres, as of
-            FootprintChecker::clearance(); 0 out of the bounds of the space. */
+        /** \brief Lower bound of the distance between the enlarged body and the obstacles in metres, from
+            FootprintChecker::clearance(); 0 outside of the bounds of the space. */
         double clearance(const ompl::base::State *state) const override;
 
-        /** \brief The same; \e validStateAvailable becomes false and \e validState stays as it is. */
+        /** \brief Lower bound of the distance in metres like clearance(state). Sets \e validStateAvailable to false and
+            does not change \e validState. */
         double clearance(const ompl::base::State *state, ompl::base::State *validState,
                          bool &validStateAvailable) const override;
 
-        /** \brief What decides; it lives as long as this object. */
+        /** \brief The footprint checker, valid as long as this object. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;
         }
 
-        /** \brief The footprint checker, to share it with a motion validator. */
+        /** \brief The footprint checker for sharing with a motion validator. */
         const std::shared_ptr<const FootprintChecker> &sharedFootprint() const
         {
             return footprint_;
         }
 
-        /** \brief Which tier decided how many of the states asked about since construction or resetCounts(). States
-            outside of the space's bounds are not among them. */
+        /** \brief Number of states that each tier has decided since construction or resetCounts(), without those
+            outside of the space's bounds. */
         CheckCounts counts() const
         {
             return counters_.sum();
         }
 
-        /** \brief Starts counts() from zero. */
+        /** \brief Resets counts() to zero. */
         void resetCounts()
         {
             counters_.reset();

@@ -12,13 +12,14 @@
 
 namespace parking
 {
-    /** \brief What differs between the releases 1.5 to 2.0 of OMPL, as far as this library meets it.
+    /** \brief Uniform access to interfaces that differ between the releases 1.5 to 2.0 of OMPL.
 
-        Overloads choose by what a type offers, never by a version number: packagers patch releases. */
+        Overloads depend on the members of a type instead of version numbers, because packagers patch releases. */
     namespace ompl_compatibility
     {
-        /** \brief The shortest curve of a Reeds-Shepp space: reedsShepp(from, to), as up to OMPL 1.6. Call it with 0 as
-            the last argument, here and below, to get the overload that the space and the release have. */
+        /** \brief The shortest curve of a Reeds-Shepp space by reedsShepp(from, to), up to OMPL 1.6.
+
+            A last argument of 0 selects the overload that exists for the space and the release. */
         template <class Space, class State>
         auto shortestCurve(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.reedsShepp(from, to))
@@ -26,7 +27,7 @@ namespace parking
             return space.reedsShepp(from, to);
         }
 
-        /** \brief The shortest curve of a Dubins space: dubins(from, to), as up to OMPL 1.6. */
+        /** \brief The shortest curve of a Dubins space by dubins(from, to), up to OMPL 1.6. */
         template <class Space, class State>
         auto shortestCurve(const Space &space, const State *from, const State *to, int /*preferred*/)
             -> decltype(space.dubins(from, to))
@@ -34,7 +35,7 @@ namespace parking
             return space.dubins(from, to);
         }
 
-        /** \brief That of either as getPath(from, to), from OMPL 1.7 on. */
+        /** \brief The shortest curve of a Reeds-Shepp or Dubins space by getPath(from, to), from OMPL 1.7. */
         template <class Space, class State>
         auto shortestCurve(const Space &space, const State *from, const State *to, long /*otherwise*/)
             -> decltype(space.getPath(from, to))
@@ -42,42 +43,44 @@ namespace parking
             return space.getPath(from, to);
         }
 
-        /** \brief The kind of a piece of a curve, where the curve has a pointer to the first kind. */
+        /** \brief The kind of a piece, for curves with a pointer to the first kind. */
         template <class Kind>
         Kind pieceKind(const Kind *kinds, std::size_t index)
         {
             return kinds[index];
         }
 
-        /** \brief The same where, in later releases, the curve has a pointer to a vector of kinds. */
+        /** \brief The kind of a piece, for curves with a pointer to a vector of kinds (later releases). */
         template <class Kind>
         Kind pieceKind(const std::vector<Kind> *kinds, std::size_t index)
         {
             return (*kinds)[index];
         }
 
-        /** \brief The status of a problem without solution: INFEASIBLE where OMPL has it (1.6 and later), else
-            TIMEOUT. */
+        /** \brief The status of a problem without a solution, for releases with INFEASIBLE (1.6 and later).
+
+            A last argument of 0 selects the overload that exists for the release. */
         template <class Status>
         auto infeasible(int /*preferred*/) -> decltype(Status(Status::INFEASIBLE))
         {
             return Status::INFEASIBLE;
         }
 
-        /** \brief The same for releases before 1.6. */
+        /** \brief The status of a problem without a solution, for releases before 1.6: TIMEOUT. */
         template <class Status>
         Status infeasible(long /*otherwise*/)
         {
             return Status::TIMEOUT;
         }
 
-        /** \brief Counts one up. OMPL's counters of checked motions are plain integers that several threads write. */
+        /** \brief Increments a plain counter atomically, because several threads write OMPL's counters of checked
+            motions. */
         inline void countUp(unsigned int &counter)
         {
             __atomic_fetch_add(&counter, 1U, __ATOMIC_RELAXED);
         }
 
-        /** \brief The same where the counters are atomic. */
+        /** \brief Increments an atomic counter, for releases with atomic counters. */
         template <class Integer>
         void countUp(std::atomic<Integer> &counter)
         {

@@ -11,16 +11,14 @@
 
 namespace parking
 {
-    /** \brief The pose that a state of an SE2, Dubins or Reeds-Shepp space stands for: all three share one type of
-        state. */
+    /** \brief The pose of a state of an SE2, Dubins or Reeds-Shepp space, which share one type of state. */
     inline Pose poseOf(const ompl::base::State *state)
     {
         const auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
         return {se2->getX(), se2->getY(), se2->getYaw()};
     }
 
-    /** \brief Makes \e state stand for \e pose; the yaw is wrapped into [-pi, pi), which is the range that OMPL
-        allows. */
+    /** \brief Sets \e state to \e pose. The yaw is wrapped into [-pi, pi), the range that OMPL allows. */
     inline void setPose(ompl::base::State *state, const Pose &pose)
     {
         auto *se2 = state->as<ompl::base::SE2StateSpace::StateType>();
@@ -29,7 +27,7 @@ namespace parking
         se2->setYaw(yaw == PI ? -PI : yaw);
     }
 
-    /** \brief A box of positions in metres, as OMPL's spaces take it. */
+    /** \brief A box of positions in metres as bounds of an OMPL space. */
     inline ompl::base::RealVectorBounds positionBounds(const Box &box)
     {
         ompl::base::RealVectorBounds bounds(2);
@@ -41,7 +39,7 @@ namespace parking
         return bounds;
     }
 
-    /** \brief Throws ompl::Exception unless the states of \e space are poses: an SE2 space or one derived from it. */
+    /** \brief Throws ompl::Exception unless \e space is an SE2 space or derived from one. */
     inline void requirePlanarSpace(const ompl::base::StateSpace &space)
     {
         if (dynamic_cast<const ompl::base::SE2StateSpace *>(&space) == nullptr)

@@ -12,80 +12,80 @@
 namespace parking
 {
     /** \anchor SweptMotionValidator
-        \brief Proves motions free along their whole length, not at samples of it.
+        \brief Proves motions free along their whole length instead of at samples.
 
-        For Reeds-Shepp and Dubins spaces the curve is computed once per motion; each of its arcs is swept exactly
-        (FootprintChecker::freeLength). In a plain SE2 space, where position and yaw change linearly together, the
-        motion is covered by parts that the clearance in their middle proves free: no point of the body moves
-        farther than the clearance there (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of
-        rigid body systems", 1996), halving what remains.
+        In Reeds-Shepp and Dubins spaces the validator computes the curve once per motion and sweeps each arc exactly
+        (FootprintChecker::freeLength()). In a plain SE2 space position and yaw change linearly. There the validator
+        halves the motion until no point of the body moves farther on a part than the clearance in its middle
+        (conservative advancement, B. Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
 
-        What a sweep cannot prove, since the body passes an obstacle nearer than 1.5 times the tolerance, is swept from
-        its end as well, and proven by clearances in the same way.
+        A sweep may fail if the body passes an obstacle nearer than 1.5 times the tolerance. The validator then sweeps
+        the arc from its end too and attempts a proof by clearances.
 
-        Sound, not complete: a motion during which the body touches an obstacle is never accepted. A motion may be
-        rejected although it is free when the body, somewhere on the way, is nearer to an obstacle than a tenth of the
-        tolerance, or drives along one nearer than the tolerance for metres. Where an end of a motion is nearer than
-        that a car can drive away from what it all but touches, and up to it.
+        The validator is sound, not complete. It never accepts a motion during which the body touches an obstacle. It
+        may reject a free motion with a clearance below a tenth of the tolerance, or below the tolerance for metres. The
+        ends of a motion may be nearer: a car can drive up to an obstacle and away from it.
 
-        Motions must also stay within the bounds of the state space, and the end state must be valid by the space
-        information's own state validity checker; the start is taken to be valid, as everywhere in OMPL. */
+        Motions must also stay within the bounds of the state space. The end state must be valid by the state validity
+        checker of the space information. The start must be valid, as in all of OMPL. */
     class SweptMotionValidator : public ompl::base::MotionValidator
     {
     public:
-        static constexpr double DEFAULT_TOLERANCE = 1e-3;  ///< metres
+        static constexpr double DEFAULT_TOLERANCE = 1e-3;  ///< default tolerance in metres
 
-        /** \brief \param tolerance metres, positive; see above
+        /** \brief A validator that sweeps \e footprint.
 
-            Throws ompl::Exception for an empty \e footprint, a space of another kind, and a tolerance that is not
-            positive or not below 0.1 m. */
+            \param tolerance metres by which sweeps enlarge the body, above 0 and below 0.1
+            Throws ompl::Exception for an empty \e footprint, an unsupported space and an invalid tolerance. */
         SweptMotionValidator(const ompl::base::SpaceInformationPtr &si,
                              std::shared_ptr<const FootprintChecker> footprint, double tolerance = DEFAULT_TOLERANCE);
 
-        /** \brief Takes the footprint from the space information's state validity checker, which must be an
-            FclFootprintChecker (otherwise ompl::Exception). */
+        /** \brief A validator that sweeps the footprint of the space information's state validity checker.
+
+            \param tolerance metres by which sweeps enlarge the body, above 0 and below 0.1
+            Throws ompl::Exception for an invalid tolerance and unless the checker is an FclFootprintChecker. */
         explicit SweptMotionValidator(const ompl::base::SpaceInformationPtr &si, double tolerance = DEFAULT_TOLERANCE);
 
-        /** \brief Is \e s2 valid and the whole motion to it proven free? \e s1 is taken to be valid. */
+        /** \brief Whether \e s2 is valid and the whole motion from \e s1, which must be valid, is proven free. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2) const override;
 
-        /** \brief The same. When the motion is not valid, \e lastValid becomes the fraction of the motion that is
-            proven free (less the tolerance) and, unless null, the state there. */
+        /** \brief Whether \e s2 is valid and the whole motion from \e s1 is proven free. If not, sets \e lastValid to
+            the fraction that is proven free (less the tolerance) and, unless null, the state there. */
         bool checkMotion(const ompl::base::State *s1, const ompl::base::State *s2,
                          std::pair<ompl::base::State *, double> &lastValid) const override;
 
-        /** \brief Metres by which the body is enlarged on the way; see above. */
+        /** \brief Metres by which sweeps enlarge the body. */
         double tolerance() const
         {
             return tolerance_;
         }
 
-        /** \brief What motions are swept with. */
+        /** \brief The footprint that the validator sweeps. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;
         }
 
-        /** \brief The curves of the space. */
+        /** \brief The motions of the space. */
         const CurveSpace &curveSpace() const
         {
             return space_;
         }
 
-        /** \brief Which tier decided how many of the poses that motions were swept from. */
+        /** \brief Number of start poses of sweeps that each tier has decided since construction or resetCounts(). */
         CheckCounts counts() const
         {
             return counters_.sum();
         }
 
-        /** \brief Starts counts() from zero. */
+        /** \brief Resets counts() to zero. */
         void resetCounts()
         {
             counters_.reset();
         }
 
     private:
-        /** How much of a motion is proven free: a fraction, and the pose there. */
+        /** The part of a motion that is proven free: a fraction and the pose there. */
         struct Proof
         {
             bool whole{false};
@@ -93,18 +93,18 @@ namespace parking
             Pose pose;
         };
 
-        /** \param exact whether the fraction is wanted when the motion is not free, and not only that it is not */
+        /** \param exact whether the fraction of a motion that is not free is required */
         Proof prove(const ompl::base::State *s1, const ompl::base::State *s2, bool exact) const;
         Proof proveCurve(const Pose &from, const ReedsSheppCurve &curve, CheckCounts &counts) const;
-        /** Does the arc leave what the body all but touches, and is it free? */
+        /** Whether the arc is free and leads away from an obstacle that the body almost touches. */
         bool isLeaving(const Pose &from, const Arc &arc, CheckCounts &counts) const;
-        /** Is the arc free by clearances, beyond those metres that are known to be? */
+        /** Whether clearances prove the arc free beyond the first \e free metres, which are known to be free. */
         bool isPassing(const Pose &from, const Arc &arc, double free, CheckCounts &counts) const;
-        /** \param at the pose at a fraction of the motion
-            \param moved metres that no point of the body exceeds on it */
+        /** \param at returns the pose at a fraction of the motion
+            \param moved metres that no point of the body exceeds on the motion */
         template <class At>
         Proof proveByClearances(const At &at, double moved, bool exact, CheckCounts &counts) const;
-        /** Metres: nearer than that clearances prove nothing between two poses, which may be near to obstacles. */
+        /** Smallest clearance in metres that counts as a proof between two poses, which may be near obstacles. */
         double toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const;
         Proof proveLine(const Pose &from, const Pose &to, bool exact, CheckCounts &counts) const;
 

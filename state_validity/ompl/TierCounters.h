@@ -9,14 +9,14 @@
 
 namespace parking
 {
-    /** \brief CheckCounts that several threads add to at once.
+    /** \brief CheckCounts to which several threads add concurrently.
 
-        Threads write to separate cache lines, so that counting costs a few nanoseconds whatever their number. Sums read
-        while others count are those of some moment for each tier, not of one moment for all. */
+        Threads write to separate cache lines, so counting takes a few nanoseconds with any number of threads. A sum
+        read during concurrent counting is consistent for each tier, but not across tiers. */
     class TierCounters
     {
     public:
-        /** \brief Adds to what was counted so far, tier by tier. */
+        /** \brief Adds the counts of each tier. */
         void add(const CheckCounts &counts)
         {
             Line &line = lines_[lineOfThisThread()];
@@ -27,7 +27,7 @@ namespace parking
             add(line.byContactTest, counts.byContactTest);
         }
 
-        /** \brief What all threads have counted. */
+        /** \brief Sum of the counts of all threads. */
         CheckCounts sum() const
         {
             CheckCounts counts;
@@ -39,7 +39,7 @@ namespace parking
             return counts;
         }
 
-        /** \brief Starts from zero. What others add meanwhile may be lost in part. */
+        /** \brief Resets all counts to zero. Concurrent additions may be lost in part. */
         void reset()
         {
             for (Line &line : lines_)

@@ -6,19 +6,19 @@
 
 namespace parking
 {
-    /** \brief Is every motion along \e path free? Swept, not sampled: see FootprintChecker::freeLength(), which keeps a
-        millimetre from the obstacles.
+    /** \brief Whether every motion along \e path is free with a millimetre of clearance, by sweeps instead of samples.
 
-        Clothoids are swept as arcs from which no point of the body deviates by more than 0.1 mm.
-        Turns on the spot, which no car can make, are covered by poses. */
+        See FootprintChecker::freeLength() for the sweeps. The function sweeps clothoids as arcs from which no point of
+        the body deviates by more than 0.1 mm. It covers turns on the spot by poses. */
     bool isPathFree(const FootprintChecker &checker, const Path &path);
 
-    /** \brief As isPathFree(), but content with a path that passes an obstacle within that millimetre, as long as it
-        keeps 0.015 mm: for paths of any origin, which have to touch nothing and need not keep anything. */
+    /** \brief Whether every motion along \e path is free with only 0.015 mm of clearance, by sweeps instead of samples.
+
+        This test is for paths that must touch no obstacle but need not keep a clearance. */
     bool touchesNothing(const FootprintChecker &checker, const Path &path);
 
-    /** \brief The world as manoeuvres and smoothing ask about it; whole paths are swept.
+    /** \brief Collision queries of manoeuvres and smoothing; whole paths are swept.
 
-        \param checker is referred to, and must live as long as what is returned */
+        \param checker must outlive the result */
     FootprintQueries queriesOf(const FootprintChecker &checker);
 }  // namespace parking

@@ -9,36 +9,41 @@
 
 namespace parking
 {
-    /** \brief The leading side of a moving box, tried against many points and edges for the first contact.
+    /** \brief First contact of a moving box with many points and edges.
 
-        The same answer as firstContact() at a fraction of the cost. What a box that turns about a centre outside of it
-        can meet first is its leading outline only: its front side, its inner side ahead of the axle, its outer side
-        behind the axle (which swings out), and the three corners between these. Everything turns about one centre, so
+        The result is that of firstContact() at a fraction of the cost. A box that turns about a centre outside of it
+        first touches obstacles with its leading outline. This consists of the front side, the inner side ahead of the
+        axle, the outer side behind the axle and the three corners between them. All points turn about one centre, so
 
-        - a point can meet the box only where its distance from the centre is the distance of a place of that outline:
-          at most two places, found by one square root each;
-        - a corner can meet an edge only where the edge is as far from the centre as the corner: two places.
+        - a point can touch the outline only at places with the same distance from the centre, at most two, each found
+          by one square root;
+        - a corner can touch an edge only where the edge has the same distance from the centre as the corner: at two
+          places.
 
-        Angles are compared by their sines, so nothing but square roots is computed until the end.
+        Sines replace angles in comparisons, so only the final result requires a trigonometric function.
 
-        "Front" is the side ahead in the direction of travel: the bumper at the rear when driving in reverse.
-
-        All members of this class work in the frame in which the box is given. */
+        The front is the side ahead in the direction of travel, that is the rear bumper of a car in reverse. All members
+        use the frame in which the box is given. */
     class SweepFront
     {
     public:
-        /** \brief Whether a motion is of the kind that this class knows; for the others (nearly straight arcs, a centre
-            within the box or abeam of no point of it, more than a radian at a time) there is firstContact(). */
+        /** \brief Whether this class supports a motion. For other motions use firstContact().
+
+            Unsupported are nearly straight arcs, a centre within the box or abeam of no point of it, and turns above a
+            radian. */
         static bool applies(const BoxSweep &sweep);
 
-        /** \brief \param middleCosine, middleSine of half the angle turned through on the way, not negative */
+        /** \brief A front for the motion of \e box.
+
+            \param middleCosine, middleSine cosine and sine of half the angle of the turn, not negative */
         SweepFront(const OrientedBox &box, const BoxSweep &sweep, double middleCosine, double middleSine);
 
-        /** \brief Can anything within the axis-parallel box round (x, y) with the half lengths ex, ey be met? */
+        /** \brief Whether the moving box may touch a point of the axis-parallel box about (x, y) with the half lengths
+            ex, ey. */
         bool mayMeet(double x, double y, double ex, double ey) const;
 
-        /** \brief For arrays of edges from (ax, ay) to (bx, by): how far each is at least from a box round all that is
-            swept. Those above 0 cannot be met. */
+        /** \brief Lower bounds of the distance between edges from (ax, ay) to (bx, by) and a bounding box of the swept
+            area. The moving box cannot touch an edge with a bound above 0. */
         template <class Array>
         Array gap(const Array &ax, const Array &ay, const Array &bx, const Array &by) const
         {
@@ -50,20 +55,21 @@ namespace parking
             return alongGap.max(acrossGap);
         }
 
-        /** \brief Notes when the box meets the point, if it does before everything noted so far. */
+        /** \brief Records the contact with the point if it precedes all recorded contacts. */
         void meetPoint(double x, double y);
 
-        /** \brief Notes when a corner of the box meets the edge from (ax, ay) to (bx, by) with the unit normal (nx,
-            ny). */
+        /** \brief Records the contact of a corner of the box with an edge if it precedes all recorded contacts.
+
+            The edge leads from (ax, ay) to (bx, by) and has the unit normal (nx, ny). */
         void meetEdge(double ax, double ay, double bx, double by, double nx, double ny);
 
-        /** \brief Metres along the motion until the first contact noted; infinite when there was none. */
+        /** \brief Metres along the motion until the first recorded contact; infinite if there is none. */
         double contact() const;
 
     private:
         struct Corner
         {
-            double x, y;    // from the centre; for a straight motion from the middle of the box
+            double x, y;    // from the centre of the arc; for a straight motion from the centre of the box
             double square;  // of the distance from the centre
         };
 
@@ -87,17 +93,17 @@ namespace parking
 
         bool straight_;
         bool met_{false};
-        double limit_;    // of the sine of the angle, or of the distance when straight
-        double radius_;   // of the axle's arc
-        double turning_;  // 1 when the motion turns left, -1 right
-        double cx_, cy_;  // centre of the arc; of the box when straight
+        double limit_;    // of the sine of the angle; of the distance if straight
+        double radius_;   // of the arc of the axle
+        double turning_;  // 1 if the motion turns left, -1 if right
+        double cx_, cy_;  // centre of the arc; of the box if straight
         double dx_, dy_;  // direction of travel
         double lx_, ly_;  // towards the centre
         double front_, back_, inner_,
             outer_;  // of the outline: distances of its sides from the axle and from the centre
         double innerSquare_, outerSquare_, nearest_, farthest_;
         Corner frontInner_, frontOuter_, rearOuter_;
-        // The frame of the box half way, and a box in it that holds all that is swept.
+        // The frame of the box half way and, in it, a bounding box of the swept area.
         double mx_, my_, mdx_, mdy_;
         double low_, high_, left_, right_;
     };
@@ -132,7 +138,7 @@ namespace parking
         const double square = wx * wx + wy * wy;
         if (square < nearest_ || square > farthest_)
             return;
-        // Where the point, seen from the box, comes to lie on the front or on the inner side: one or the other.
+        // The place where the point, seen from the box, reaches either the front or the inner side.
         if (square <= frontOuter_.square)
         {
             const bool onFront = square > frontInner_.square;
@@ -162,7 +168,8 @@ namespace parking
         const double distance = nx * awx + ny * awy, square = distance * distance;
         if (square > farthest_)
             return;
-        // Places on the edge's line are told by how far they are from the foot of the centre, to the edge's left.
+        // Places on the edge's line are given by their distance from the foot of the centre, positive to the edge's
+        // left.
         constexpr double SLACK = 1e-11;
         const double a = nx * awy - ny * awx, b = nx * bwy - ny * bwx;
         const double from = (a < b ? a : b) - SLACK, to = (a < b ? b : a) + SLACK;

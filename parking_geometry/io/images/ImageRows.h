@@ -8,32 +8,32 @@
 
 namespace parking
 {
-    /** \brief What the brightness of a pixel is that is not fully opaque. */
+    /** \brief Brightness that marks a pixel that is not fully opaque. */
     constexpr std::uint32_t NOT_OPAQUE = UINT32_MAX;
 
-    /** \brief Takes an image while it is decoded, so that only one copy of a large map is ever in memory. */
+    /** \brief Receives an image during decoding, so that memory holds only one copy of a large map. */
     struct ImageSink
     {
-        /** \brief Called once, before the rows. \param white the brightness of a white pixel; black is 0 */
+        /** \brief Called once, before the rows. \param white brightness of a white pixel; black is 0 */
         std::function<void(std::size_t width, std::size_t height, std::uint32_t white)> begin;
 
-        /** \brief Called for every row, the top one first: brightness of its pixels (of colours: the sum over the
-            channels), or NOT_OPAQUE. */
+        /** \brief Called for every row from top to bottom. \param brightness per pixel, summed over colour channels, or
+            NOT_OPAQUE */
         std::function<void(std::size_t row, const std::vector<std::uint32_t> &brightness)> row;
     };
 
-    /** \brief Decodes a PGM (P2, P5) or PNG image, told apart by their first bytes.
+    /** \brief Decodes a PGM (P2, P5) or PNG image and detects the format from the first bytes.
 
-        Throws parking::Error naming \e file for any other format, a truncated image, one with more pixels than its
-        header announces, and one with more than 2^31 pixels. */
+        Throws parking::Error naming \e file for any other format, a truncated image, surplus pixels, and more than 2^31
+        pixels. */
     void decodeImage(const std::string &file, const std::string &bytes, const ImageSink &sink);
 
-    /** \brief decodeImage() for a PGM, with whose signature \e bytes must begin. */
+    /** \brief Decodes a PGM image like decodeImage(). \e bytes must begin with its signature. */
     void decodePgm(const std::string &file, const std::string &bytes, const ImageSink &sink);
 
-    /** \brief decodeImage() for a PNG, with whose signature \e bytes must begin. */
+    /** \brief Decodes a PNG image like decodeImage(). \e bytes must begin with its signature. */
     void decodePng(const std::string &file, const std::string &bytes, const ImageSink &sink);
 
-    /** \brief Throws parking::Error when an image is of no size or absurdly large. */
+    /** \brief Throws parking::Error if a side of the image is 0 or it has more than 2^31 pixels. */
     void checkImageSize(const std::string &file, std::size_t width, std::size_t height);
 }  // namespace parking
