@@ -1,4 +1,4 @@
-// A first solution at once, then shorter ones until the time is up or the path is short enough.
+// Anytime planning: a first solution, then shorter ones until the time limit or until the path is short enough.
 #include "examples/CarPark.h"
 
 #include <cstdio>
@@ -22,7 +22,7 @@ int main()
                                 parking_examples::state(space, 9.0, 5.0, 3.0));
 
     const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
-    objective->setCostThreshold(ob::Cost(20.0));  // metres, less than any path here: planning ends with the time
+    objective->setCostThreshold(ob::Cost(20.0));  // metres, below every path here: planning ends at the time limit
     setup.setOptimizationObjective(objective);
     const auto planner = std::make_shared<ompl::geometric::ImprovedAStar>(si);
     planner->params()["anytime"] = true;

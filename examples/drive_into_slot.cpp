@@ -1,5 +1,5 @@
-// Plan, then drive: a car finds a free slot between two others, plans its way in, and a model predictive controller
-// drives it there, in a simulation with lagging wheels, a noisy pose and a wheel of the wrong size.
+// Planning and driving: a car plans a path into a free slot between two others. A model predictive controller then
+// drives it there, in a simulation with steering lag, a noisy pose and an odometry error.
 //
 // usage: drive_into_slot [SCENARIO.yaml]   writes drive_into_slot.svg and drive_into_slot.html
 #include "automatic_parking/AutomaticParking.h"
@@ -22,7 +22,7 @@ namespace
         scenario.name = "row of slots";
         scenario.vehicle = parking::vehicleByName("vw_golf8");
         parking::ParkingSlot slot;
-        slot.pose = {0.0, -2.5, 0.5 * parking::PI};  // its mouth lies on y = 0, the aisle beyond
+        slot.pose = {0.0, -2.5, 0.5 * parking::PI};  // the slot's mouth lies on y = 0 and the aisle at y > 0
         slot.length = 5.0;
         slot.width = 2.6;
         slot.side = parking::SlotSide::Right;

@@ -1,4 +1,5 @@
-// A Corolla drives nose first into a slot at 60 degrees, and, for comparison, what reversing into it would need.
+// A Corolla drives forwards into a slot at 60 degrees. The output compares the aisle widths for forward and reverse
+// entry.
 
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"
@@ -27,7 +28,7 @@ int main(int argc, char **argv)
         slot.entry = SlotEntry::Forward;
         const double aisle = 5.486;
         const double mouth = std::sin(slot.angle) * 0.5 * slot.length + std::cos(slot.angle) * 0.5 * slot.width;
-        // Who enters forwards comes from the right: the stalls lean towards them.
+        // For forward entry the car comes from the right, the side to which the stalls lean.
         const Pose start{10.0, mouth + 0.5 * aisle, PI};
 
         parking_examples::StreetScene scene(car, slot, start);
@@ -52,10 +53,10 @@ int main(int argc, char **argv)
         }
         ParkingSlot reverse = slot;
         reverse.entry = SlotEntry::Reverse;
-        std::cout << "forwards: an aisle of " << inMetres(plan.manoeuvre.neededAisleWidth) << " would do; in reverse: "
-                  << inMetres(ReverseParking(car, parameters.sweep).plan(reverse).neededAisleWidth) << "; "
+        std::cout << "minimum aisle: " << inMetres(plan.manoeuvre.neededAisleWidth) << " forwards, "
+                  << inMetres(ReverseParking(car, parameters.sweep).plan(reverse).neededAisleWidth) << " in reverse; "
                   << plan.arcs.stretches().size() << " stretches, " << inMetres(plan.smooth.path.length())
-                  << " in all\n";
+                  << " in total\n";
         scene.draw(plan, "Angled parking, nose first", "Toyota Corolla into a stall at 60 degrees", file);
         return plan.smooth.free ? 0 : 1;
     }

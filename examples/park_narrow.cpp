@@ -1,4 +1,4 @@
-// A slot only 30 cm wider than the car on an aisle of 4.5 m: no single sweep gets in, several stretches do.
+// A slot that is 30 cm wider than the car, on an aisle of 4.5 m. A single sweep does not fit, several stretches do.
 
 #include "automatic_parking/SlotQuestions.h"
 #include "examples/StreetScene.h"
@@ -38,12 +38,11 @@ int main(int argc, char **argv)
             std::cerr << plan.message << '\n';
             return 1;
         }
-        parameters.expansionsPerGap = 4000;  // enough to say how narrow it may be
+        parameters.expansionsPerGap = 4000;  // sufficient for the narrowest slot
         const ParkingPlanner quick(parameters);
         std::cout << "several: " << plan.manoeuvre.path.stretches().size() << " stretches at the slot, "
                   << plan.arcs.stretches().size() << " and " << inMetres(plan.smooth.path.length())
-                  << " in all; the narrowest slot that would do: " << inMetres(smallestSlot(quick, car, slot, 0.05))
-                  << "\n";
+                  << " in total; narrowest slot: " << inMetres(smallestSlot(quick, car, slot, 0.05)) << "\n";
         scene.draw(plan, "A narrow slot in several stretches",
                    "Tesla Model 3, 15 cm to the walls on either side, aisle of 4.5 m", file);
         return plan.smooth.free && plan.manoeuvre.path.stretches().size() > 1 ? 0 : 1;

@@ -1,5 +1,5 @@
-// A Tesla reverses into a parallel slot in one sweep: two arcs, legal because R_min <= R_max. How long must the slot
-// be?
+// A Tesla reverses into a parallel slot in one sweep of two arcs, which is legal because R_min <= R_max. The output
+// includes the minimum length of the slot.
 
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"
@@ -17,9 +17,9 @@ int main(int argc, char **argv)
         const Vehicle car = vehicleByName("tesla_model3");
         ParkingSlot slot;
         slot.kind = SlotKind::Parallel;
-        slot.length = 6.5;  // the German EAR 05
+        slot.length = 6.5;  // as in the German guideline EAR 05
         slot.width = 2.3;
-        slot.depth = 0.4;  // metres behind the parked car: what is left is in front of it
+        slot.depth = 0.4;  // metres behind the parked car; the remaining length is in front of it
         slot.side = SlotSide::Right;
         const Pose start{-9.0, 3.2, 0.0};
 
@@ -29,7 +29,7 @@ int main(int argc, char **argv)
         std::cout << (verdict.fits() ? "fits" : verdict.message) << '\n';
         if (!verdict.fits())
         {
-            // The rear end of the slot stays where it is.
+            // The rear end of the slot keeps its position.
             slot.pose.x += 0.5 * (verdict.neededSlotLength + 0.1 - slot.length);
             slot.length = verdict.neededSlotLength + 0.1;
         }
@@ -55,7 +55,7 @@ int main(int argc, char **argv)
         }
         std::cout << "a slot of " << inMetres(slot.length) << ": R_min " << inMetres(plan.manoeuvre.minRadius)
                   << ", R_max " << inMetres(plan.manoeuvre.maxRadius) << "; " << plan.arcs.stretches().size()
-                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
+                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in total\n";
         scene.draw(plan, "Parallel parking in reverse", "Tesla Model 3 in one sweep: two arcs, joined by clothoids",
                    file);
         return plan.smooth.free && plan.manoeuvre.path.stretches().size() == 1 ? 0 : 1;

@@ -1,4 +1,5 @@
-// A Golf reverses into a perpendicular slot between two cars: the slot is described, the manoeuvre follows from it.
+// A Golf reverses into a perpendicular slot between two cars. The program describes the slot and computes the
+// manoeuvre.
 
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"
@@ -13,7 +14,7 @@ int main(int argc, char **argv)
     const std::string file = argc > 1 ? argv[1] : "park_perpendicular.svg";
     try
     {
-        // A slot of the German EAR 05 on an aisle of 6 m, which lies above it; the car comes from the left.
+        // A slot as in the German guideline EAR 05, with an aisle of 6 m above it. The car comes from the left.
         const Vehicle car = vehicleByName("vw_golf8");
         ParkingSlot slot;
         slot.kind = SlotKind::Perpendicular;
@@ -45,8 +46,8 @@ int main(int argc, char **argv)
             return 1;
         }
         std::cout << "one sweep at a radius of " << inMetres(plan.manoeuvre.firstRadius) << ", "
-                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle would do; " << plan.arcs.stretches().size()
-                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in all\n";
+                  << inMetres(plan.manoeuvre.neededAisleWidth) << " of aisle required; " << plan.arcs.stretches().size()
+                  << " stretches, " << inMetres(plan.smooth.path.length()) << " in total\n";
         scene.draw(plan, "Perpendicular parking in reverse",
                    "VW Golf 8 into a slot of 2.5 m x 5 m from an aisle of 6 m", file);
         return plan.smooth.free && plan.smooth.stops.empty() ? 0 : 1;

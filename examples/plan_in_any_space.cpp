@@ -1,5 +1,5 @@
-// One planner, three state spaces, any validity checker: here a lambda that keeps a point away from a pillar. With
-// parking::FclFootprintChecker (see readme_example.cpp) planning is faster.
+// One planner in three state spaces with any validity checker. The checker is a lambda that keeps a point away from a
+// pillar. With parking::FclFootprintChecker (see readme_example.cpp) planning is faster.
 #include <ompl_improved_astar/ImprovedAStar.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ namespace
         setup.setStartAndGoalStates(start, goal);
 
         const auto planner = std::make_shared<og::ImprovedAStar>(setup.getSpaceInformation());
-        planner->params()["turning_radius"] = 3.0;  // a plain SE2 space has none of its own
+        planner->params()["turning_radius"] = 3.0;  // a plain SE2 space does not define a turning radius
         setup.setPlanner(planner);
         if (setup.solve(5.0) != ob::PlannerStatus::EXACT_SOLUTION)
             return false;

@@ -1,5 +1,5 @@
-// A car receives a new grid of its surroundings each time: from the raw 200 by 200 cells to the path in one call, by a
-// planner that keeps its memory from map to map.
+// Replanning on a changing map: each call turns a new grid of 200 by 200 cells into a path. The planner reuses its
+// memory from map to map.
 #include "examples/CarPark.h"
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 namespace
 {
-    /** Two rows of parked cars and, from the second map on, one that has just stopped in the aisle. */
+    /** Two rows of parked cars and, from the second map on, a car that has stopped in the aisle. */
     parking::OccupancyGrid seen(int number)
     {
         parking::OccupancyGrid grid(200, 200, 0.15, {-15.0, -15.0, 0.0});

@@ -1,4 +1,4 @@
-// Three free slots in a row, each of which can be entered nose or tail first: the planner chooses the cheapest.
+// Three free slots in a row, each with forward and reverse entry. The planner selects the goal of lowest cost.
 #include "examples/CarPark.h"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// The solution of any OMPL planner in a Reeds-Shepp space, here RRTConnect's, becomes one that can be driven: the
-// quickest trajectory near it, as states and controls of OMPL.
+// Converts the solution of any OMPL planner in a Reeds-Shepp space, here RRTConnect, into a drivable trajectory. The
+// result is the fastest trajectory near the path, as states and controls of OMPL.
 #include "automatic_parking/QuickestTrajectory.h"
 #include "automatic_parking/ompl/OmplTrajectory.h"
 #include "state_validity/ompl/FclFootprintChecker.h"

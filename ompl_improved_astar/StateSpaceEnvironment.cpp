@@ -58,7 +58,7 @@ namespace parking
             if (dense > 0.0)
                 states = std::max(states, std::ceil(piece.driven() / dense));
             states = std::max(states, 1.0);
-            states = std::max(states, std::ceil(std::abs(piece.turn) / PathPiece::LONGEST_TURN));
+            states = std::max(states, std::ceil(std::abs(piece.turn) / PathPiece::MAX_TURN));
             for (double i = 1.0; i <= states; i += 1.0)
             {
                 Pose next = piece.turn != 0.0 ? Pose{pose.x, pose.y, pose.yaw + piece.turn * i / states}

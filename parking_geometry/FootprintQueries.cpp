@@ -7,14 +7,14 @@ namespace parking
 {
     namespace
     {
-        /** Motions of the body shorter than this are decided by their ends, metres. */
-        constexpr double FINEST_MOTION = 5e-3;
+        /** Length in metres of motions of the body below which the ends decide. */
+        constexpr double MIN_MOTION = 5e-3;
 
-        /** Between the poses that are asked about where no clearance is known, metres driven. */
+        /** Distance in metres between checked poses if there is no clearance. */
         constexpr double SPACING = 0.1;
 
-        /** Metres from the midpoint of the rear axle to the farthest corner of the body: a turn moves no point of it
-           farther than this times the angle. */
+        /** Distance in metres from the midpoint of the rear axle to the farthest corner of the body. A turn moves no
+            point of the body farther than this times the angle. */
         double farthestCorner(const Vehicle &vehicle)
         {
             return std::hypot(std::max(vehicle.wheelbase + vehicle.frontOverhang, vehicle.rearOverhang),
@@ -30,19 +30,19 @@ namespace parking
               : queries_(queries),
                 start_(start),
                 piece_(piece),
-                finest_(queries.clearance ? FINEST_MOTION : SPACING)
+                minMotion_(queries.clearance ? MIN_MOTION : SPACING)
             {
                 const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
                 const double turning = queries.clearance ? steepest * reach : 0.0;
                 motion_ = piece.driven() * (1.0 + turning) + std::abs(piece.turn) * reach;
             }
 
-            /** Free between these shares of the piece, at whose ends so much clearance is known? */
+            /** Whether the piece is free between two shares of it with known clearances. */
             bool isFree(double from, double clearanceFrom, double to, double clearanceTo) const
             {
                 // No point of the body moves farther than this.
                 const double moved = (to - from) * motion_;
-                if (clearanceFrom + clearanceTo > moved || moved <= finest_)
+                if (clearanceFrom + clearanceTo > moved || moved <= minMotion_)
                     return true;
                 const double middle = 0.5 * (from + to);
                 const double clearance = clearanceAt(queries_, poseAt(middle));
@@ -70,7 +70,7 @@ namespace parking
             const FootprintQueries &queries_;
             Pose start_;
             PathPiece piece_;
-            double finest_, motion_;
+            double minMotion_, motion_;
         };
     }  // namespace
 

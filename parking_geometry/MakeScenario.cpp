@@ -11,7 +11,7 @@ namespace parking
 {
     namespace
     {
-        /** Throws for what lies too far from the start, or overflowed to NaN. */
+        /** Throws for parts that lie too far from the start or overflowed to NaN. */
         void requireReach(const Scenario &scenario, const PlaceOfPart &placeOf)
         {
             const Eigen::Vector2d start(scenario.start.x, scenario.start.y);
@@ -62,9 +62,9 @@ namespace parking
 
         void requireNear(const Eigen::Vector2d &start, const PlaceOfPart &placeOf)
         {
-            if (!(start.lpNorm<Eigen::Infinity>() <= FARTHEST_COORDINATE))
+            if (!(start.lpNorm<Eigen::Infinity>() <= MAX_COORDINATE))
                 throw Error(placeOf(ScenarioPart::Start, 0) + ": the start lies at " + formatNumber(start.x()) + ", " +
-                            formatNumber(start.y()) + "; coordinates of at most " + formatNumber(FARTHEST_COORDINATE) +
+                            formatNumber(start.y()) + "; coordinates of at most " + formatNumber(MAX_COORDINATE) +
                             " m are supported: move the origin");
         }
 
@@ -150,7 +150,7 @@ namespace parking
             goal = shifted(checked(goal, source, "goal"), offset);
         if (scenario.slot)
         {
-            // Local before the goals follow from it: far away they would be rounded.
+            // The goals follow from the local slot, because far away they would be rounded.
             scenario.slot->pose = shifted(scenario.slot->pose, offset);
             scenario.goals = scenario.slot->goals(scenario.vehicle);
         }

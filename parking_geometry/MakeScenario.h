@@ -27,7 +27,7 @@ namespace parking
     /** \brief Validates a scenario in local coordinates and sets its bounds.
 
         Checks the start, the outlines and the extent of the world. World coordinates of the start may be up to
-        FARTHEST_COORDINATE.
+        MAX_COORDINATE.
         Throws parking::Error naming \e source or, if \e placeOf is given, the place of the invalid part. */
     void completeScenario(Scenario &scenario, const std::string &source, const PlaceOfPart &placeOf = {});
 

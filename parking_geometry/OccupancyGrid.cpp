@@ -10,7 +10,7 @@ namespace parking
 {
     namespace
     {
-        constexpr std::size_t MOST_CELLS = std::size_t(1) << 31;
+        constexpr std::size_t MAX_CELLS = std::size_t(1) << 31;
 
         std::string sizeText(std::size_t width, std::size_t height)
         {
@@ -27,7 +27,7 @@ namespace parking
     {
         if (width == 0 || height == 0)
             throw Error("map of " + sizeText(width, height) + "; both sides must be at least 1");
-        if (width > MOST_CELLS / height)
+        if (width > MAX_CELLS / height)
             throw Error("map of " + sizeText(width, height) + "; at most 2^31 cells are supported");
         if (!std::isfinite(resolution) || resolution <= 0.0)
             throw Error("map resolution is " + formatNumber(resolution) +

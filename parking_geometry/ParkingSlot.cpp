@@ -11,16 +11,16 @@ namespace parking
 {
     namespace
     {
-        /** Rounding of user input, not centimetres: what may stick out of a slot that is exactly as long as the car. */
+        /** Overlap in metres that counts as rounding if the slot is exactly as long as the car. */
         constexpr double TOLERANCE = 1e-9;
 
-        /** Along a whole street; what is longer is in other units. */
-        constexpr double LONGEST = 1000.0;
+        /** Largest dimension in metres; larger values indicate other units. */
+        constexpr double MAX_LENGTH = 1000.0;
 
         void checkLength(const Require &require, const char *field, double value)
         {
-            require.that(value > 0.0 && value <= LONGEST, field, value,
-                         "a number of metres above 0 and up to " + formatNumber(LONGEST));
+            require.that(value > 0.0 && value <= MAX_LENGTH, field, value,
+                         "a number of metres above 0 and up to " + formatNumber(MAX_LENGTH));
         }
 
         std::string inCentimetres(double metres)
@@ -84,9 +84,9 @@ namespace parking
         for (const auto &[field, value] : {std::pair{"pose x", pose.x}, {"pose y", pose.y}})
         {
             require.finite(field, value, "metres");
-            if (std::abs(value) > FARTHEST_COORDINATE)
+            if (std::abs(value) > MAX_COORDINATE)
                 require.that(false, field, value,
-                             "at most " + formatNumber(FARTHEST_COORDINATE) + " m either way: move the origin");
+                             "at most " + formatNumber(MAX_COORDINATE) + " m either way: move the origin");
         }
         require.finite("pose yaw", pose.yaw, "radians");
         checkLength(require, "length", length);

@@ -77,7 +77,7 @@ namespace parking
         Polygon outline() const;
 
         /** \brief Throws parking::Error naming the first field that is not finite or out of range. The pose must lie
-            within FARTHEST_COORDINATE, length and width may be up to 1 km. */
+            within MAX_COORDINATE, length and width may be up to 1 km. */
         void validate() const;
 
         /** \brief Angle between +x of the pose and the aisle: 0 for parallel slots, pi/2 for perpendicular ones,

@@ -9,7 +9,7 @@ namespace parking
     {
         if (polygon.size() < 3)
             return 0.0;
-        // Relative to the first corner: polygons far from the origin would lose their area to cancellation otherwise.
+        // Coordinates relative to the first corner avoid cancellation for polygons far from the origin.
         const Eigen::Vector2d &origin = polygon.front();
         double twice = 0.0;
         for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
@@ -23,7 +23,7 @@ namespace parking
     bool crossesItself(const Polygon &polygon)
     {
         const std::size_t count = polygon.size();
-        // Sides by where they begin in x: only those that begin before a side ends can cross it.
+        // Sides sorted by their lower x. Only sides that begin before a side ends can cross it.
         struct Side
         {
             double left, right;
@@ -59,12 +59,12 @@ namespace parking
         bool inside = false;
         for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
         {
-            // Everything relative to the point, so that only the sizes of the edges limit the precision.
+            // Coordinates relative to the point, so only the lengths of the edges limit the precision.
             const Eigen::Vector2d a = polygon[i] - point, b = polygon[j] - point;
             if ((a.y() > 0.0) == (b.y() > 0.0))
                 continue;
-            // The edge crosses the ray to the right when the point lies on the proper side of it; multiplied out, so
-            // that flat edges divide by nothing.
+            // The edge crosses the ray to the right if the point lies on the appropriate side of it. The multiplied
+            // form avoids a division by zero for horizontal edges.
             const double side = a.x() * b.y() - a.y() * b.x();
             if ((side > 0.0) == (b.y() > a.y()))
                 inside = !inside;

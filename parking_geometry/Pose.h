@@ -35,7 +35,7 @@ namespace parking
 
         All computations are relative to the start. Beyond this magnitude neighbouring doubles are more than 2
         micrometres apart, so results would lose their accuracy when they are moved back. */
-    constexpr double FARTHEST_COORDINATE = 1e10;
+    constexpr double MAX_COORDINATE = 1e10;
 
     /** \brief Whether all three coordinates are finite. */
     inline bool isFinite(const Pose &pose)

@@ -10,26 +10,27 @@ namespace parking
 {
     namespace
     {
-        /** Nothing with wheels that parks is longer; a larger number means millimetres, and an error beats a planner
-            that reports "infeasible". */
-        constexpr double LONGEST = 50.0;
-        /** Below it rounding is as large as the car: OMPL's curves fail their own checks. */
-        constexpr double SHORTEST = 0.01;
-        constexpr double TIGHTEST_TURN = 0.01, WIDEST_TURN = 1000.0;  // metres
+        /** Largest length in metres. Larger values indicate other units and would otherwise only result in an
+            infeasible problem. */
+        constexpr double MAX_LENGTH = 50.0;
+        /** Smallest length in metres. Below it, rounding errors are as large as the car and OMPL's curves fail their
+            own checks. */
+        constexpr double MIN_LENGTH = 0.01;
+        constexpr double MIN_RADIUS = 0.01, MAX_RADIUS = 1000.0;  // metres
 
-        /** A car with less never gets there: what takes time would take hours, and memory for all of them. With more
-            the numbers are in other units, or get out of hand when they are squared. Twice what a timed path asks for
-            (SpeedLimits), so that a share of it may be kept for the controller. */
+        /** Checks a limit of the drive. Smaller values would result in drives of hours and exhaust the memory, larger
+            ones indicate other units. The minimum is twice that of a timed path (SpeedLimits), so a share of the limit
+            can be reserved for the controller. */
         void checkLimit(const Require &require, const char *field, double value, const std::string &unit)
         {
-            require.that(value >= Vehicle::LEAST_LIMIT && value <= Vehicle::GREATEST_LIMIT, field, value,
-                         "a number of " + unit + " from " + formatNumber(Vehicle::LEAST_LIMIT) + " to " +
-                             formatNumber(Vehicle::GREATEST_LIMIT));
+            require.that(value >= Vehicle::MIN_LIMIT && value <= Vehicle::MAX_LIMIT, field, value,
+                         "a number of " + unit + " from " + formatNumber(Vehicle::MIN_LIMIT) + " to " +
+                             formatNumber(Vehicle::MAX_LIMIT));
         }
 
         void checkLength(const Require &require, const char *field, double value, bool zeroAllowed)
         {
-            const bool ok = std::isfinite(value) && value >= (zeroAllowed ? 0.0 : SHORTEST) && value <= LONGEST;
+            const bool ok = std::isfinite(value) && value >= (zeroAllowed ? 0.0 : MIN_LENGTH) && value <= MAX_LENGTH;
             require.that(ok, field, value,
                          zeroAllowed ? "a number of metres from 0 to 50" : "a number of metres from 0.01 to 50");
         }
@@ -78,7 +79,7 @@ namespace parking
                      "max_steering_angle", maxSteeringAngle,
                      "a number of radians above 0 and below 1.5708 (90 degrees)");
         const double radius = minTurningRadius();
-        require.that(radius >= TIGHTEST_TURN && radius <= WIDEST_TURN, "max_steering_angle", maxSteeringAngle,
+        require.that(radius >= MIN_RADIUS && radius <= MAX_RADIUS, "max_steering_angle", maxSteeringAngle,
                      "an angle that turns the car round a circle with a radius of 0.01 to 1000 m, not " +
                          formatNumber(radius) + " m");
         checkLimit(require, "max_speed", maxSpeed, "m/s");

@@ -17,9 +17,8 @@ namespace parking
         Automated Parking (TPCAP). */
     struct Vehicle
     {
-        static constexpr double LEAST_LIMIT = 0.02;  ///< lowest maximum of speed, acceleration and steering rate, SI
-        static constexpr double GREATEST_LIMIT =
-            100.0;  ///< highest maximum of speed, acceleration and steering rate, SI
+        static constexpr double MIN_LIMIT = 0.02;   ///< lowest maximum of speed, acceleration and steering rate, SI
+        static constexpr double MAX_LIMIT = 100.0;  ///< highest maximum of speed, acceleration and steering rate, SI
 
         std::string name{"tpcap"};      ///< name in results, from vehicleNames() or chosen by the user
         double wheelbase{2.8};          ///< distance from the rear to the front axle, metres
@@ -76,7 +75,7 @@ namespace parking
         /** \brief Throws parking::Error naming the first field that is not finite or out of range.
 
             Lengths may be up to 50 m, wheelbase and width must be at least 1 cm. The turning radius must be 1 cm to 1
-            km. Speed, acceleration and steering rate must be from LEAST_LIMIT to GREATEST_LIMIT. */
+            km. Speed, acceleration and steering rate must be from MIN_LIMIT to MAX_LIMIT. */
         void validate() const;
     };
 

@@ -8,7 +8,7 @@ namespace parking
 {
     namespace
     {
-        /** How the front wheels' limit is known. */
+        /** Published form of the limit of the front wheels. */
         enum class Steering
         {
             Angle,         ///< the mean steering angle itself, radians
@@ -28,15 +28,15 @@ namespace parking
             below with both published, and the car of MathWorks' vehicleDimensions (0.9 / 1.0 m), have 0.46 to 0.51. */
         constexpr double FRONT_SHARE = 0.48;
 
-        /** Half the distance between the front wheels as a part of the body's width, since widths are published more
-            often than tracks (Lexus RX 450h: 1.64 m of 1.896 m, Corolla Sport: 1.53 m of 1.79 m). */
+        /** Half the track as a share of the body's width, because widths are published more often than tracks (Lexus RX
+            450h: 1.64 m of 1.896 m, Corolla Sport: 1.53 m of 1.79 m). */
         constexpr double HALF_TRACK = 0.43;
 
         /** Turning circle in wheelbases where none is published: the six cars below with a published circle lie between
             3.7 and 4.14. */
         constexpr double CIRCLE_IN_WHEELBASES = 4.0;
 
-        /** The cars, with where their numbers are from. Widths are without mirrors unless said otherwise. */
+        /** The cars and their sources. Widths exclude mirrors unless a comment states otherwise. */
         const Entry CATALOGUE[] = {
             // Car of the Trajectory Planning Competition of Automated Parking: Vehicle.py of its-ant-bupt/HALOES.
             {"tpcap", 4.689, 1.942, 2.8, 0.96, Steering::Angle, 0.75},

@@ -13,10 +13,10 @@ namespace parking
     {
         constexpr double CLEARANCE_REACH = 1.0;  // metres beyond the circle within which distances are exact
         constexpr double TOLERANCE = 1e-3;       // metres kept along motions
-        constexpr double TOUCHING = 1e-9;        // metres from an obstacle that no motion begins at
-        /** Steps nearer to an obstacle than is kept otherwise. Straight away from it each is twice as long as the one
-            before; along it they would be short for ever. */
-        constexpr int MOST_NEAR_STEPS = 200;
+        constexpr double TOUCHING = 1e-9;        // metres: a motion may not begin nearer to an obstacle
+        /** Largest number of steps nearer to an obstacle than the tolerance. Straight away from it each step is twice
+            as long as the previous one. Along it the steps would stay short. */
+        constexpr int MAX_NEAR_STEPS = 200;
 
         double checked(double radius)
         {
@@ -63,17 +63,17 @@ namespace parking
         const double length = positionDistance(to, from);
         if (!std::isfinite(length))
             return 0.0;
-        double driven = 0.0, least = TOUCHING;
+        double driven = 0.0, minKept = TOUCHING;
         int nearSteps = 0;
         while (driven < length)
         {
             const double share = driven / length;
             const double kept = clearance(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-            if (kept < least || (kept < TOLERANCE && ++nearSteps > MOST_NEAR_STEPS))
+            if (kept < minKept || (kept < TOLERANCE && ++nearSteps > MAX_NEAR_STEPS))
                 return share;
-            // From the start the circle may move away from an obstacle that it all but touches.
+            // From the start the circle may move away from an obstacle that it almost touches.
             if (driven == 0.0)
-                least = std::min(TOLERANCE, kept);
+                minKept = std::min(TOLERANCE, kept);
             driven += kept;
         }
         return 1.0;

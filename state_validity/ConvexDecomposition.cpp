@@ -20,7 +20,7 @@ namespace parking
                 if (turn(points[corners[i]], points[corners[(i + 1) % corners.size()]],
                          points[corners[(i + 2) % corners.size()]]) < 0.0)
                     return false;
-            // Every corner turning left still allows a spiral; a convex outline turns round once.
+            // A spiral has only left turns too, but a convex outline makes exactly one full turn.
             double total = 0.0;
             for (std::size_t i = 0; i < corners.size(); ++i)
             {
@@ -54,26 +54,26 @@ namespace parking
                     for (std::size_t k = 0; k + 3 < count && empty; ++k)
                     {
                         const Eigen::Vector2d &p = points[left[(i + 2 + k) % count]];
-                        // Reflex or straight corners only can lie in the ear; one that coincides with a corner of the
-                        // ear (a polygon touching itself) does not count.
+                        // Only reflex or straight corners can lie in the ear. Corners that coincide with one of the ear
+                        // (a polygon touching itself) are ignored.
                         if (p == a || p == b || p == c)
                             continue;
                         empty = !(turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0);
                     }
                     if (!empty)
                         continue;
-                    // The fattest ear first: slivers make poor convex bodies.
-                    const double longest =
+                    // The ear with the best aspect ratio first, because slivers are unfavourable convex bodies.
+                    const double maxSide =
                         std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-                    const double quality = longest > 0.0 ? area / longest : 0.0;
+                    const double quality = maxSide > 0.0 ? area / maxSide : 0.0;
                     if (quality > bestQuality)
                     {
                         bestQuality = quality;
                         best = i;
                     }
                 }
-                // A simple polygon has an ear always; rounding may hide it where corners almost coincide. A triangle of
-                // no area to speak of is cut off then.
+                // A simple polygon always has an ear, but rounding may hide it if corners almost coincide. A triangle
+                // of negligible area is cut off in this case.
                 if (best == count)
                 {
                     double smallest = std::numeric_limits<double>::infinity();
@@ -98,7 +98,7 @@ namespace parking
             return triangles;
         }
 
-        /** The outline of two pieces joined across the diagonal (from, to), which runs so in the first piece. */
+        /** The outline of two pieces joined across a diagonal, which leads from \e from to \e to in the first piece. */
         Corners join(const Corners &first, const Corners &second, std::size_t from, std::size_t to)
         {
             Corners joined;
@@ -124,7 +124,7 @@ namespace parking
     std::vector<Polygon> convexPieces(const Polygon &polygon)
     {
         if (crossesItself(polygon))
-            throw Error("the outline of an obstacle polygon crosses itself: it must not");
+            throw Error("the outline of an obstacle polygon crosses itself; it must be a simple polygon");
         Corners all(polygon.size());
         for (std::size_t i = 0; i < all.size(); ++i)
             all[i] = i;

@@ -12,9 +12,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double MAX_CELLS = 268435456.0;         // 2^28: a gigabyte of floats
-        constexpr double CHOSEN_CELLS = 1e6;              // of a polygon world when the caller leaves the choice
-        constexpr double FINEST_CHOSEN_RESOLUTION = 0.1;  // metres
+        constexpr double MAX_CELLS = 268435456.0;      // 2^28: a gigabyte of floats
+        constexpr double CHOSEN_CELLS = 1e6;           // of a polygon world with automatic resolution
+        constexpr double MIN_CHOSEN_RESOLUTION = 0.1;  // metres
 
         constexpr std::uint8_t FREE = 0, TOUCHED = 1, INSIDE = 2;
 
@@ -32,7 +32,7 @@ namespace parking
             {
             }
 
-            /** Every cell that the edge touches, and those that it misses by rounding only. */
+            /** Marks every cell that the edge touches or misses only by rounding. */
             void drawEdge(const Edge &edge)
             {
                 Eigen::Vector2d a = (edge.from - origin_) / resolution_, b = (edge.to - origin_) / resolution_;
@@ -50,7 +50,7 @@ namespace parking
                         const double slope = (b.x() - a.x()) / (b.y() - a.y());
                         x0 = a.x() + slope * (low - a.y());
                         x1 = a.x() + slope * (high - a.y());
-                        // Rounding of a nearly horizontal edge must not leave the edge's own box.
+                        // Rounding of a nearly horizontal edge must not exceed the bounding box of the edge.
                         const double left = std::min(a.x(), b.x()), right = std::max(a.x(), b.x());
                         x0 = std::clamp(x0, left, right);
                         x1 = std::clamp(x1, left, right);
@@ -61,7 +61,8 @@ namespace parking
                 }
             }
 
-            /** Cells with their centre inside of the polygon that no edge touches: those lie inside entirely. */
+            /** Marks the cells that lie entirely inside of the polygon: those with an inner centre that no edge
+                touches. */
             void fill(const Polygon &polygon)
             {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -121,7 +122,7 @@ namespace parking
         const Eigen::Vector2d size = obstacles.bounds().size();
         if (obstacles.cellSize() > 0.0)
         {
-            // One ring of blocked cells stands for the outside of the map.
+            // One ring of blocked cells represents the outside of the map.
             resolution_ = obstacles.cellSize();
             isGrid_ = true;
             columns_ = obstacles.columns() + 2;
@@ -136,7 +137,7 @@ namespace parking
         else
         {
             if (resolution == 0.0)
-                resolution = std::max(FINEST_CHOSEN_RESOLUTION, std::sqrt(size.x() * size.y() / CHOSEN_CELLS));
+                resolution = std::max(MIN_CHOSEN_RESOLUTION, std::sqrt(size.x() * size.y() / CHOSEN_CELLS));
             Require("distance field").positive("resolution", resolution, "metres");
             if (size.x() / resolution * (size.y() / resolution) > MAX_CELLS)
                 throw Error(
@@ -152,8 +153,7 @@ namespace parking
                 raster.drawEdge(edge);
             for (const Polygon &polygon : obstacles.polygons())
                 raster.fill(polygon);
-            // The ring outside of the bounds; its inner neighbours touch the outline of the bounds and stay as they
-            // are.
+            // The ring outside of the bounds. Its inner neighbours touch the outline of the bounds and do not change.
             for (std::size_t column = 0; column < columns_; ++column)
                 for (const std::size_t row : {std::size_t{0}, rows_ - 1})
                     if (blocked[row * columns_ + column] == FREE)
@@ -171,7 +171,7 @@ namespace parking
         inverse_ = 1.0 / resolution_;
         width_ = static_cast<double>(columns_);
         height_ = static_cast<double>(rows_);
-        // A hair more than a diagonal, for cells that an outline misses by rounding but that are marked all the same.
+        // Slightly more than a diagonal, because cells that an outline misses by rounding are marked too.
         error_ = std::sqrt(2.0) * resolution_ * (1.0 + 1e-5);
         values_.resize(columns_ * rows_);
 
@@ -230,7 +230,7 @@ namespace parking
                     ++k;
                 if (marks[column])
                 {
-                    // A cell inside of an obstacle is told apart from one that an outline merely touches.
+                    // Distinguishes a cell inside of an obstacle from one that an outline only touches.
                     line[column] = marks[column] == INSIDE ? -1.0f : 0.0f;
                     continue;
                 }

@@ -12,10 +12,10 @@ namespace parking
         constexpr double MAX_BUCKETS = 4.0e6;    // larger worlds get larger buckets
         constexpr double CELL_OF_BUCKETS = 4.0;  // side of a cell in buckets
         constexpr std::size_t BLOCK_SIZE = 8;
-        // Rounding of rotated coordinates within a few kilometres of the frame, with room to spare.
+        // Rounding error of rotated coordinates within a few kilometres of the frame, with a reserve.
         constexpr double ROUNDING = 1e-10;
-        // An edge that is cut off at its very end has no length left, by which nothing must be divided.
-        constexpr double LEAST_SQUARE = 1e-300;
+        // Avoids a division by zero for an edge that is cut off at its end and has no length.
+        constexpr double MIN_SQUARE = 1e-300;
 
         using Eight = Eigen::Array<double, BLOCK_SIZE, 1>;
 
@@ -48,7 +48,7 @@ namespace parking
             const double gapN = std::abs(nx * ax + ny * ay) - hx * std::abs(nx) - hy * std::abs(ny);
             if (std::max(std::max(gapX, gapY), gapN) <= 0.0)
                 return 0.0;
-            // Apart: the distance is between a corner of the one and the other as a whole.
+            // They do not intersect, so a corner of one has the smallest distance from the other.
             double square = std::min(squaredDistanceToBox(ax, ay, hx, hy), squaredDistanceToBox(bx, by, hx, hy));
             for (const double cx : {-hx, hx})
                 for (const double cy : {-hy, hy})
@@ -61,10 +61,10 @@ namespace parking
             return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count - 1)));
         }
 
-        /** Cuts off what lies outside of the box; false when nothing is left. */
+        /** Clips an edge to the box. \return false if no part is left */
         bool clip(Edge &edge, const Box &box)
         {
-            // As most edges do: then nothing is divided.
+            // The most common case requires no division.
             if (box.contains(edge.from.x(), edge.from.y()) && box.contains(edge.to.x(), edge.to.y()))
                 return true;
             const Eigen::Vector2d from = edge.from, along = edge.to - edge.from;
@@ -91,7 +91,7 @@ namespace parking
             return true;
         }
 
-        /** Position along a Z-shaped curve through a square of 256 x 256 places: near ones have near numbers. */
+        /** Position along a Z-order curve through a square of 256 x 256 places, which keeps neighbours close. */
         std::uint32_t zOrder(double u, double v)
         {
             const auto spread = [](double value)
@@ -105,7 +105,7 @@ namespace parking
         }
     }  // namespace
 
-    /** Eight edges that lie together; when there are fewer, the last one is repeated. */
+    /** Eight neighbouring edges; the last one is repeated if there are fewer. */
     struct EdgeIndex::Block
     {
         Eight ax, ay, bx, by;
@@ -130,18 +130,18 @@ namespace parking
         double squaredDistance(double px, double py) const
         {
             const Eight dx = bx - ax, dy = by - ay, ux = px - ax, uy = py - ay;
-            const Eight share = ((ux * dx + uy * dy) / (dx * dx + dy * dy).max(LEAST_SQUARE)).max(0.0).min(1.0);
+            const Eight share = ((ux * dx + uy * dy) / (dx * dx + dy * dy).max(MIN_SQUARE)).max(0.0).min(1.0);
             return ((ux - share * dx).square() + (uy - share * dy).square()).minCoeff();
         }
     };
 
-    /** A block and the axis-parallel box round it: middle and half lengths. */
+    /** A block and its axis-parallel bounding box: centre and half lengths. */
     struct EdgeIndex::BlockInBox
     {
         double x, y, ex, ey;
         const Block *block;
 
-        /** How far the oriented box is from this one at least, along the axes of the former. */
+        /** Lower bound of the distance between the oriented box and this one, along the axes of the former. */
         double gap(const OrientedBox &box) const
         {
             const double c = box.cosine, s = box.sine;
@@ -205,7 +205,7 @@ namespace parking
             delete cell.load(std::memory_order_relaxed);
     }
 
-    /** What is there, made lazily. Several threads may make the same; the first to finish wins. */
+    /** The object at \e place, made lazily. Several threads may make it concurrently; the first result is kept. */
     template <class T, class Make>
     const T &EdgeIndex::once(std::atomic<T *> &place, const Make &make)
     {
@@ -221,10 +221,10 @@ namespace parking
 
     std::unique_ptr<EdgeIndex::Cell> EdgeIndex::cut(std::size_t column, std::size_t row) const
     {
-        // What lies beyond the world belongs to the cells at its border.
+        // The cells at the border also contain the area beyond the world.
         const Eigen::Vector2d low =
             origin_ + cellSize_ * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
-        // A hair wider than the cell, so that rounding loses no edge that lies along the border.
+        // Slightly larger than the cell, so that rounding loses no edge along the border.
         const Eigen::Vector2d hair(1e-9, 1e-9);
         Box box{low - hair, low + Eigen::Vector2d(cellSize_, cellSize_) + hair};
         if (column == 0)
@@ -236,7 +236,7 @@ namespace parking
         if (row + 1 == cellRows_)
             box.max.y() = HUGE_VAL;
 
-        // Edges by their place along the curve, the place in the higher half of a key and the edge in the lower one.
+        // Edges sorted along the curve. The higher half of a key is the place, the lower half the edge.
         const std::size_t *const first = &first_[row * cellColumns_ + column];
         const std::size_t count = first[1] - first[0];
         const Edge *const edges = ofCells_.data() + first[0];
@@ -259,7 +259,7 @@ namespace parking
         {
             Block &block = cell->blocks[k];
             block.edges = std::min(BLOCK_SIZE, order.size() - k * BLOCK_SIZE);
-            Eigen::Vector2d least(HUGE_VAL, HUGE_VAL), most(-HUGE_VAL, -HUGE_VAL);
+            Eigen::Vector2d low(HUGE_VAL, HUGE_VAL), high(-HUGE_VAL, -HUGE_VAL);
             Edge piece{};
             Eigen::Vector2d along(0.0, 0.0);
             for (std::size_t i = 0; i < BLOCK_SIZE; ++i)
@@ -277,10 +277,10 @@ namespace parking
                 block.by[at] = piece.to.y();
                 block.nx[at] = -along.y();
                 block.ny[at] = along.x();
-                least = least.cwiseMin(piece.from.cwiseMin(piece.to));
-                most = most.cwiseMax(piece.from.cwiseMax(piece.to));
+                low = low.cwiseMin(piece.from.cwiseMin(piece.to));
+                high = high.cwiseMax(piece.from.cwiseMax(piece.to));
             }
-            const Eigen::Vector2d middle = 0.5 * (least + most), half = 0.5 * (most - least);
+            const Eigen::Vector2d middle = 0.5 * (low + high), half = 0.5 * (high - low);
             cell->boxes.push_back({middle.x(), middle.y(), half.x() + ROUNDING, half.y() + ROUNDING, &block});
         }
         return cell;
@@ -300,7 +300,7 @@ namespace parking
         for (std::size_t r = low; r <= high; ++r)
             for (std::size_t c = left; c <= right; ++c)
                 boxes += once(cells_[r * cellColumns_ + c], [this, c, r] { return cut(c, r); }).boxes.size();
-        // Whether a box is near enough is as good as chance: a branch would cost more than writing down all of them.
+        // The distance test is unpredictable, so a branch would take longer than writing all candidates.
         std::vector<const BlockInBox *> found(boxes + 1);
         std::size_t count = 0;
         for (std::size_t r = low; r <= high; ++r)
@@ -337,10 +337,10 @@ namespace parking
         return smallest;
     }
 
-    bool EdgeIndex::isSeparate(const OrientedBox &box, double least) const
+    bool EdgeIndex::isSeparate(const OrientedBox &box, double minSeparation) const
     {
         for (const BlockInBox &each : near(box.x, box.y))
-            if (each.gap(box) < least && each.block->separation(box) < least)
+            if (each.gap(box) < minSeparation && each.block->separation(box) < minSeparation)
                 return false;
         return true;
     }
@@ -370,7 +370,7 @@ namespace parking
                 if (!front.mayMeet(x, y, ex, ey))
                     continue;
                 const Block &block = *pointer;
-                // Most edges of the block lie beside the way and are passed over, all eight at a time.
+                // Most edges of the block lie beside the swept area and are skipped, all eight at a time.
                 const Eight gaps = front.gap(block.ax, block.ay, block.bx, block.by);
                 for (std::size_t i = 0; i < block.edges; ++i)
                 {
@@ -385,7 +385,7 @@ namespace parking
             return front.contact();
         }
 
-        // No point of the box gets farther from where it is than this.
+        // No point of the box moves farther than this.
         const double farthest = std::hypot(std::abs(sweep.axle) + sweep.halfLength, sweep.halfWidth);
         const double moved = (sweep.length + OVERRUN) * (1.0 + std::abs(sweep.curvature) * farthest) + ROUNDING;
         OrientedBox enlarged = box;
@@ -463,7 +463,7 @@ namespace parking
                 smallest = std::min(smallest, distanceTo(box, edge, {-along.y(), along.x()}));
             }
         };
-        // Rings of cells round the centre, until the next one is too far away to matter.
+        // Rings of cells about the centre, until the next ring is too far away.
         const std::size_t column = clampTo((box.x - origin_.x()) / cellSize_, cellColumns_);
         const std::size_t row = clampTo((box.y - origin_.y()) / cellSize_, cellRows_);
         const std::size_t rings = std::max(cellColumns_, cellRows_);
@@ -475,7 +475,7 @@ namespace parking
             const std::size_t low = row - std::min(row, ring), high = std::min(cellRows_ - 1, row + ring);
             for (std::size_t r = low; r <= high; ++r)
             {
-                // Of the rows in between only the two ends belong to the ring.
+                // Only the two ends of the rows in between belong to the ring.
                 const bool whole = r + ring == row || r == row + ring;
                 for (std::size_t c = left; whole && c <= right; ++c)
                     look(c, r);

@@ -49,8 +49,8 @@ namespace parking
             \param ignored if all separations are at least this value, the result is any value of at least \e ignored */
         double separation(const OrientedBox &box, double ignored = std::numeric_limits<double>::infinity()) const;
 
-        /** \brief Whether separation() is at least \e least. */
-        bool isSeparate(const OrientedBox &box, double least) const;
+        /** \brief Whether separation() is at least \e minSeparation. */
+        bool isSeparate(const OrientedBox &box, double minSeparation) const;
 
         /** \brief Sign of the separation: 1 if it is above \e band, -1 if it is below minus \e band, otherwise 0. */
         int side(const OrientedBox &box, double band) const;

@@ -11,11 +11,10 @@ namespace parking
 {
     namespace
     {
-        // On the size of cells: rounding of coordinates within a few kilometres of the frame, with room to spare.
+        // Margin of the size of cells for rounding within a few kilometres of the frame.
         constexpr double HAIR = 1e-9;
 
-        /** How far a point of the body is moved at the most, along either of its axes, by where the body stands in the
-            cell. */
+        /** Largest displacement of a point of the body along either of its axes for all positions in the cell. */
         double shiftIn(double side, double yaw, double halfTurn)
         {
             const double diagonal = std::sqrt(2.0);
@@ -28,8 +27,8 @@ namespace parking
     FootprintCells::FootprintCells(const FootprintChecker &checker, double side, int headings) : checker_(checker)
     {
         Require("cells of footprints").positive("side", side, "metres");
-        if (headings < 8 || headings > MOST_HEADINGS)
-            throw Error("cells of footprints need 8 to " + std::to_string(MOST_HEADINGS) + " headings, not " +
+        if (headings < 8 || headings > MAX_HEADINGS)
+            throw Error("cells of footprints need 8 to " + std::to_string(MAX_HEADINGS) + " headings, not " +
                         std::to_string(headings));
         const double halfLength = 0.5 * checker.vehicle().length() + checker.margin(),
                      halfWidth = 0.5 * checker.vehicle().width + checker.margin();
@@ -38,8 +37,8 @@ namespace parking
         for (int i = 0; i < headings; ++i)
         {
             const double yaw = 2.0 * PI * (i + 0.5) / headings - PI;
-            // A point of the box is seen from a body that stands and points elsewhere in the cell as moved by the
-            // distance along the body's axes, and as turned about its middle.
+            // For a body at another pose of the cell, a point of the box is displaced along the body's axes and turned
+            // about its centre.
             const double shift = shiftIn(side, yaw, halfTurn);
             const double length = halfLength - shift - halfWidth * sine;
             const double width = halfWidth - shift - halfLength * sine;

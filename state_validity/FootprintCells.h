@@ -19,16 +19,16 @@ namespace parking
     class FootprintCells
     {
     public:
-        static constexpr int MOST_HEADINGS = 128;  ///< largest number of heading intervals
+        static constexpr int MAX_HEADINGS = 128;  ///< largest number of heading intervals
 
         /** \brief One bit per heading interval. The first interval begins at -pi. */
-        using Headings = std::array<std::uint64_t, MOST_HEADINGS / 64>;
+        using Headings = std::array<std::uint64_t, MAX_HEADINGS / 64>;
 
         /** \brief Cells for the body of \e checker.
 
             \param checker must outlive this object
             \param side side of the squares in metres, positive; the squares are parallel to the axes of the problem
-            \param headings number of heading intervals, from 8 to MOST_HEADINGS
+            \param headings number of heading intervals, from 8 to MAX_HEADINGS
             Throws parking::Error for other values. */
         FootprintCells(const FootprintChecker &checker, double side, int headings);
 

@@ -17,8 +17,7 @@ namespace parking
         constexpr double CLEARANCE_REACH = 1.0;
         constexpr std::size_t COVERING_CIRCLES = 6;
         constexpr double MAX_TURN = 1.0;  // radians swept at a time
-        // A body enlarged on all sides reaches out up to sqrt(2) times as far at its corners, and along the normals of
-        // edges there; with room to spare.
+        // Enlargement at a corner of the body relative to that of its sides: sqrt(2) with a reserve.
         constexpr double CORNER = 1.5;
         // Rounding of rotated coordinates within a few kilometres of the frame.
         constexpr double ROUNDING = 1e-11;
@@ -108,24 +107,24 @@ namespace parking
         return contactTest_(box);
     }
 
-    /** A lower bound of the distance between the body and the obstacles, by the field alone; negative where that does
-        not tell. What is above \e enough, or is not above \e least, need not be told apart. */
-    double FootprintChecker::roomRound(const OrientedBox &box, double least, double enough) const
+    /** Lower bound of the distance between the body and the obstacles by the field alone; negative if the field proves
+        none. Values above \e enough and values up to \e lower need not be exact. */
+    double FootprintChecker::clearanceByField(const OrientedBox &box, double lower, double enough) const
     {
-        const double atCentre = field_.lowerBound(box.x, box.y), room = atCentre - circumradius_;
-        // No circle has more room than the centre, but for its own way from there.
+        const double atCentre = field_.lowerBound(box.x, box.y), ofCentre = atCentre - circumradius_;
+        // The field at a circle's centre exceeds that at the body's centre by at most the distance between them.
         const Circle &middle = covering_[covering_.size() / 2];
-        if (room > enough || atCentre + middle.offset - middle.radius <= least)
-            return room;
+        if (ofCentre > enough || atCentre + middle.offset - middle.radius <= lower)
+            return ofCentre;
         double ofCircles = HUGE_VAL;
         for (const Circle &circle : covering_)
         {
             const double x = box.x + box.cosine * circle.offset, y = box.y + box.sine * circle.offset;
             ofCircles = std::min(ofCircles, field_.lowerBound(x, y) - circle.radius);
-            if (ofCircles <= least)
-                return room;
+            if (ofCircles <= lower)
+                return ofCentre;
         }
-        return std::max(room, ofCircles);
+        return std::max(ofCentre, ofCircles);
     }
 
     bool FootprintChecker::isFree(const Pose &pose) const
@@ -221,7 +220,7 @@ namespace parking
         }
         ++counts.byEdges;
         const double separation = edges_.separation(box, CLEARANCE_REACH + ROUNDING) - ROUNDING;
-        // As in isFree(): no outline is crossed, so the centre tells on which side of them the body lies.
+        // As in isFree(): the body crosses no outline, so its centre decides on which side it lies.
         return separation <= 0.0 || isInsideObstacle(box) ? 0.0 : std::max(bound, separation);
     }
 
@@ -254,7 +253,7 @@ namespace parking
             return true;
         }
         ++counts.byEdges;
-        // clearance() tells no more than its reach.
+        // clearance() is exact only up to its reach.
         return clearance <= CLEARANCE_REACH && edges_.isSeparate(box, clearance + ROUNDING) && !isInsideObstacle(box);
     }
 
@@ -301,8 +300,8 @@ namespace parking
         SweepStart start{boxAt(obstacles_.toLocal(from)), tolerance, tolerance, 0.0};
         const OrientedBox &box = start.box;
         const double corner = CORNER * tolerance;
-        start.room = roomRound(box, corner, HUGE_VAL) - corner;
-        if (start.room > 0.0)
+        start.clearance = clearanceByField(box, corner, HUGE_VAL) - corner;
+        if (start.clearance > 0.0)
         {
             ++counts.byField;
             return start;
@@ -335,8 +334,9 @@ namespace parking
             double stride = std::min(left, longest);
             // Far from everything the field alone allows a long stride. Corners of the enlarged body reach farther out
             // than its sides.
-            const double bound =
-                driven == 0.0 ? start.room : roomRound(box, stride * speed + corner, stride * speed + corner) - corner;
+            const double bound = driven == 0.0
+                                     ? start.clearance
+                                     : clearanceByField(box, stride * speed + corner, stride * speed + corner) - corner;
             if (bound >= left * speed)
             {
                 ++counts.byField;

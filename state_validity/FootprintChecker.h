@@ -139,7 +139,7 @@ namespace parking
             /** Metres by which the sweeps enlarge the body; negative if the pose is not free. */
             double enlargement;
             /** Metres that the enlarged body may move in any direction; negative values allow no motion. */
-            double room;
+            double clearance;
         };
 
         /** \brief Prepares a pose for freeLength(). \param tolerance metres, positive and at most MAX_TOLERANCE */
@@ -162,7 +162,7 @@ namespace parking
     private:
         OrientedBox boxAt(const Pose &local) const;
         void drive(OrientedBox &box, double chord, double cosine, double sine) const;
-        double roomRound(const OrientedBox &box, double least, double enough) const;
+        double clearanceByField(const OrientedBox &box, double lower, double enough) const;
         bool isInsideObstacle(const OrientedBox &box) const;
         bool touches(const OrientedBox &box) const;
 

@@ -20,7 +20,7 @@ namespace parking
                 throw Error("bounds of the world are empty: they must span more than 0 m in x and in y");
         }
 
-        /** Occupied cells as few rectangles: runs along each row, joined with the equal run of the row below. */
+        /** Merges occupied cells into rectangles: runs along each row, joined with the equal run of the row below. */
         std::vector<Box> mergeCells(const std::vector<std::uint8_t> &cells, std::size_t columns, std::size_t rows,
                                     double size)
         {
@@ -67,7 +67,7 @@ namespace parking
             return rectangles;
         }
 
-        /** The lines between occupied and free cells, as long as they run straight. */
+        /** Adds the boundaries between occupied and free cells as maximal straight lines. */
         void addCellEdges(const std::vector<std::uint8_t> &cells, std::size_t columns, std::size_t rows, double size,
                           std::vector<Edge> &edges)
         {
@@ -89,7 +89,7 @@ namespace parking
                     const double y = static_cast<double>(row) * size;
                     edges.push_back({{static_cast<double>(begin) * size, y}, {static_cast<double>(column) * size, y}});
                 }
-            // Column-wise runs, walked row by row to stay in the cache: `begins` remembers where each began.
+            // Column-wise runs, visited row by row for the cache: `begins` stores the beginning of each run.
             constexpr std::size_t NONE = static_cast<std::size_t>(-1);
             std::vector<std::size_t> begins(columns, NONE);
             const auto close = [&](std::size_t column, std::size_t row)
@@ -137,12 +137,12 @@ namespace parking
             }
             while (local.size() > 1 && (local.front() - local.back()).squaredNorm() == 0.0)
                 local.pop_back();
-            // A point is an obstacle too. Edges need a direction: it becomes a stroke.
+            // A point is an obstacle too. It becomes a short stroke, because edges require a direction.
             if (local.size() == 1)
                 local.emplace_back(local.front().x() + STROKE, local.front().y());
             if (crossesItself(local))
                 throw Error("the outline of obstacle polygon " + std::to_string(i + 1) +
-                            " crosses itself: it must not");
+                            " crosses itself; it must be a simple polygon");
             if (signedArea(local) < 0.0)
                 std::reverse(local.begin(), local.end());
             for (std::size_t k = 0; k < local.size(); ++k)

@@ -79,7 +79,7 @@ namespace parking
         {
             // What is no path at all, or ends a planet away, has no shape.
             if (planned.recheck.fault == Fault::NotFinite || planned.recheck.fault == Fault::NoPath ||
-                !(planned.length < Referee::FARTHEST))
+                !(planned.length < Referee::MAX_DISTANCE))
                 return;
             const PathShape shape = shapeOf(planned.path);
             record.set("attains goal", attainsGoal(planned.end, problem.scenario().goals));

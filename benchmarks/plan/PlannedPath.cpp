@@ -153,7 +153,7 @@ namespace parking
         }
         else
             result.length = result.path.length();
-        result.clearance = straight ? referee.leastClearance(poses) : referee.leastClearance(result.path);
+        result.clearance = straight ? referee.minClearance(poses) : referee.minClearance(result.path);
         return result;
     }
 }  // namespace parking

@@ -1,9 +1,8 @@
-// Any program as a planner: it gets the problem as a YAML scenario on its standard input, and prints poses "x y yaw",
-// one a line, from the start to the goal; the space's curves join them. The parameter `command` says what to run, by a
-// shell:
-//   parking_plan SCENARIO --plugin libexternal_planner.so --planner external --set command="python3
-//   straight_planner.py"
-// A program that does not end in time is killed. What is no path is an exception, an outcome of that run only.
+// An external program as a planner. The program reads the problem as a YAML scenario from standard input. It prints one
+// pose "x y yaw" per line from the start to the goal. The curves of the space join the poses. A shell runs the
+// parameter `command`:
+//   parking_plan SCENARIO --plugin libexternal_planner.so --planner external --set command="python3 PROGRAM.py"
+// A program that exceeds the time limit is killed. An invalid path is an exception that concerns this run only.
 
 #include <ompl_improved_astar/PlannerPlugin.h>
 #include <state_validity/ompl/FclFootprintChecker.h>
@@ -28,9 +27,9 @@ namespace ob = ompl::base;
 
 namespace
 {
-    constexpr std::size_t LONGEST_ANSWER = 16000000;  // bytes
+    constexpr std::size_t MAX_ANSWER = 16000000;  // bytes
 
-    /** A program with its standard input and output at hand; killed, with all that it started, when it goes. */
+    /** A child process with its standard input and output. The destructor kills it and all its children. */
     class Program
     {
     public:
@@ -71,10 +70,10 @@ namespace
         Program(const Program &) = delete;
         Program &operator=(const Program &) = delete;
 
-        /** Gives it \e question and takes what it prints; false when there was no time for that. */
+        /** Writes \e question to the process and reads its output. \return false after the time limit */
         bool ask(const std::string &question, std::string &answer, const ob::PlannerTerminationCondition &ptc)
         {
-            // Who does not read to the end must not end us.
+            // A program that does not read all its input must not end this process.
             struct sigaction ignore = {};
             ignore.sa_handler = SIG_IGN;
             struct sigaction before;
@@ -84,7 +83,7 @@ namespace
             return done;
         }
 
-        /** Its exit status, once it has closed its output. */
+        /** Exit status of the process after it has closed its output. */
         int status()
         {
             int status = 0;
@@ -119,8 +118,8 @@ namespace
                     return true;
                 if (count > 0)
                     answer.append(buffer, static_cast<std::size_t>(count));
-                if (answer.size() > LONGEST_ANSWER)
-                    throw ompl::Exception("external", "the program does not stop printing");
+                if (answer.size() > MAX_ANSWER)
+                    throw ompl::Exception("external", "the output of the program is too long");
             }
             return false;
         }
@@ -193,7 +192,7 @@ namespace
             text << key << ": [" << pose.x << ", " << pose.y << ", " << pose.yaw << "]\n";
         }
 
-        /** The problem in the coordinates of the space. */
+        /** The problem as a YAML scenario in the coordinates of the space. */
         std::string scenario(const ob::State *start, const ob::State *goal) const
         {
             const auto *checker =
@@ -244,7 +243,7 @@ namespace
                 if (!(fields >> pose.x >> pose.y >> pose.yaw) || fields >> rest)
                     throw ompl::Exception(getName(),
                                           "line " + std::to_string(number) +
-                                              " of the program is no pose \"x y yaw\": " + line.substr(0, 60));
+                                              " of the program is not a pose \"x y yaw\": " + line.substr(0, 60));
                 ob::ScopedState<> state(si_);
                 parking::setPose(state.get(), pose);
                 path->append(state.get());

@@ -1,5 +1,5 @@
-// A planner in a library of its own: it tries random poses until one can be driven to from the start, and from there to
-// the goal. parking_plan and parking_benchmark load it with --plugin; see docs/benchmarking.md.
+// A planner in a separate library. It samples random poses until one is reachable from the start and the goal is
+// reachable from it. parking_plan and parking_benchmark load it with --plugin; see docs/benchmarking.md.
 
 #include <ompl_improved_astar/PlannerPlugin.h>
 
@@ -46,7 +46,7 @@ namespace
             while (!ptc)
             {
                 sampler->sampleUniformNear(via.get(), goal, radius_);
-                // In the direction in which they are driven: curves there and back may differ.
+                // Check in the driving direction, because curves in opposite directions may differ.
                 if (!si_->isValid(via.get()) || !si_->checkMotion(via.get(), goal) ||
                     !si_->checkMotion(start, via.get()))
                     continue;

@@ -8,7 +8,7 @@ namespace parking
 {
     namespace
     {
-        /** Radians; what bends by less is a straight line but for rounding. */
+        /** Angle in radians below which an arc is a straight line up to rounding. */
         constexpr double STRAIGHT = 1e-11;
 
         /** The arc that leaves \e from and passes the place \e to. */
@@ -31,7 +31,8 @@ namespace parking
         const double ahead = between.dot(leaving + arriving);
         if (!(ahead > 0.0))
             return std::nullopt;
-        // The tangents' length is the root of a quadratic, written so that nothing cancels for parallel tangents.
+        // The length of the tangents is the root of a quadratic equation, in a form without cancellation for parallel
+        // tangents.
         const double square = between.squaredNorm();
         const double bend = 2.0 * (1.0 - leaving.dot(arriving));
         const double reach = square / (ahead + std::sqrt(ahead * ahead + bend * square));

@@ -13,7 +13,7 @@ namespace parking
         constexpr double WEIGHTS[] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889,
                                       0.478628670499366468, 0.236926885056189088};
 
-        /** Turning by up to this angle, the quadrature above is exact to about 1e-13 of the length. */
+        /** Angle up to which the quadrature is exact to about 1e-13 of the length. */
         constexpr double ANGLE_PER_PANEL = 0.5;
 
         bool isArc(const PathPiece &piece)
@@ -21,15 +21,15 @@ namespace parking
             return piece.sharpness == 0.0 && piece.turn == 0.0;
         }
 
-        /** A place on a path: so many metres of that piece. */
+        /** A place on a path: a piece and the metres driven along it. */
         struct Cut
         {
             std::size_t piece;
             double driven;
         };
 
-        /** Where \e driven metres of the pieces have been driven: where one ends when that is but a hair away, so that
-            rounding leaves no slivers, least of all at cusps. Turns there are yet to be made. */
+        /** The place after \e driven metres, before any turns on the spot there. It snaps to the end of a piece within
+            a nanometre, so that rounding leaves no tiny pieces at cusps. */
         Cut cutAt(const std::vector<PathPiece> &pieces, double driven)
         {
             constexpr double HAIR = 1e-9;  // metres
@@ -176,7 +176,7 @@ namespace parking
     std::vector<Stretch> Path::stretches() const
     {
         std::vector<Stretch> result;
-        std::size_t first = 0;  // of what goes with the next piece that drives
+        std::size_t first = 0;  // of the turns that belong to the next driven piece
         double driven = 0.0;
         for (std::size_t i = 0; i < pieces.size(); ++i)
         {
@@ -198,7 +198,7 @@ namespace parking
         SampledPath path;
         PathState state;
         state.pose = start;
-        // A turn before the first drive has the direction of that.
+        // A turn before the first drive has the direction of that drive.
         const auto drives = [](const PathPiece &piece)
         {
             return piece.direction() != 0;

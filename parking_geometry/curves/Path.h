@@ -45,7 +45,7 @@ namespace parking
         }
 
         /** Largest turn on the spot in radians whose direction follows from its end heading alone. */
-        static constexpr double LONGEST_TURN = 0.5 * PI;
+        static constexpr double MAX_TURN = 0.5 * PI;
 
         /** \brief A turn on the spot by \e angle radians. */
         static PathPiece turnOnTheSpot(double angle);

@@ -9,7 +9,7 @@ namespace parking
 {
     namespace
     {
-        // Angles this close below zero are rounding, not a turn of a whole circle.
+        // Angles so close below zero are rounding errors, not full turns.
         constexpr double ZERO = 1e-10;
         constexpr double HALF_PI = 0.5 * PI;
 
@@ -40,7 +40,8 @@ namespace parking
         constexpr Turn RSRL[] = {R, S, R, L};
         constexpr Turn LRSLR[] = {L, R, S, L, R};
 
-        /** Into [-pi, pi]. Arguments here stay within a few turns, where this is faster than std::remainder. */
+        /** The equivalent angle in [-pi, pi]. Arguments stay within a few turns, where this is faster than
+            std::remainder. */
         double wrap(double angle)
         {
             if (angle > PI)
@@ -50,8 +51,8 @@ namespace parking
             return angle;
         }
 
-        /** Where the centre of a turn of the last piece lies, seen from the centre of a turn of the first one, in units
-            of the turning radius, and what the words make of that distance. All symmetric forms of a word share it. */
+        /** Position of the turning centre of the last piece relative to that of the first one, in units of the turning
+            radius, and derived quantities. All symmetric forms of a word share them. */
         struct Centres
         {
             double distance;
@@ -75,7 +76,7 @@ namespace parking
             }
         };
 
-        /** Two turns the same way: what the words with equal outer turns need. */
+        /** Quantities for the words whose outer turns have the same direction. */
         struct SameTurns : Centres
         {
             double middleTurn;  // 8.3, 8.4: of L R L; negative; 0 where the circles are too far apart
@@ -88,7 +89,7 @@ namespace parking
         };
 
         /** Two turns of L R L R (8.7, 8.8), without the symmetries. The middle turns are u and -u, or u and u, which
-            leaves little of the article's sines and cosines. */
+            simplifies the article's formulas. */
         struct OuterTurns
         {
             bool exist{false};
@@ -96,7 +97,7 @@ namespace parking
             double turn{0.0};  // of the first piece, relative to the angle of the centres
         };
 
-        /** Two turns opposite ways: what the words with opposite outer turns need. */
+        /** Quantities for the words whose outer turns have opposite directions. */
         struct OppositeTurns : Centres
         {
             OuterTurns between;  // 8.7: the cusp between the middle turns
@@ -114,7 +115,7 @@ namespace parking
             }
         };
 
-        /** Calls emit(word, length) for each word; emit.cap() is the length above which words are of no interest.
+        /** Calls emit(word, length) for each word; words longer than emit.cap() are not required.
 
             The words are those that begin with a forward left turn, under the symmetries of the article: driven
             backwards in time (x -> -x, phi -> -phi), mirrored (y -> -y, phi -> -phi) and both; and, for words that are
@@ -214,7 +215,7 @@ namespace parking
                         if (const double v = wrap(t + HALF_PI - phi); v <= ZERO)
                             give(LRSR, 4, {f * t, -f * HALF_PI, f * u, f * v});
                 }
-                // 8.10 from the goal to the start, where the other pair of turns is seen
+                // 8.10 from the goal to the start, with the other pair of turns
                 const OppositeTurns &rl = opposite[mirrored ? 0 : 1];
                 if (const double u = 2.0 - rl.distance; u <= 0.0 && HALF_PI - u <= emit.cap())
                 {
@@ -230,7 +231,7 @@ namespace parking
         double positiveTurn(double angle)
         {
             const double turn = angle - 2.0 * PI * std::floor(angle / (2.0 * PI));
-            // A hair less than a whole circle is no turn at all.
+            // Slightly less than a whole circle counts as no turn.
             return turn > 2.0 * PI - ZERO ? 0.0 : turn;
         }
 
@@ -330,14 +331,14 @@ namespace parking
         {
             std::vector<ReedsSheppCurve> &curves;
             double radius;
-            double longest;
+            double maxLength;
             double cap() const
             {
-                return longest;
+                return maxLength;
             }
             void operator()(const Word &word, double length)
             {
-                if (length <= longest)
+                if (length <= maxLength)
                     curves.push_back(toCurve(word, radius));
             }
         };
@@ -383,10 +384,10 @@ namespace parking
     }
 
     void ReedsShepp::candidates(const Pose &from, const Pose &to, std::vector<ReedsSheppCurve> &curves,
-                                double longest) const
+                                double maxLength) const
     {
         curves.clear();
-        AllWords all{curves, radius_, longest / radius_};
+        AllWords all{curves, radius_, maxLength / radius_};
         solve(from, to, radius_, family_, all);
         std::sort(curves.begin(), curves.end(),
                   [](const ReedsSheppCurve &a, const ReedsSheppCurve &b) { return a.length < b.length; });

@@ -66,9 +66,9 @@ namespace parking
 
         /** \brief Writes every word that joins the poses into \e curves, sorted by length.
 
-            \param longest length in metres above which words are omitted */
+            \param maxLength length in metres above which words are omitted */
         void candidates(const Pose &from, const Pose &to, std::vector<ReedsSheppCurve> &curves,
-                        double longest = std::numeric_limits<double>::infinity()) const;
+                        double maxLength = std::numeric_limits<double>::infinity()) const;
 
     private:
         double radius_;

@@ -12,7 +12,7 @@ namespace parking
         constexpr double MARGIN = 24.0;
         constexpr double PANEL_WIDTH = 912.0;
 
-        /** The legend in rows, from \e y downwards, which is moved below it. */
+        /** The legend in rows from \e y downwards. Moves \e y below the legend. */
         std::string legendRows(const std::vector<SvgLegendEntry> &entries, double width, double &y)
         {
             constexpr double SIZE = 12.5, ROW = 20.0;

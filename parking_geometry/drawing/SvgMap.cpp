@@ -11,9 +11,9 @@ namespace parking
 {
     namespace
     {
-        constexpr double FLATTEST = 0.36;  ///< height of a panel as a part of its width
+        constexpr double MIN_HEIGHT = 0.36;  ///< smallest height of a panel as a share of its width
         constexpr double TALLEST = 1.0;
-        constexpr double SEEN = 0.5;  ///< pixels of an area that can be seen
+        constexpr double SEEN = 0.5;  ///< smallest visible area in square pixels
 
         Box widened(Box view)
         {
@@ -21,11 +21,11 @@ namespace parking
                 throw Error("the view of a map panel is empty or not finite");
             const Eigen::Vector2d size = view.size(), middle = 0.5 * (view.min + view.max);
             const Eigen::Vector2d half(0.5 * std::max(size.x(), size.y() / TALLEST),
-                                       0.5 * std::max(size.y(), size.x() * FLATTEST));
+                                       0.5 * std::max(size.y(), size.x() * MIN_HEIGHT));
             return {middle - half, middle + half};
         }
 
-        /** The side of an outline on which a coordinate is at least (\e sign 1) or at most (-1) \e limit. */
+        /** The part of an outline on which a coordinate is at least (\e sign 1) or at most (\e sign -1) \e limit. */
         Polygon cut(const Polygon &outline, Eigen::Index axis, double sign, double limit)
         {
             Polygon result;
@@ -41,7 +41,7 @@ namespace parking
             return result;
         }
 
-        /** The ticks of one axis: round coordinates of the world, where they lie in local ones, and how they read. */
+        /** The ticks of one axis: round world coordinates, their local positions and their labels. */
         struct WorldAxis
         {
             /** \param begin,end local \param offset of the local origin in the world */
@@ -51,12 +51,12 @@ namespace parking
                 {
                     return tickLabel(tick - base, step);
                 };
-                if (std::max(label(begin + offset).size(), label(end + offset).size()) > MOST_CHARACTERS)
+                if (std::max(label(begin + offset).size(), label(end + offset).size()) > MAX_CHARACTERS)
                 {
                     const double unit = std::pow(10.0, std::max(3.0, std::ceil(std::log10(end - begin))));
                     base = std::floor((begin + offset) / unit) * unit;
                 }
-                // Close to the base numbers are small, so that nothing is lost to the digits of far worlds.
+                // Offsets from the base are small, so far worlds lose no digits.
                 const double shift = offset - base;
                 for (const double tick : roundTicks(begin + shift, end + shift, step))
                     ticks.emplace_back(tick - shift, tickLabel(tick, step));
@@ -69,7 +69,7 @@ namespace parking
                 return name + (base < 0.0 ? " + " : " - ") + formatNumber(std::abs(base), 0) + " (m)";
             }
 
-            static constexpr std::size_t MOST_CHARACTERS = 6;  ///< of a label; ticks are at least 60 pixels apart
+            static constexpr std::size_t MAX_CHARACTERS = 6;  ///< longest label; ticks are at least 60 pixels apart
 
             double step;
             double base{0.0};
@@ -141,7 +141,7 @@ namespace parking
         for (std::size_t i = 0; i < points.size(); ++i)
         {
             const Eigen::Vector2d at = toPixels(points[i]);
-            // Nobody sees a fifth of a pixel, and finely sampled paths would make large files.
+            // A fifth of a pixel is invisible, and finely sampled paths would result in large files.
             if ((at - last).lpNorm<Eigen::Infinity>() < 0.2 && i + 1 < points.size())
                 continue;
             text += px(at.x()) + ',' + px(at.y()) + ' ';

@@ -15,13 +15,13 @@ namespace parking
         constexpr const char *FAINT = "#64748b";
         constexpr double TEXT = 12.0;
 
-        // Apart for the colour-blind too.
+        // Distinguishable for colour-blind readers too.
         constexpr std::array<const char *, 6> PALETTE = {"#2563eb", "#ea580c", "#059669",
                                                          "#be185d", "#7c3aed", "#854d0e"};
 
         using Range = std::pair<double, double>;
 
-        /** Range of all finite values; [0, 1] without any. */
+        /** Range of all finite values; [0, 1] if there are none. */
         Range rangeOf(const std::vector<SvgSeries> &series, const std::vector<double> SvgSeries::*values,
                       const std::vector<double> &more)
         {
@@ -46,17 +46,17 @@ namespace parking
             return value >= range.first && value <= range.second;
         }
 
-        /** A range that can be divided by, with a share of it added at both ends. */
+        /** A range that is not empty, with a share of it added at both ends. */
         Range padded(Range range, double share)
         {
             const double size = range.second - range.first;
-            const double least = std::max(1e-9, 1e-6 * std::max(std::abs(range.first), std::abs(range.second)));
-            if (size < least)
+            const double minSize = std::max(1e-9, 1e-6 * std::max(std::abs(range.first), std::abs(range.second)));
+            if (size < minSize)
                 return {range.first - 0.5, range.second + 0.5};
             return {range.first - share * size, range.second + share * size};
         }
 
-        /** Where the values of one axis lie in pixels. */
+        /** Maps the values of one axis to pixels. */
         struct Axis
         {
             Range range;
@@ -124,7 +124,7 @@ namespace parking
             return style;
         }
 
-        /** What is drawn and has a label, each label once. */
+        /** Entries for all drawn items with a label, each label once. */
         std::vector<SvgLegendEntry> legendOf(const SvgPlot &plot, const Range &upwards)
         {
             std::vector<SvgLegendEntry> entries;
@@ -175,7 +175,8 @@ namespace parking
         for (const SvgSeries &each : series)
             if (each.x.size() != each.y.size())
                 throw Error("plot '" + title + "', series '" + each.label + "': " + std::to_string(each.x.size()) +
-                            " values of x and " + std::to_string(each.y.size()) + " of y; there must be as many");
+                            " values of x and " + std::to_string(each.y.size()) +
+                            " of y; both must have the same number");
         const Range across = padded(xRange.value_or(rangeOf(series, &SvgSeries::x, {})), 0.0);
         const Range upwards = yRange ? padded(*yRange, 0.0) : padded(rangeOf(series, &SvgSeries::y, limits), 0.06);
         const Axis x{across, LEFT, width - RIGHT}, y{upwards, height - BELOW, ABOVE};
@@ -195,7 +196,7 @@ namespace parking
         text += "<rect x=\"" + px(x.begin) + "\" y=\"" + px(y.end) + "\" width=\"" + px(x.end - x.begin) +
                 "\" height=\"" + px(y.begin - y.end) + "\" fill=\"none\" stroke=\"#cbd5e1\"/>\n";
 
-        // A window of its own cuts off what a given range leaves out.
+        // A nested svg element clips values outside of a given range.
         text += "<svg x=\"0\" y=\"" + px(y.end) + "\" width=\"" + px(width) + "\" height=\"" + px(y.begin - y.end) +
                 "\" viewBox=\"0 " + px(y.end) + ' ' + px(width) + ' ' + px(y.begin - y.end) +
                 "\" overflow=\"hidden\">\n";
@@ -212,7 +213,7 @@ namespace parking
         double at = x.end;
         for (std::size_t i = entries.size(); i-- > 0;)
         {
-            // Widths are estimates: a label begins beside its sample, wherever it ends.
+            // Text widths are estimates, so each label begins beside its sample.
             at -= textWidth(entries[i].label, TEXT);
             text += textElement(at, 18.0, TEXT, INK, "start", entries[i].label);
             at -= 6.0 + SAMPLE_WIDTH;

@@ -50,7 +50,7 @@ namespace parking
         void drawOutside(SvgMap &map, const Scenario &scenario)
         {
             Polygon world = scenario.grid ? scenario.grid->outline() : cornersOf(scenario.bounds);
-            std::reverse(world.begin(), world.end());  // it is the hole in all the rest
+            std::reverse(world.begin(), world.end());  // the world is a hole in the outside
             const SvgStyle style = filled(svg_colour::OUTSIDE);
             if (map.drawOutlines(SvgLayer::Ground, {cornersOf(map.view()), world}, style))
                 map.addLegend({"outside of the map", style});
@@ -115,7 +115,7 @@ namespace parking
             for (const Polygon &polygon : scenario.polygons)
                 seen |= map.drawPolygon(SvgLayer::Obstacles, polygon, style);
             SvgStyle cells = style;
-            cells.strokeWidth = 2.0;  // of which the outer half is seen
+            cells.strokeWidth = 2.0;  // only its outer half is visible
             if (scenario.grid)
                 seen |= map.drawOutlines(SvgLayer::Obstacles, rectanglesOf(*scenario.grid, Cell::Occupied, map.view()),
                                          cells);
@@ -132,7 +132,8 @@ namespace parking
                     {scenario.unknownIsOccupied ? "unknown (not to be entered)" : "unknown (taken as free)", style});
         }
 
-        /** Pieces of one direction, which their last state tells; each begins with the last state of the one before. */
+        /** Parts of a path with one direction, that of their last state. Each begins with the last state of the
+            previous part. */
         std::vector<SampledPath> stretchesOf(const SampledPath &path)
         {
             std::vector<SampledPath> stretches;
@@ -154,7 +155,8 @@ namespace parking
             return style;
         }
 
-        /** The car along one stretch, \e spacing metres apart and at the stretch's end. \return can any be seen? */
+        /** Draws the car along one stretch, \e spacing metres apart and at its end. \return whether any car is
+            visible */
         bool drawSweep(SvgMap &map, const SampledPath &stretch, const Vehicle &vehicle, double spacing)
         {
             const SvgStyle style = sweepStyle(stretch.back().direction);
@@ -165,7 +167,7 @@ namespace parking
                 const bool last = &state == &stretch.back();
                 if (state.arcLength < next && !last)
                     continue;
-                // Not two cars within half a spacing: they would look like one with a fat line.
+                // Two cars within half a spacing would look like one with a thick outline.
                 if (!last && stretch.back().arcLength - state.arcLength < 0.5 * spacing)
                     continue;
                 seen |= map.drawPolygon(SvgLayer::Sweep, bodyOf(vehicle, state.pose), style);
@@ -197,19 +199,19 @@ namespace parking
         if (scenario.slot)
             for (const Eigen::Vector2d &corner : scenario.slot->outline())
                 view.include(corner);
-        const Eigen::Vector2d room(margin, margin);
-        return {view.min - room, view.max + room};
+        const Eigen::Vector2d border(margin, margin);
+        return {view.min - border, view.max + border};
     }
 
     void drawScenario(SvgMap &map, const Scenario &scenario)
     {
         map.setWorldOffset(scenario.worldOffset);
         drawOutside(map, scenario);
-        drawUnknown(map, scenario);  // before the slot, which may lie on it
+        drawUnknown(map, scenario);  // before the slot, which may cover unknown cells
         bool seen = drawCar(map, scenario.start, scenario.vehicle, svg_colour::START, "start");
         for (std::size_t i = 0; i < scenario.goals.size(); ++i)
         {
-            // Other goals are the same place the other way round: a second car on top would make both illegible.
+            // Other goals are the same place with the opposite heading, and overlapping cars would be illegible.
             const SvgStyle other = filled("#ffffff", svg_colour::GOAL);
             if (i == 0)
                 seen |= drawCar(map, scenario.goals[i], scenario.vehicle, svg_colour::GOAL, "goal");
@@ -267,7 +269,7 @@ namespace parking
         const SvgLayer layer = SvgLayer::Cars;
         const bool seen = map.drawPolygon(layer, bodyOf(vehicle, pose), body);
 
-        // Wheels and windows: they tell front from rear at a glance.
+        // Wheels and windows distinguish front and rear.
         const double half = 0.5 * vehicle.width, rear = -vehicle.rearOverhang;
         const double length = vehicle.length();
         const SvgStyle dark = filled(colour);
@@ -328,13 +330,13 @@ namespace parking
         {
             if (stretch.back().direction < 0)
                 plot.bands.push_back({stretch.front().arcLength, stretch.back().arcLength, svg_colour::REVERSE, {}});
-            // A curve for each stretch: the steering may jump where the car stands.
+            // One curve per stretch, because the steering may jump where the car stands.
             SvgSeries series;
             series.label = stretch.back().direction < 0 ? "reverse" : "forward";
             series.colour = colourOf(stretch.back().direction);
             for (std::size_t i = 1; i < stretch.size(); ++i)
             {
-                // Constant from state to state, which is what the path says.
+                // The curvature is constant between states, as in the path.
                 series.x.insert(series.x.end(), {stretch[i - 1].arcLength, stretch[i].arcLength});
                 series.y.insert(series.y.end(), {stretch[i].curvature, stretch[i].curvature});
             }

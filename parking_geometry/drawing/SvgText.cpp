@@ -9,7 +9,7 @@ namespace parking
 {
     namespace
     {
-        /** Bytes of the UTF-8 character at the beginning of \e text, 0 when there is no valid one. */
+        /** Number of bytes of the UTF-8 character at the beginning of \e text; 0 if it is invalid. */
         std::size_t characterLength(std::string_view text)
         {
             const auto lead = static_cast<unsigned char>(text[0]);
@@ -29,7 +29,7 @@ namespace parking
 
     std::string px(double value)
     {
-        // Figures are far smaller.
+        // Coordinates of figures are far smaller.
         std::string text = formatNumber(std::isfinite(value) ? std::clamp(value, -1e30, 1e30) : 0.0, 2);
         text.erase(text.find_last_not_of('0') + 1);
         if (text.back() == '.')
@@ -128,9 +128,9 @@ namespace parking
     std::vector<double> roundTicks(double begin, double end, double step)
     {
         std::vector<double> ticks;
-        const double first = std::ceil(begin / step - 1e-9), most = (end - begin) / step + 1.0;
-        // Counted instead of added up, so that zero is zero, and never on and on where numbers are too large to count.
-        for (double k = 0.0; k <= most && (first + k) * step <= end + 1e-9 * (end - begin); k += 1.0)
+        const double first = std::ceil(begin / step - 1e-9), maxCount = (end - begin) / step + 1.0;
+        // Multiples instead of sums, so that zero is exact, and a limit for numbers too large for steps to change them.
+        for (double k = 0.0; k <= maxCount && (first + k) * step <= end + 1e-9 * (end - begin); k += 1.0)
             ticks.push_back((first + k) * step);
         return ticks;
     }

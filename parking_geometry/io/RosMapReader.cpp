@@ -78,7 +78,7 @@ namespace parking
     {
         const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
         if (width == 0 || height == 0)
-            throw Error(file + ": an image of " + size + " is no map; both sides must be at least 1");
+            throw Error(file + ": an image of " + size + " is not a map; both sides must be at least 1");
         if (width > (std::size_t(1) << 31) / height)
             throw Error(file + ": an image of " + size + " is too large; at most 2^31 pixels are read");
     }

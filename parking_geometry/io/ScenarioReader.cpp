@@ -12,18 +12,18 @@ namespace parking
 {
     namespace
     {
-        /** \e text without the mark that some Windows programs put in front of UTF-8. */
+        /** \e text without the byte order mark that some Windows programs write. */
         std::string withoutMark(const std::string &file, std::string text)
         {
             if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
                 text.erase(0, 3);
             if (trimmed(text).empty())
-                throw Error(file + ": holds nothing but blanks");
+                throw Error(file + ": contains only blanks");
             return text;
         }
 
-        /** A case begins with a number and a comma; YAML cannot, for its top is a mapping. A file that begins with
-            neither and has no "key:" at all is a damaged case when it is called one. */
+        /** A case begins with a number and a comma. A YAML mapping cannot. A file without such a beginning and without
+            any "key:" is a damaged case if its name suggests a case. */
         bool looksLikeTpcap(const std::string &file, const std::string &text)
         {
             double ignored = 0.0;
@@ -33,7 +33,7 @@ namespace parking
             return text.find(':') == std::string::npos && std::filesystem::path(file).extension() == ".csv";
         }
 
-        /** Throws for what is a scenario to other programs; no YAML begins like these. */
+        /** Throws for scenario formats of other programs, whose beginnings are not valid YAML. */
         void refuseFormatsOfOthers(const std::string &file, const std::string &text)
         {
             const bool isMatlab = text.compare(0, 7, "MATLAB ") == 0;
@@ -45,7 +45,7 @@ namespace parking
                         (isMatlab ? "" : " --start X,Y,YAW --goal X,Y,YAW"));
         }
 
-        /** The scenario with the start and the goal that the caller wants. */
+        /** The scenario with the start and the goal of \e options. */
         Scenario withPoses(Scenario scenario, const std::string &file, const ReaderOptions &options)
         {
             const auto local = [&scenario](const Pose &pose) -> Pose

@@ -20,8 +20,8 @@ namespace parking
         constexpr double CELL = 0.5;
         constexpr double CORNER = -50.0;
 
-        /** Voxels whose centre is at most 2.2 m above the ground are in the way of a car; what is higher it passes
-            under. */
+        /** Number of layers above the ground that obstruct a car: voxels with a centre up to 2.2 m. The car passes
+            under higher ones. */
         constexpr int CAR_LAYERS = 4;
 
         /** nuScenes: the rear axle is this far behind the lidar, and the car heads along +y of the lidar's frame. */
@@ -52,7 +52,7 @@ namespace parking
         {
             const std::size_t at = header.find("'" + key + "':");
             if (at == std::string_view::npos)
-                throw Error(file + ": not a valid .npy file: its header names no " + key);
+                throw Error(file + ": not a valid .npy file: its header has no " + key);
             std::string_view rest = trimmed(header.substr(at + key.size() + 3));
             const std::size_t end = !rest.empty() && rest[0] == '(' ? rest.find(')') : rest.find_first_of(",}");
             if (end == std::string_view::npos)
@@ -126,7 +126,7 @@ namespace parking
                 std::array<std::int64_t, 4> values;
                 for (std::size_t i = 0; i < 4; ++i)
                 {
-                    std::uint64_t bits = 0;  // put together by hand: right on machines of either byte order
+                    std::uint64_t bits = 0;  // assembled byte by byte, independent of the machine's byte order
                     for (std::size_t k = 8; k-- > 0;)
                         bits = bits << 8 | byte(data + row * 32 + i * 8 + k);
                     values[i] = static_cast<std::int64_t>(bits);
@@ -136,7 +136,7 @@ namespace parking
             return voxels;
         }
 
-        /** Lowest layer of ground in every column, -1 where none was seen. */
+        /** Lowest layer of ground in every column; -1 if there is none. */
         using GroundMap = std::vector<int>;
 
         std::size_t cellIndex(int x, int y)
@@ -156,8 +156,8 @@ namespace parking
             return ground;
         }
 
-        /** Ground at a column, or that of the nearest column where it is known (the first one, row by row, of equally
-            near ones); layer 0 when there is none anywhere. */
+        /** Ground layer at a column or, if unknown, that of the nearest column with known ground; 0 if there is none.
+            Ties select the first column, row by row. */
         int groundAt(const GroundMap &ground, int x, int y)
         {
             int best = 0, bestDistance = 2 * SIDE * SIDE, bestRow = 0, bestColumn = 0;
@@ -216,8 +216,8 @@ namespace parking
             return count;
         }
 
-        /** The rings of a lidar leave gaps on the road: unknown cells that are mostly surrounded by free ones are
-            taken to be free. */
+        /** Sets unknown cells that are mostly surrounded by free ones to free, because the rings of a lidar leave gaps
+            on the road. */
         void closeGaps(OccupancyGrid &grid)
         {
             const OccupancyGrid before = grid;
@@ -227,7 +227,7 @@ namespace parking
                         grid.set(x, y, Cell::Free);
         }
 
-        /** The lidar does not see the ground under its own car, which stands there and so has room. */
+        /** Sets the cells under the car to free, which its lidar cannot observe. */
         void clearOwnCar(OccupancyGrid &grid)
         {
             const Vehicle car;

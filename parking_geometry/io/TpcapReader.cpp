@@ -13,7 +13,7 @@ namespace parking
         public:
             Numbers(const std::string &file, std::string_view text) : file_(file)
             {
-                // One line by definition; cases that were wrapped by an editor are read all the same.
+                // A case is one line by definition, but line breaks are accepted too.
                 std::size_t begin = 0;
                 while (begin <= text.size())
                 {
@@ -46,11 +46,11 @@ namespace parking
             std::size_t takeCount(const std::string &what)
             {
                 const double value = take(what);
-                // The bound keeps the conversion defined; a file that large was refused before.
-                constexpr double MOST = 1e9;
-                if (value < 0.0 || value > MOST || value != std::floor(value))
+                // The bound keeps the conversion defined. The limit on the file's size excludes larger counts.
+                constexpr double MAX_COUNT = 1e9;
+                if (value < 0.0 || value > MAX_COUNT || value != std::floor(value))
                     throw Error(file_ + ": number " + std::to_string(next_) + " is " + formatNumber(value) + "; " +
-                                what + " must be a whole number from 0 to " + formatNumber(MOST));
+                                what + " must be a whole number from 0 to " + formatNumber(MAX_COUNT));
                 return static_cast<std::size_t>(value);
             }
 
@@ -98,7 +98,7 @@ namespace parking
             }
             if (numbers.left() != 2 * vertices)
                 throw Error(file + ": too " + (numbers.left() < 2 * vertices ? "few" : "many") +
-                            " numbers: the vertex counts ask for " + std::to_string(2 * vertices) +
+                            " numbers: the vertex counts require " + std::to_string(2 * vertices) +
                             " coordinates and the file holds " + std::to_string(numbers.left()));
             return counts;
         }
@@ -115,7 +115,7 @@ namespace parking
         const Pose start = takePose(numbers, "the start's");
         const Pose goal = takePose(numbers, "the goal's");
 
-        // Everything becomes relative to the start before any arithmetic: some cases sit at 4e9 m.
+        // Coordinates become relative to the start before any arithmetic, because some cases lie at 4e9 m.
         scenario.worldOffset = {start.x, start.y};
         scenario.start = {0.0, 0.0, start.yaw};
         scenario.goals = {{goal.x - start.x, goal.y - start.y, goal.yaw}};

@@ -15,7 +15,7 @@ namespace parking
 {
     namespace
     {
-        /** Where a document begins, and whether there is anything in it. */
+        /** The beginning of a document and whether it is empty. */
         class DocumentBegin : public YAML::EventHandler
         {
         public:
@@ -67,8 +67,8 @@ namespace parking
             }
         };
 
-        /** Throws where a second document begins, which YAML::Load() does not look at: what stands there would be
-            missing without a word. Not for the mark of an end with nothing behind it. */
+        /** Throws at the beginning of a second document, which YAML::Load() would ignore silently. An end mark with
+            nothing behind it is accepted. */
         void refuseSecondDocument(const std::string &file, const std::string &text)
         {
             std::istringstream stream(text);
@@ -79,7 +79,7 @@ namespace parking
                 DocumentBegin document;
                 if (!parser.HandleNextDocument(document) || !document.mark)
                     return;
-                // yaml-cpp finds one empty document after another, for ever, where a comma stands behind the end.
+                // After a comma behind the end, yaml-cpp finds an endless series of empty documents.
                 const bool isStuck = document.isEmpty && document.mark->pos == before;
                 if (!isFirst && (!document.isEmpty || isStuck))
                     throw Error(file + ':' + std::to_string(document.mark->line + 1) +
@@ -290,7 +290,7 @@ namespace parking
         if (!at.IsDefined())
             return file_;
         YAML::Mark mark = at.Mark();
-        // yaml-cpp takes a blank value to be where the next thing stands.
+        // yaml-cpp reports the position of the next node for a blank value.
         if (at.IsNull() && node_.IsMap())
             for (const auto &entry : node_)
                 if (entry.second.is(at))

@@ -12,8 +12,8 @@ namespace parking
 {
     namespace
     {
-        /** Of all polygons of a world together. */
-        constexpr std::size_t MOST_CORNERS = 1000000;
+        /** Largest number of corners of all polygons of a world. */
+        constexpr std::size_t MAX_CORNERS = 1000000;
         const char *const POLYGONS = "a list of polygons, each a list of [x, y], or [] for none";
 
         std::string besides(const std::string &file, const std::string &other)
@@ -33,10 +33,10 @@ namespace parking
                 if (outline.size() < 3)
                     map.fail(outline,
                              which + " has " + std::to_string(outline.size()) + " corners; a polygon needs at least 3");
-                // A file of a few lines names one polygon a million times, by aliases.
+                // By aliases, a file of a few lines can contain one polygon a million times.
                 corners += outline.size();
-                if (corners > MOST_CORNERS)
-                    map.fail(outline, "the polygons have more than " + std::to_string(MOST_CORNERS) +
+                if (corners > MAX_CORNERS)
+                    map.fail(outline, "the polygons have more than " + std::to_string(MAX_CORNERS) +
                                           " corners; draw such a world as a map");
                 Polygon polygon;
                 polygon.reserve(outline.size());
@@ -50,7 +50,8 @@ namespace parking
             return polygons;
         }
 
-        /** A map_server map or a SurroundOcc file: told apart by their first bytes, as extensions are free. */
+        /** Reads a map_server map or a SurroundOcc file. The first bytes determine the format, because extensions are
+            arbitrary. */
         OccupancyGrid readGrid(const YamlMap &map, std::vector<std::string> &files)
         {
             const std::string name = map.textOr("map", "the path of a map, or a mapping with the key polygons");
@@ -65,7 +66,7 @@ namespace parking
             return readSurroundOcc(file);
         }
 
-        /** The mapping that holds the polygons: the scenario, or what stands under its key map; none with a grid. */
+        /** The mapping with the polygons: the scenario or the value of its key map; none for a grid. */
         std::optional<YamlMap> polygonsOf(const YamlMap &map)
         {
             if (map.has("polygons"))
@@ -77,7 +78,7 @@ namespace parking
             return inner;
         }
 
-        /** Where a part of the scenario stands, for what is found out once all is read (see completeScenario()). */
+        /** The place of a part of the scenario, for errors that completeScenario() finds. */
         std::string placeOf(const YamlMap &map, ScenarioPart part, std::size_t index)
         {
             switch (part)

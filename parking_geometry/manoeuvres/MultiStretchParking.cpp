@@ -9,13 +9,13 @@ namespace parking
 {
     namespace
     {
-        /** Where a planner's path must begin and end, metres and radians. */
+        /** Tolerance of the ends of a planner's path, metres and radians. */
         constexpr double SAME_POSE = 1e-6;
 
         /** Exits beyond the slot's mouth, metres along the aisle. */
         constexpr double ALONG_AISLE[] = {0.0, 1.0, 2.0, 4.0, -1.0, -2.0};
 
-        /** Between the body and the slots' mouths on the way along an aisle of unknown width, metres. */
+        /** Gap in metres between the body and the slots' mouths at an exit into an aisle of unknown width. */
         constexpr double BESIDE_SLOTS = 0.5;
     }  // namespace
 
@@ -30,7 +30,7 @@ namespace parking
         entered.entry = entry;
         task.parked = entered.goals(vehicle).front();
 
-        // Everything in the frame of a slot on the right, then mirrored.
+        // Computed in the frame of a slot on the right, then mirrored.
         const double mirror = side == SlotSide::Left ? -1.0 : 1.0;
         const bool parallel = slot.kind == SlotKind::Parallel;
         const double angle = slot.aisleAngle();
@@ -39,8 +39,8 @@ namespace parking
         const Pose mouth = parallel ? Pose{(backwards ? -0.5 : 0.5) * slot.length, 0.5 * slot.width, 0.0}
                                     : Pose{0.5 * slot.length + slot.width * std::cos(angle) / std::sin(angle),
                                            -0.5 * slot.width, -angle};
-        // A car that leaves in reverse drives along the aisle tail first: a bay's neighbour to the lane's direction, a
-        // parallel slot towards its rear.
+        // A car that leaves in reverse then drives along the aisle in reverse. It leaves a parallel slot towards its
+        // rear.
         const double yaw = backwards && !parallel ? PI : 0.0, along = backwards && parallel ? -1.0 : 1.0;
         const Eigen::Vector2d parked(task.parked.x, task.parked.y);
         task.bounds = {parked, parked};
@@ -58,7 +58,7 @@ namespace parking
             task.exits.push_back(compose(slot.pose, local));
             include(task.exits.back());
         }
-        // Room to swing and to shunt, as long as the car, on every side.
+        // A margin of the car's length on every side for swings and changes of direction.
         task.bounds.min.array() -= vehicle.length();
         task.bounds.max.array() += vehicle.length();
         return task;

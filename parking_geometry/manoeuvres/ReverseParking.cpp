@@ -14,16 +14,16 @@ namespace parking
 {
     namespace
     {
-        /** Steering reserve of the preferred radius. */
+        /** Default preferred radius as a multiple of the minimum turning radius, a steering reserve. */
         constexpr double PREFERRED_RADIUS_FACTOR = 1.15;
 
-        /** Room that the aisle leaves is used to stay away from the neighbours, by up to this many metres. */
-        constexpr double EXTRA_ROOM = 0.25;
+        /** Largest additional clearance from the neighbours, in metres, if the aisle is wide enough. */
+        constexpr double EXTRA_CLEARANCE = 0.25;
 
-        /** Verdicts do not hang on the last bit. */
+        /** Tolerance in metres, so that results do not depend on rounding. */
         constexpr double TOLERANCE = 1e-9;
 
-        /** Further pieces of straight line to try where the world refuses the shortest, metres. */
+        /** Additional straight lengths in metres to attempt if the world rejects the shortest one. */
         constexpr double LATER_TURNS[] = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0};
 
         std::string inMetres(double metres)
@@ -36,7 +36,7 @@ namespace parking
             return formatNumber(std::ceil(metres * 1000.0 - 1e-6) / 10.0) + " cm";
         }
 
-        /** One slot as one car leaves it: the leaving body, how it is oriented, and the verdict being filled in. */
+        /** One car that leaves one slot: the leaving body, its orientation and the result. */
         struct Exit
         {
             const Vehicle &vehicle;
@@ -51,14 +51,15 @@ namespace parking
             double preferredRadius;
             ReverseParkingResult result;
 
-            /** A piece as it is in the frame of the leaving body of a slot on the right. */
+            /** Converts a piece from the frame of the leaving body of a slot on the right. */
             Arc piece(double curvature, double length) const
             {
                 return {turn * curvature, direction * length};
             }
 
-            /** The way in: \e out, the way out without its guard line, driven backwards from the guard line's start. */
-            Path wayIn(const std::vector<Arc> &out, double guard) const
+            /** The entry path: \e out, the exit path without its guard line, driven backwards from the start of the
+                guard line. */
+            Path entryPath(const std::vector<Arc> &out, double guard) const
             {
                 Path path{result.goal, {}};
                 for (const Arc &arc : out)
@@ -111,29 +112,29 @@ namespace parking
             result.neededSlotLength = exit.vehicle.length() + 2.0 * exit.options.clearance;
             const double tight = narrowestAisleRadius(bay, body, exit.minRadius);
             result.neededAisleWidth = aisleNeeded(bay, body, tight, straightBeforeTurn(bay, body, tight));
-            // The closed end has no part in the way out: the car only moves away from it.
+            // The closed end does not limit the exit, because the car moves away from it.
             if (const double outside = body.trail - 0.5 * slot.length - exit.local.x; outside > TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooShort, outside,
-                            "the car, with " + inCentimetres(exit.options.clearance) + " at the closed end, sticks " +
-                                inCentimetres(outside) + " out of the slot there");
+                            "the car, with " + inCentimetres(exit.options.clearance) +
+                                " at the closed end, protrudes " + inCentimetres(outside) + " from the slot there");
             else if (const double side = std::min(bay.nearGap, bay.farGap); body.halfWidth > side + TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooNarrow, body.halfWidth - side,
-                            "the car, with " + inCentimetres(exit.options.clearance) + " on each side, sticks " +
-                                inCentimetres(body.halfWidth - side) + " out of the slot's side");
+                            "the car, with " + inCentimetres(exit.options.clearance) + " on each side, protrudes " +
+                                inCentimetres(body.halfWidth - side) + " from the slot's side");
             else if (const double missing = result.neededAisleWidth - exit.options.aisleWidth; missing > TOLERANCE)
                 exit.refuse(ReverseParkingStatus::AisleTooNarrow, missing,
                             "the aisle, " + inMetres(exit.options.aisleWidth) + ", is " + inCentimetres(missing) +
-                                " too narrow to enter the slot in one sweep: " + inMetres(result.neededAisleWidth) +
-                                " would do");
+                                " too narrow to enter the slot in one sweep; it must be at least " +
+                                inMetres(result.neededAisleWidth));
 
             std::vector<Variant> variants;
             const auto add = [&](double radius, double later)
             {
                 const double straight = straightBeforeTurn(bay, body, radius);
                 const double spare = exit.options.aisleWidth - aisleNeeded(bay, body, radius, straight);
-                const double room = std::min(EXTRA_ROOM, 0.5 * std::max(0.0, spare)) / std::sin(bay.angle);
+                const double extra = std::min(EXTRA_CLEARANCE, 0.5 * std::max(0.0, spare)) / std::sin(bay.angle);
                 if (later == 0.0 || later * std::sin(bay.angle) < spare)
-                    variants.push_back(bayVariant(exit, bay, radius, straight + std::max(room, later)));
+                    variants.push_back(bayVariant(exit, bay, radius, straight + std::max(extra, later)));
             };
             const double wanted = exit.preferredRadius;
             const bool wantedFits =
@@ -164,7 +165,7 @@ namespace parking
             const double swing = kerbRadius(kerb, body);
             result.minRadius = std::max(exit.minRadius, swing);
             result.maxRadius = cornerRadius(kerb, body);
-            // A centred car gets half of what a longer slot offers, at either end.
+            // A centred car gains half of any additional length at each end.
             const double front = std::isfinite(swing) ? frontNeeded(kerb, body, result.minRadius)
                                                       : std::numeric_limits<double>::infinity();
             const double share = slot.depth ? 1.0 : 2.0;
@@ -177,12 +178,12 @@ namespace parking
             const double tooNear = std::hypot(outer, body.trail) - outer - kerb.kerbGap;
             if (outside > TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooShort, outside,
-                            "the car, with " + inCentimetres(exit.options.clearance) + " at each end, sticks " +
-                                inCentimetres(outside) + " out of the slot's end");
+                            "the car, with " + inCentimetres(exit.options.clearance) + " at each end, protrudes " +
+                                inCentimetres(outside) + " from the slot's end");
             else if (kerb.kerbGap < -TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooNarrow, -kerb.kerbGap,
-                            "the car, with " + inCentimetres(exit.options.clearance) + " at its side, stands " +
-                                inCentimetres(-kerb.kerbGap) + " over the kerb");
+                            "the car, with " + inCentimetres(exit.options.clearance) +
+                                " at its side, overlaps the kerb by " + inCentimetres(-kerb.kerbGap));
             else if (result.maxRadius < exit.minRadius - TOLERANCE)
                 exit.refuse(ReverseParkingStatus::SlotTooShort, tooShort,
                             "the slot, " + inMetres(slot.length) + " long, is " + inCentimetres(tooShort) +
@@ -211,7 +212,7 @@ namespace parking
             const double aisle = exit.options.aisleWidth;
             if (result.status == ReverseParkingStatus::Fits && !passes(kerb, body, tight))
             {
-                // At a right angle it passes a neighbour that far away.
+                // With turns of a right angle it passes a neighbour at this distance.
                 const double far = std::max(kerb.aisleSide + body.halfWidth, smallest + exit.minRadius);
                 const double missing = (slot.depth ? 1.0 : 2.0) * std::max(1e-3, far - kerb.front);
                 result.neededSlotLength = std::max(result.neededSlotLength, slot.length + missing);
@@ -223,14 +224,14 @@ namespace parking
                 if (const double missing = result.neededAisleWidth - aisle; missing > TOLERANCE)
                     exit.refuse(ReverseParkingStatus::AisleTooNarrow, missing,
                                 "the lane, " + inMetres(aisle) + ", is " + inCentimetres(missing) +
-                                    " too narrow to leave the slot in one sweep: " + inMetres(result.neededAisleWidth) +
-                                    " would do");
+                                    " too narrow to leave the slot in one sweep; it must be at least " +
+                                    inMetres(result.neededAisleWidth));
 
             std::vector<Variant> variants;
             const auto add = [&](const LaneExit &lane)
             {
                 const double spare = aisle - laneNeeded(kerb, body, lane);
-                const LaneExit wider = widened(lane, std::min(EXTRA_ROOM, 0.5 * std::max(0.0, spare)));
+                const LaneExit wider = widened(lane, std::min(EXTRA_CLEARANCE, 0.5 * std::max(0.0, spare)));
                 const bool isBetter = laneNeeded(kerb, body, wider) <= aisle && passes(kerb, body, wider);
                 variants.push_back(laneVariant(exit, isBetter ? wider : lane));
             };
@@ -250,7 +251,7 @@ namespace parking
         }
 
         /** The allowed entries and sides, in their order. */
-        std::vector<std::pair<SlotEntry, SlotSide>> waysInto(const ParkingSlot &slot)
+        std::vector<std::pair<SlotEntry, SlotSide>> entriesAndSides(const ParkingSlot &slot)
         {
             std::vector<std::pair<SlotEntry, SlotSide>> ways;
             for (const SlotEntry entry : {SlotEntry::Reverse, SlotEntry::Forward})
@@ -284,14 +285,14 @@ namespace parking
     {
         const bool tailLeads = entry == SlotEntry::Forward;
         const double direction = tailLeads ? -1.0 : 1.0, mirror = side == SlotSide::Left ? -1.0 : 1.0;
-        // A car that leaves in reverse is turned round in that frame, where left stays left and driving backwards swaps
-        // the sign of a turn. Parallel slots are left backwards towards their rear, which mirrors the frame once more.
+        // A car that leaves in reverse is turned round in that frame. Left stays left, and driving backwards changes
+        // the sign of a turn. A car leaves a parallel slot backwards towards its rear, which mirrors the frame again.
         const double turn = slot.kind == SlotKind::Parallel ? mirror : mirror * direction;
         Exit exit{vehicle_, options_, slot, {}, direction, mirror, turn, {}, 0.0, 0.0, {}};
         const double front = vehicle_.wheelbase + vehicle_.frontOverhang + options_.clearance;
         const double rear = vehicle_.rearOverhang + options_.clearance;
         exit.body = {tailLeads ? rear : front, tailLeads ? front : rear, 0.5 * vehicle_.width + options_.clearance};
-        // A turning centre within the body has no inner side; no car steers that far.
+        // The formulas require a turning centre outside of the body, which holds for every real car.
         exit.minRadius = std::max(vehicle_.minTurningRadius(), 1.01 * exit.body.halfWidth);
         exit.preferredRadius =
             std::max(exit.minRadius, options_.preferredRadius > 0.0 ? options_.preferredRadius
@@ -312,12 +313,12 @@ namespace parking
             return result;
         for (const Variant &variant : variants)
         {
-            if (!isPathFree(world, vehicle_, exit.wayIn(variant.out, 0.0)))
+            if (!isPathFree(world, vehicle_, exit.entryPath(variant.out, 0.0)))
                 continue;
             double guard = options_.guardLength;
-            result.path = exit.wayIn(variant.out, guard);
+            result.path = exit.entryPath(variant.out, guard);
             for (; guard > 0.0 && !isPathFree(world, vehicle_, result.path);
-                 result.path = exit.wayIn(variant.out, guard))
+                 result.path = exit.entryPath(variant.out, guard))
                 guard = guard > 0.25 ? 0.5 * guard : 0.0;
             result.status = ReverseParkingStatus::Fits;
             result.message.clear();
@@ -327,8 +328,8 @@ namespace parking
         }
         if (result.fits())
             exit.refuse(ReverseParkingStatus::Blocked, 0.0,
-                        "obstacles block each of the " + std::to_string(variants.size()) +
-                            " ways tried to enter the slot in one sweep");
+                        "obstacles block all " + std::to_string(variants.size()) +
+                            " variants of entering the slot in one sweep");
         return result;
     }
 
@@ -337,7 +338,7 @@ namespace parking
     {
         slot.validate();
         std::vector<ReverseParkingResult> results;
-        for (const auto &[entry, side] : waysInto(slot))
+        for (const auto &[entry, side] : entriesAndSides(slot))
             results.push_back(planOne(slot, entry, side, world));
         return results;
     }
@@ -346,7 +347,7 @@ namespace parking
     {
         slot.validate();
         std::optional<ReverseParkingResult> best;
-        for (const auto &[entry, side] : waysInto(slot))
+        for (const auto &[entry, side] : entriesAndSides(slot))
         {
             ReverseParkingResult result = planOne(slot, entry, side, world);
             if (result.fits())

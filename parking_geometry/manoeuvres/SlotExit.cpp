@@ -9,20 +9,20 @@ namespace parking
 {
     namespace
     {
-        /** Of both arcs out of a parallel slot: a right angle, but for rounding. */
-        constexpr double LARGEST_TURN = 0.5 * PI + 1e-9;
+        /** Largest angle of the arcs out of a parallel slot: a right angle, with a margin for rounding. */
+        constexpr double MAX_TURN = 0.5 * PI + 1e-9;
 
-        /** Second radii that are tried where the one that is wanted needs more of a turn, and by how much each is
-            larger than the one before. */
-        constexpr int MOST_RADII = 64;
+        /** Number of second radii to attempt if the required one exceeds the largest turn, and the ratio of successive
+            radii. */
+        constexpr int MAX_RADII = 64;
         constexpr double LARGER = 1.06;
 
-        /** Radii beyond this many times the smallest one are as good as a straight line for a car park. */
-        constexpr double LARGEST_RADIUS_FACTOR = 40.0;
+        /** Largest radius as a multiple of the smallest one; larger arcs are nearly straight within a car park. */
+        constexpr double MAX_RADIUS_FACTOR = 40.0;
 
-        /** The argument in [low, high] with the least value: samples in geometric progression, then a golden section
-            between the neighbours of the best, which copes with the kinks where one constraint takes over from
-            another. */
+        /** The argument in [low, high] with the smallest value. Samples in geometric progression are followed by a
+            golden section search between the neighbours of the best. This tolerates kinks at a change of the active
+            constraint. */
         template <class Function>
         double argMin(const Function &value, double low, double high)
         {
@@ -66,8 +66,8 @@ namespace parking
             return std::clamp(value, -1.0, 1.0);
         }
 
-        /** Angles of the first arc between which the second one, tangent to it, keeps P within its inner circle: P is
-            as far as `distance` from the first centre, in the direction `bearing` from straight down. */
+        /** Range of angles of the first arc for which the tangent second arc keeps P within its inner circle. P lies at
+            `distance` from the first centre, in the direction `bearing` from straight down. */
         struct PassingTurns
         {
             double smallest, largest;
@@ -109,7 +109,7 @@ namespace parking
     double aisleNeeded(const Bay &bay, const ExitBody &body, double radius, double straight)
     {
         const double outer = radius + body.halfWidth;
-        // The leading outer corner is highest when it is abeam of O across the aisle, or where the turn begins.
+        // The leading outer corner is highest when it is abeam of O across the aisle or at the beginning of the turn.
         const double highest = bay.angle >= std::atan2(body.lead, outer)
                                    ? std::hypot(outer, body.lead)
                                    : body.lead * std::sin(bay.angle) + outer * std::cos(bay.angle);
@@ -120,7 +120,7 @@ namespace parking
     {
         return argMin([&](double radius)
                       { return aisleNeeded(bay, body, radius, straightBeforeTurn(bay, body, radius)); },
-                      minRadius, LARGEST_RADIUS_FACTOR * minRadius);
+                      minRadius, MAX_RADIUS_FACTOR * minRadius);
     }
 
     double kerbRadius(const KerbSlot &slot, const ExitBody &body)
@@ -141,7 +141,7 @@ namespace parking
         const double radius = squares / (2.0 * (body.halfWidth + slot.aisleSide));
         if (radius >= slot.aisleSide)
             return radius;
-        // A slot so deep that A passes the neighbour's face before it is as high as P: its circle must not reach it.
+        // In a deep slot A passes the neighbour's face before it is as high as P. Its circle must not reach the face.
         const double reach = slot.front * slot.front - body.lead * body.lead;
         return reach > 0.0 ? std::min(std::sqrt(reach) - body.halfWidth, slot.aisleSide) : 0.0;
     }
@@ -160,8 +160,8 @@ namespace parking
 
     bool passes(const KerbSlot &slot, const ExitBody &body, const LaneExit &exit)
     {
-        // Farther round the car drives back into the neighbour.
-        if (exit.turn > LARGEST_TURN)
+        // Beyond this angle the car drives back into the neighbour.
+        if (exit.turn > MAX_TURN)
             return false;
         if ((exit.first + exit.second) * std::sin(exit.turn) <= slot.front)
             return true;
@@ -178,7 +178,7 @@ namespace parking
             exit.turn = turnForOffset(offset, first + exit.second);
             if (!passes(slot, body, exit))
                 exit.turn = std::max(exit.turn, passingTurns(slot, body, first, exit.second).smallest);
-            if (exit.turn <= LARGEST_TURN || tried == MOST_RADII)
+            if (exit.turn <= MAX_TURN || tried == MAX_RADII)
                 return exit;
         }
     }
@@ -205,7 +205,7 @@ namespace parking
     {
         const double second =
             argMin([&](double radius) { return laneNeeded(slot, body, shallowestExit(slot, body, first, radius)); },
-                   minRadius, LARGEST_RADIUS_FACTOR * minRadius);
+                   minRadius, MAX_RADIUS_FACTOR * minRadius);
         return shallowestExit(slot, body, first, second);
     }
 }  // namespace parking

@@ -56,7 +56,7 @@ namespace parking
         else
         {
             obstacles.push_back(parallelogram({-x, -y}, reach * mouth.direction, {mouth.corner.x() + x, 0.0}));
-            // On the outer side each neighbour lies back from the one before it.
+            // On the outer side each neighbour is set back from the previous one.
             const double lean = slot.width * mouth.direction.x() / -mouth.direction.y();
             const int neighbours = std::abs(lean) < 1e-9 ? 1 : static_cast<int>(std::ceil(reach / slot.width));
             const double width = neighbours == 1 ? reach : slot.width;

@@ -47,8 +47,8 @@ namespace parking
         return cell == Cell::Occupied || (cell == Cell::Unknown && unknownIsOccupied_);
     }
 
-    /** Between free cells and others, from corner to corner. The end of the world is no outline: distance() knows it.
-     */
+    /** Adds the outlines between free and occupied cells, from corner to corner. distance() handles the end of the
+        world. */
     void FreeSpace::addOutlinesOfCells()
     {
         const std::size_t columns = grid_->width(), rows = grid_->height();
@@ -56,8 +56,7 @@ namespace parking
         {
             return Eigen::Vector2d(static_cast<double>(column) * size, static_cast<double>(row) * size);
         };
-        // Runs of cells that differ from their neighbours below, and from those to the left; all in the order of
-        // memory.
+        // Runs of cells that differ from their neighbours below or to the left, in memory order.
         std::vector<std::size_t> begins(columns, 0);
         for (std::size_t row = 0; row <= rows; ++row)
         {
@@ -90,7 +89,7 @@ namespace parking
 
     double FreeSpace::distance(const OrientedBox &shape, double enough) const
     {
-        // A disc is its middle, which has to be farther away.
+        // A disc is its centre with a distance reduced by the radius.
         const Box box = shape.bounds();
         const double toEnd = std::min((box.min - bounds_.min).minCoeff(), (bounds_.max - box.max).minCoeff());
         return std::max(0.0, outlines_.distance(shape, std::min(toEnd, enough + radius_)) - radius_);
@@ -100,10 +99,10 @@ namespace parking
     {
         if (!isFinite(pose))
             return 0.0;
-        // With room round it no outline crosses the shape.
+        // At a positive distance no outline crosses the shape.
         const OrientedBox shape = shapeAt(toLocal(pose));
-        const double room = distance(shape, enough);
-        return room > 0.0 && !isInside({shape.x, shape.y}) ? room : 0.0;
+        const double free = distance(shape, enough);
+        return free > 0.0 && !isInside({shape.x, shape.y}) ? free : 0.0;
     }
 
     double FreeSpace::clearanceAlong(const Pose &from, double length, double enough) const

@@ -8,8 +8,8 @@ namespace parking
     namespace
     {
         constexpr double SIDE = 2.0;          // metres, of buckets in worlds of usual size
-        constexpr double BUCKETS = 262144.0;  // no more than about these
-        constexpr double FIRST_LOOK = 0.25;   // metres round a box, where mostly the nearest edge is
+        constexpr double BUCKETS = 262144.0;  // approximate largest number of buckets
+        constexpr double FIRST_LOOK = 0.25;   // metres about a box, which in most cases contain the nearest edge
 
         std::size_t clampIndex(double value, std::size_t count)
         {
@@ -24,7 +24,8 @@ namespace parking
             return (point - from - share * along).norm();
         }
 
-        /** Metres between the box and a segment in its frame, or any number from \e enough up where it is more. */
+        /** Distance in metres between the box and a segment in its frame. If it is at least \e enough, any value from
+            \e enough up to it. */
         double distanceInFrame(const Eigen::Vector2d &half, const Eigen::Vector2d &from, const Eigen::Vector2d &to,
                                double enough)
         {
@@ -48,7 +49,7 @@ namespace parking
             }
             if (enter <= leave)
                 return 0.0;
-            // Apart, so that an end of the segment or a corner of the box is one of the two nearest points.
+            // They do not intersect, so an end of the segment or a corner of the box is one of the two nearest points.
             double nearest = enough;
             for (const Eigen::Vector2d &end : {from, to})
                 nearest = std::min(nearest, (end.cwiseAbs() - half).cwiseMax(0.0).norm());
@@ -99,8 +100,8 @@ namespace parking
         const std::size_t firstRow = rowOf(low.y()), lastRow = rowOf(high.y());
         for (std::size_t row = firstRow; row <= lastRow; ++row)
         {
-            // The part of the edge in this row, a little more for rounding; a long slanting edge is in few buckets of
-            // its box.
+            // The part of the edge in this row, slightly enlarged for rounding. A long slanting edge lies in few
+            // buckets of its bounding box.
             double left = low.x(), right = high.x();
             if (firstRow < lastRow)
             {
@@ -144,7 +145,7 @@ namespace parking
         }
     }
 
-    /** As contains(), for all polygons at once. */
+    /** Like contains(), for all polygons at once. */
     bool Outlines::isInside(const Eigen::Vector2d &point) const
     {
         bool inside = false;

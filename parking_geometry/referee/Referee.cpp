@@ -11,10 +11,10 @@ namespace parking
 {
     namespace
     {
-        constexpr double CURVATURE = 1.0001;  // share of the greatest curvature that may be used
-        constexpr double NO_TURN = 1e-6;      // radians on the spot that are rounding
+        constexpr double CURVATURE = 1.0001;  // largest curvature as a multiple of that of the car
+        constexpr double NO_TURN = 1e-6;      // largest turn on the spot in radians that counts as rounding
         constexpr double FAR = 4.0;           // metres: more clearance than this does not matter
-        constexpr double STRAIGHT = 8.0;      // metres of a straight drive that are looked at as one
+        constexpr double STRAIGHT = 8.0;      // longest straight drive in metres that one query covers
 
         std::string rounded(double value)
         {
@@ -27,9 +27,8 @@ namespace parking
                    std::isfinite(piece.turn);
         }
 
-        /** Where the car is \e step metres (signed) farther along a piece. The heading is exact: curvature changes
-            evenly. The position is integrated by Gauss's rule with two points, whose error shrinks with the fifth power
-            of the step. */
+        /** The pose after a further \e step metres (signed) along a piece. The heading is exact because the curvature
+            is linear. Gauss's rule with two points integrates the position with an error of fifth order. */
         Pose moved(const Pose &pose, double curvature, double slope, double step)
         {
             const auto heading = [&](double distance)
@@ -49,7 +48,7 @@ namespace parking
         }
     }  // namespace
 
-    /** A path under examination: where it has come to, and what was wrong so far. */
+    /** Progress of a check: the current pose and the faults so far. */
     class Referee::Walk
     {
     public:
@@ -59,7 +58,7 @@ namespace parking
             verdict_.fault = Fault::None;
             verdict_.reason.clear();
             if (!referee_.isPlace(start))
-                fail(Fault::NotFinite, "the first state is no place");
+                fail(Fault::NotFinite, "the first state is out of range");
             else if (!isNear(start, referee_.start_))
                 fail(Fault::WrongStart, "begins");
             else
@@ -77,15 +76,16 @@ namespace parking
             const double curvature = std::max(std::abs(piece.curvature), std::abs(end));
             verdict_.maxCurvature = std::max(verdict_.maxCurvature, curvature);
             length_ += driven;
-            if (length_ > FARTHEST || !(curvature * driven < FARTHEST))
-                return fail(Fault::NotFinite, "longer than any drive");
+            if (length_ > MAX_DISTANCE || !(curvature * driven < MAX_DISTANCE))
+                return fail(Fault::NotFinite, "path too long");
             if (!referee_.isDisc_ &&
                 curvature > CURVATURE * std::tan(referee_.vehicle_.maxSteeringAngle) / referee_.vehicle_.wheelbase)
                 fail(Fault::NotDrivable, "curvature " + formatNumber(curvature) + " 1/m");
             if (!referee_.isDisc_ && std::abs(piece.turn) > NO_TURN)
                 fail(Fault::NotDrivable, "turn on the spot");
-            const double way = driven + referee_.space_.farthestPoint() * (curvature * driven + std::abs(piece.turn));
-            const std::size_t steps = stepsFor(way);
+            const double motion =
+                driven + referee_.space_.farthestPoint() * (curvature * driven + std::abs(piece.turn));
+            const std::size_t steps = stepsFor(motion);
             const double step = piece.length / static_cast<double>(steps);
             // Sharpness is per metre driven: along a reverse piece the curvature grows against the signed distance.
             const double slope = piece.length < 0.0 ? -piece.sharpness : piece.sharpness;
@@ -97,14 +97,14 @@ namespace parking
                 {
                     pose_ = moved(pose_, 0.0, 0.0, static_cast<double>(freeSteps) * step);
                     verdict_.states += freeSteps;
-                    room_ = 0.0;
+                    clearance_ = 0.0;
                     k += freeSteps;
                     continue;
                 }
                 const double curvatureHere = piece.curvature + slope * step * static_cast<double>(k);
                 pose_ = moved(pose_, curvatureHere, slope, step);
                 pose_.yaw += piece.turn / static_cast<double>(steps);
-                test(way / static_cast<double>(steps));
+                test(motion / static_cast<double>(steps));
                 ++k;
             }
         }
@@ -114,20 +114,20 @@ namespace parking
             if (isOver())
                 return;
             if (!referee_.isPlace(to))
-                return fail(Fault::NotFinite, "a state is no place");
+                return fail(Fault::NotFinite, "a state is out of range");
             const Pose from = pose_;
             const double length = std::hypot(to.x - from.x, to.y - from.y);
             const double turn = std::remainder(to.yaw - from.yaw, 2.0 * PI);
             length_ += length;
-            if (length_ > FARTHEST)
-                return fail(Fault::NotFinite, "longer than any drive");
-            const double way = length + referee_.space_.farthestPoint() * std::abs(turn);
-            const std::size_t steps = stepsFor(way);
+            if (length_ > MAX_DISTANCE)
+                return fail(Fault::NotFinite, "path too long");
+            const double motion = length + referee_.space_.farthestPoint() * std::abs(turn);
+            const std::size_t steps = stepsFor(motion);
             for (std::size_t k = 1; k <= steps && !isOver(); ++k)
             {
                 const double share = static_cast<double>(k) / static_cast<double>(steps);
                 pose_ = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.yaw + share * turn};
-                test(way / static_cast<double>(steps));
+                test(motion / static_cast<double>(steps));
             }
         }
 
@@ -141,47 +141,47 @@ namespace parking
         }
 
     private:
-        /** Nothing can be computed after a number that is none, and nothing is learnt from ever more collisions. */
+        /** Whether the check ends: after NaN or infinite numbers and after too many collisions. */
         bool isOver() const
         {
-            return verdict_.fault == Fault::NotFinite || verdict_.collisions >= MOST_COLLISIONS;
+            return verdict_.fault == Fault::NotFinite || verdict_.collisions >= MAX_COLLISIONS;
         }
 
-        static std::size_t stepsFor(double way)
+        static std::size_t stepsFor(double motion)
         {
-            return static_cast<std::size_t>(std::max(1.0, std::ceil(way / STEP)));
+            return static_cast<std::size_t>(std::max(1.0, std::ceil(motion / STEP)));
         }
 
-        /** \brief The pose that the walk has come to. \param way that the body has moved at most since the last one */
-        void test(double way)
+        /** \brief Checks the current pose. \param motion largest motion of the body since the last pose */
+        void test(double motion)
         {
             ++verdict_.states;
-            room_ -= way;
-            if (room_ > 0.0)
+            clearance_ -= motion;
+            if (clearance_ > 0.0)
                 return;
             isFree_ = referee_.space_.isFree(pose_);
-            room_ = isFree_ ? referee_.space_.clearance(pose_, FAR) : 0.0;
+            clearance_ = isFree_ ? referee_.space_.clearance(pose_, FAR) : 0.0;
             if (isFree_)
                 return;
             ++verdict_.collisions;
             fail(Fault::Collision, "collision");
         }
 
-        /** \brief How many of the next \e steps straight ahead are free at a glance; 0 when that cannot be said. */
+        /** \brief Number of the next \e steps straight ahead that one query proves free; 0 without a proof. */
         std::size_t freeStraight(double step, std::size_t steps) const
         {
             if (!isFree_)
                 return 0;
-            const double most = std::max(1.0, std::floor(STRAIGHT / std::max(std::abs(step), 1e-9)));
-            if (most < static_cast<double>(steps))
-                steps = static_cast<std::size_t>(most);
+            const double limit = std::max(1.0, std::floor(STRAIGHT / std::max(std::abs(step), 1e-9)));
+            if (limit < static_cast<double>(steps))
+                steps = static_cast<std::size_t>(limit);
             const double length = static_cast<double>(steps) * step;
             return referee_.space_.clearanceAlong(pose_, length, STEP) > 0.0 ? steps : 0;
         }
 
         void fail(Fault fault, const std::string &what)
         {
-            // Of several faults the first is told, but for the one that stops the examination.
+            // The first fault is reported unless a later one ends the check.
             if (!verdict_.valid && fault != Fault::NotFinite)
                 return;
             verdict_.valid = false;
@@ -196,12 +196,12 @@ namespace parking
         const Referee &referee_;
         Pose pose_;
         double length_{0.0};
-        bool isFree_{false};  // the last pose that was looked at
-        double room_{0.0};    // metres that the body may move before it has to be looked at again
+        bool isFree_{false};     // whether the last checked pose is free
+        double clearance_{0.0};  // metres that the body may move before the next query
         Verdict verdict_;
     };
 
-    /** The least clearance of a path: halves each motion until it cannot matter any more. */
+    /** Minimum clearance of a path. Halves each motion until it cannot reduce the minimum. */
     class Referee::NearestApproach
     {
     public:
@@ -209,65 +209,65 @@ namespace parking
         {
         }
 
-        double least() const
+        double minimum() const
         {
-            return least_;
+            return minimum_;
         }
 
         void stand(const Pose &pose)
         {
-            least_ = std::min(least_, space_.clearance(pose, least_));
+            minimum_ = std::min(minimum_, space_.clearance(pose, minimum_));
         }
 
         void driveStraight(Pose pose, double length)
         {
             const double pieces = std::max(1.0, std::ceil(std::abs(length) / STRAIGHT));
-            for (double k = 0.0; k < pieces && least_ > 0.0; ++k)
+            for (double k = 0.0; k < pieces && minimum_ > 0.0; ++k)
             {
-                least_ = std::min(least_, space_.clearanceAlong(pose, length / pieces, least_));
+                minimum_ = std::min(minimum_, space_.clearanceAlong(pose, length / pieces, minimum_));
                 pose = advance(pose, 0.0, length / pieces);
             }
         }
 
-        /** \brief \param way that no point of the body moves farther than
+        /** \brief \param motion metres that no point of the body exceeds
             \param at the pose at a share of the motion */
         template <class At>
-        void move(double way, const At &at)
+        void move(double motion, const At &at)
         {
-            const double pieces = std::max(1.0, std::ceil(way / FAR));
-            double begin = 0.0, room = roomAt(at(0.0), way / pieces);
-            for (double k = 1.0; k <= pieces && least_ > 0.0; ++k)
+            const double pieces = std::max(1.0, std::ceil(motion / FAR));
+            double begin = 0.0, clearance = clearanceAt(at(0.0), motion / pieces);
+            for (double k = 1.0; k <= pieces && minimum_ > 0.0; ++k)
             {
-                const double end = k / pieces, roomThere = roomAt(at(end), way / pieces);
-                halve(way, at, begin, room, end, roomThere);
+                const double end = k / pieces, clearanceThere = clearanceAt(at(end), motion / pieces);
+                halve(motion, at, begin, clearance, end, clearanceThere);
                 begin = end;
-                room = roomThere;
+                clearance = clearanceThere;
             }
         }
 
     private:
-        double roomAt(const Pose &pose, double way)
+        double clearanceAt(const Pose &pose, double motion)
         {
-            const double room = space_.clearance(pose, least_ + way);
-            least_ = std::min(least_, room);
-            return room;
+            const double clearance = space_.clearance(pose, minimum_ + motion);
+            minimum_ = std::min(minimum_, clearance);
+            return clearance;
         }
 
         template <class At>
-        void halve(double way, const At &at, double begin, double roomThen, double end, double room)
+        void halve(double motion, const At &at, double begin, double clearanceBefore, double end, double clearance)
         {
-            const double moved = (end - begin) * way;
-            // The two ends see to that the body comes no nearer than this.
-            const double bound = 0.5 * (roomThen + room - moved);
-            if (bound >= least_ - std::max(CLEARANCE, 0.01 * least_) || least_ <= 0.0)
+            const double moved = (end - begin) * motion;
+            // The clearances at both ends bound the distance from below.
+            const double bound = 0.5 * (clearanceBefore + clearance - moved);
+            if (bound >= minimum_ - std::max(CLEARANCE, 0.01 * minimum_) || minimum_ <= 0.0)
                 return;
-            const double middle = 0.5 * (begin + end), roomThere = roomAt(at(middle), 0.5 * moved);
-            halve(way, at, begin, roomThen, middle, roomThere);
-            halve(way, at, middle, roomThere, end, room);
+            const double middle = 0.5 * (begin + end), clearanceThere = clearanceAt(at(middle), 0.5 * moved);
+            halve(motion, at, begin, clearanceBefore, middle, clearanceThere);
+            halve(motion, at, middle, clearanceThere, end, clearance);
         }
 
         const FreeSpace &space_;
-        double least_{std::numeric_limits<double>::infinity()};
+        double minimum_{std::numeric_limits<double>::infinity()};
     };
 
     std::string toString(Fault fault)
@@ -320,9 +320,9 @@ namespace parking
         return walk.finish(exact);
     }
 
-    double Referee::leastClearance(const Path &path) const
+    double Referee::minClearance(const Path &path) const
     {
-        // First what is quick, so that most of the rest need not be looked at closely.
+        // Fast queries first, so that their minimum excludes most of the others.
         NearestApproach approach(*this);
         Pose pose = path.start;
         approach.stand(pose);
@@ -352,10 +352,10 @@ namespace parking
                               });
             pose = advance(pose, piece);
         }
-        return approach.least();
+        return approach.minimum();
     }
 
-    double Referee::leastClearance(const std::vector<Pose> &poses) const
+    double Referee::minClearance(const std::vector<Pose> &poses) const
     {
         NearestApproach approach(*this);
         for (const Pose &pose : poses)
@@ -370,14 +370,14 @@ namespace parking
                                           from.yaw + share * turn};
                           });
         }
-        return approach.least();
+        return approach.minimum();
     }
 
     bool Referee::isPlace(const Pose &pose) const
     {
-        return std::isfinite(pose.x) && std::isfinite(pose.y) && std::abs(pose.yaw) <= FARTHEST &&
-               pose.x >= bounds_.min.x() - FARTHEST && pose.x <= bounds_.max.x() + FARTHEST &&
-               pose.y >= bounds_.min.y() - FARTHEST && pose.y <= bounds_.max.y() + FARTHEST;
+        return std::isfinite(pose.x) && std::isfinite(pose.y) && std::abs(pose.yaw) <= MAX_DISTANCE &&
+               pose.x >= bounds_.min.x() - MAX_DISTANCE && pose.x <= bounds_.max.x() + MAX_DISTANCE &&
+               pose.y >= bounds_.min.y() - MAX_DISTANCE && pose.y <= bounds_.max.y() + MAX_DISTANCE;
     }
 
     Verdict check(const Scenario &scenario, const Path &path)

@@ -52,11 +52,11 @@ namespace parking
             the rounding of long paths. */
         static constexpr double TOLERANCE = 1e-4;
         /** Largest distance of a pose from the world and largest length of a path, metres. */
-        static constexpr double FARTHEST = 1e6;
+        static constexpr double MAX_DISTANCE = 1e6;
         /** Number of poses in collision after which the check ends. */
-        static constexpr std::size_t MOST_COLLISIONS = 1000000;
+        static constexpr std::size_t MAX_COLLISIONS = 1000000;
 
-        static constexpr double CLEARANCE = 0.002;  ///< absolute tolerance of leastClearance(), metres
+        static constexpr double CLEARANCE = 0.002;  ///< absolute tolerance of minClearance(), metres
 
         /** \brief Checks the car's rectangle or, if \e circleRadius is positive, a disc about its rear axle. */
         explicit Referee(const Scenario &scenario, double circleRadius = 0.0);
@@ -83,13 +83,13 @@ namespace parking
             one.
 
             The result is never too small. It is too large by at most CLEARANCE or one percent. */
-        double leastClearance(const Path &path) const;
+        double minClearance(const Path &path) const;
 
         /** \brief Minimum distance in metres between the shape and the obstacles along lines as in checkLines(), with
             at least one pose. The tolerance is that for paths. */
-        double leastClearance(const std::vector<Pose> &poses) const;
+        double minClearance(const std::vector<Pose> &poses) const;
 
-        /** \brief Whether the pose is finite and at most FARTHEST from the world. */
+        /** \brief Whether the pose is finite and at most MAX_DISTANCE from the world. */
         bool isPlace(const Pose &pose) const;
 
     private:

@@ -20,15 +20,15 @@ namespace parking
         using Eigen::Vector2d;
         using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
-        /** Points nearer to each other than this are one, metres. */
+        /** Distance in metres below which points coincide. */
         constexpr double SAME_PLACE = 1e-9;
 
-        /** Headings that differ by less are one, radians. */
+        /** Difference in radians below which headings are equal. */
         constexpr double SAME_HEADING = 1e-9;
 
         constexpr int MIN_DEGREE = 2, MAX_DEGREE = 5;
 
-        /** Curves that hardly move with their parameter have no heading of their own. */
+        /** Derivative below which a curve has no heading. */
         constexpr double SLOW = 1e-9;
 
         std::vector<Vector2d> distinct(const std::vector<Vector2d> &points)
@@ -60,7 +60,7 @@ namespace parking
                             "; it must be a positive number of 1/m");
         }
 
-        /** The spline with the control points that each point of the polyline stands for. */
+        /** The spline for given multiplicities of the points of a polyline. */
         class Curve
         {
         public:
@@ -89,14 +89,14 @@ namespace parking
                 return spans_;
             }
 
-            /** The points of the polyline that shape a span: all from first to last. */
+            /** The points of the polyline that determine a span: first and last index. */
             std::pair<std::size_t, std::size_t> reach(std::size_t span) const
             {
                 return {origin_[span], origin_[span + degree_]};
             }
 
-            /** What the shape of a span depends on: two spans of equal keys have the same states. Knots are uniform but
-                for the ends, whose distance counts while it is below the degree. */
+            /** Key of the shape of a span: spans with equal keys have the same states. Knots are uniform except at the
+                ends, whose distance matters if it is below the degree. */
             std::vector<std::size_t> key(std::size_t span) const
             {
                 std::vector<std::size_t> key(origin_.begin() + static_cast<std::ptrdiff_t>(span),
@@ -113,26 +113,26 @@ namespace parking
                 for (std::size_t i = span; i < span + degree_; ++i)
                     controlLength += (control(i + 1) - control(i)).norm();
                 const Polynomial polynomial = expand(span);
-                // The control polygon spans as many pieces as the degree says.
+                // The control polygon spans as many pieces as the degree.
                 const double guess = 1.0 + std::ceil(controlLength / static_cast<double>(degree_) / step);
                 for (auto count = static_cast<std::size_t>(guess);; count += 1 + count / 4)
                 {
                     SampledPath states;
                     states.reserve(count + 1);
-                    double longest = 0.0;
+                    double maxDistance = 0.0;
                     for (std::size_t i = 0; i <= count; ++i)
                     {
                         states.push_back(state(polynomial, static_cast<double>(i) / static_cast<double>(count)));
                         if (i > 0)
-                            longest = std::max(longest, positionDistance(states[i].pose, states[i - 1].pose));
+                            maxDistance = std::max(maxDistance, positionDistance(states[i].pose, states[i - 1].pose));
                     }
-                    if (longest <= 0.99 * step)
+                    if (maxDistance <= 0.99 * step)
                         return states;
                 }
             }
 
         private:
-            /** Coefficients of a span by powers of the share of it that is behind. */
+            /** Coefficients of a span by powers of the share driven. */
             using Polynomial = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, MAX_DEGREE + 1>;
 
             Vector2d control(std::size_t i) const
@@ -140,12 +140,12 @@ namespace parking
                 return spline_.ctrls().col(static_cast<Eigen::Index>(i));
             }
 
-            /** Within a span the spline is a polynomial: its derivatives at the beginning say all. */
+            /** Within a span the spline is a polynomial, which its derivatives at the beginning determine. */
             Polynomial expand(std::size_t span) const
             {
                 const double width = 1.0 / static_cast<double>(spans_);
                 const auto order = static_cast<Eigen::Index>(degree_);
-                // The very knot, so that it counts as part of this span and not of the one before.
+                // The exact knot, so that it belongs to this span and not to the previous one.
                 const double begin = static_cast<double>(span) / static_cast<double>(spans_);
                 Polynomial polynomial = spline_.derivatives(begin, order).matrix();
                 double scale = 1.0;
@@ -157,7 +157,7 @@ namespace parking
                 return polynomial;
             }
 
-            /** Heading NaN where the curve does not move. */
+            /** The state at a share of the span, with a NaN heading where the derivative vanishes. */
             PathState state(const Polynomial &polynomial, double share) const
             {
                 Vector2d position(0.0, 0.0), velocity(0.0, 0.0), acceleration(0.0, 0.0);
@@ -183,7 +183,7 @@ namespace parking
             std::size_t degree_{0}, spans_{0};
         };
 
-        /** Appends \e states, dropping those that do not move and giving a heading to those without. */
+        /** Appends \e states without those that do not move, and sets missing headings. */
         void append(SampledPath &path, const SampledPath &states)
         {
             for (const PathState &state : states)
@@ -208,12 +208,12 @@ namespace parking
             }
         }
 
-        /** The curve through \e states, each joined to the next by two arcs, or one line; without pieces where the
-            curve itself bends too much. */
+        /** The curve through \e states, which two arcs or one line join; without pieces if its curvature is too
+            large. */
         Path pathThrough(const SampledPath &states, bool isStraight, double maxCurvature)
         {
             const Pose &begin = states.front().pose, &end = states.back().pose;
-            if (isStraight)  // however unevenly it moves with its parameter
+            if (isStraight)  // even if its speed in the parameter is uneven
                 return {{begin.x, begin.y, std::atan2(end.y - begin.y, end.x - begin.x)},
                         {{0.0, positionDistance(end, begin)}}};
             Path path{begin, {}};
@@ -231,7 +231,8 @@ namespace parking
             return path;
         }
 
-        /** Appends \e span, with a turn on the spot where it begins with another heading than the path ends. */
+        /** Appends \e span, after a turn on the spot if its initial heading differs from that at the end of the
+            path. */
         void append(Path &path, double &yaw, const Path &span)
         {
             if (path.pieces.empty())
@@ -242,11 +243,11 @@ namespace parking
             yaw = span.end().yaw;
         }
 
-        /** What becomes of one span; most stay as they are when others get more control points. */
+        /** Result for one span. Most spans do not change if others get more control points. */
         struct Span
         {
             SampledPath states;
-            Path path;  // none where the curvature of the states says no
+            Path path;  // without pieces if the curvature of the states is too large
             bool isAcceptable{false};
         };
 
@@ -264,7 +265,7 @@ namespace parking
     {
         check(options);
         const std::vector<Vector2d> points = distinct(given);
-        const int all = options.degree;  // copies of a point through which the curve passes
+        const int all = options.degree;  // multiplicity of a point through which the curve passes
         std::vector<int> multiplicity(points.size(), 0);
         for (std::size_t i = 0; i < points.size(); i += options.sampling)
             multiplicity[i] = 1;
@@ -289,25 +290,25 @@ namespace parking
                 if (span.states.size() < 2)
                     continue;
                 const auto [first, last] = curve.reach(k);
-                int least = all;
+                int lowest = all;
                 bool denser = false;
                 for (std::size_t i = first; i <= last; ++i)
                 {
-                    least = std::min(least, multiplicity[i]);
+                    lowest = std::min(lowest, multiplicity[i]);
                     denser = denser || (multiplicity[i] > 0 && i % options.sampling != 0 && i + 1 < points.size());
                 }
-                const bool isPolyline = least == all;
+                const bool isPolyline = lowest == all;
                 result.polylineSpans += isPolyline;
                 result.denserSpans += denser && !isPolyline;
                 if (isNew)
                     span.path = pathThrough(span.states, last == first + 1, options.maxCurvature);
                 if (isNew && !isPolyline)
                     span.isAcceptable = isAcceptable(span.path, options.maxCurvature, vehicle, world);
-                // Spans of the polyline itself are as they were given; others rise by one step where they fail.
+                // Spans of the polyline are final. Other spans that fail advance by one step.
                 if (!isPolyline && !span.isAcceptable)
                 {
                     for (std::size_t i = first; i <= last; ++i)
-                        next[i] = std::max(next[i], least == 0 ? 1 : all);
+                        next[i] = std::max(next[i], lowest == 0 ? 1 : all);
                     again = true;
                 }
                 spans.push_back(&span);

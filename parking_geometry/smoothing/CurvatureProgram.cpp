@@ -7,17 +7,18 @@ namespace parking
 {
     namespace
     {
-        /** Weight of the deviation at the end, in multiples of the weight along the way: as good as an equality. */
+        /** Weight of the deviation at the end as a multiple of that along the path: practically an equality. */
         constexpr double END_WEIGHT = 1e6;
 
-        /** Deviations left at the end by a solution, metres and radians: more means that none exists. */
+        /** Largest deviation at the end of a solution, metres and radians. A larger one means that there is no
+            solution. */
         constexpr double END_TOLERANCE = 1e-5;
 
         constexpr int MAX_ITERATIONS = 40;
         constexpr double START_MULTIPLIER = 1.0;
         constexpr double FRACTION_TO_BOUNDARY = 0.99;
 
-        /** Mean complementarity at which the cost is as good as optimal. */
+        /** Mean complementarity at which the cost is practically optimal. */
         constexpr double GAP_TOLERANCE = 1e-3;
     }  // namespace
 
@@ -142,7 +143,7 @@ namespace parking
         const double weight = 1.0 / (settings_.tolerance * settings_.tolerance);
         const double lever = settings_.lever * settings_.lever, scale = 1.0 / settings_.maxCurvature;
         const double softness = 1.0 / (settings_.softRate * settings_.softRate);
-        // Cost of node i on its own, and the cost to go from it, are 1/2 x' P x + p' x.
+        // The cost of node i and the cost to go from it have the form 1/2 x' P x + p' x.
         const auto addNode = [&](std::size_t i, double w, Eigen::Matrix3d &P, Eigen::Vector3d &p)
         {
             P(0, 0) += w;
@@ -233,7 +234,7 @@ namespace parking
                 });
             gap = sum / static_cast<double>(count);
             centring = length > 0.9 ? 0.02 : length > 0.5 ? 0.1 : 0.4;
-            // The Newton point itself satisfies the dynamics, so it is the answer as soon as it keeps the bounds.
+            // The Newton point satisfies the dynamics, so it is the solution as soon as it satisfies the bounds.
             if (worst < 0.0 && gap < GAP_TOLERANCE)
             {
                 x_ = next_;
@@ -252,7 +253,7 @@ namespace parking
         Eigen::Matrix<double, 2, 2> toEnd = Eigen::Matrix2d::Identity();
         for (std::size_t i = n; i-- > 0;)
         {
-            // The curvature rises along the interval from one node's to the other's: B is for its change per metre.
+            // The curvature is linear along the interval between two nodes. B refers to its change per metre.
             const Stage &stage = stages_[i];
             const Eigen::Vector2d atEnd = stage.B.head<2>() / stage.h;
             sensitivity[i] += toEnd * (stage.A.topRightCorner<2, 1>() - atEnd);

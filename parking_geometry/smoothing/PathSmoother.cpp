@@ -15,13 +15,12 @@ namespace parking
 {
     namespace
     {
-        /** \brief What is smoothed at a time: neighbouring arcs of one stretch, and whether the car stands at their
-            ends. */
+        /** \brief A unit of smoothing: neighbouring arcs of one stretch, and whether the car stands at their ends. */
         struct StretchPart
         {
-            Path arcs;                ///< all in one direction; neighbours differ in curvature
-            bool movingStart{false};  ///< begins in motion, on its first arc, because it was cut out of a longer one
-            bool movingEnd{false};    ///< ends in motion, on its last arc
+            Path arcs;                ///< arcs in one direction whose neighbours differ in curvature
+            bool movingStart{false};  ///< whether it begins in motion, cut out within an arc
+            bool movingEnd{false};    ///< whether it ends in motion, cut out within an arc
 
             /** \brief 1 forwards, -1 in reverse. */
             int direction() const
@@ -29,14 +28,14 @@ namespace parking
                 return arcs.pieces.front().direction();
             }
 
-            /** \brief The arcs \e first to before \e last. Where they are not all, the car stands there. */
+            /** \brief The arcs from \e first up to but excluding \e last. The car stands at new ends. */
             StretchPart part(std::size_t first, std::size_t last) const
             {
                 return {arcs.part(first, last), movingStart && first == 0, movingEnd && last == arcs.pieces.size()};
             }
 
-            /** \brief The parts that can be smoothed on their own: cut in the middle of all arcs of at least \e
-               shortest metres that lie between two others and bend less than \e maxCurvature. */
+            /** \brief Parts that can be smoothed independently. Cuts lie in the middle of inner arcs of at least \e
+                shortest metres with a curvature below \e maxCurvature. */
             std::vector<StretchPart> cutAtLongArcs(double shortest, double maxCurvature) const
             {
                 std::vector<StretchPart> parts{{{arcs.start, {}}, movingStart, movingEnd}};
@@ -60,36 +59,38 @@ namespace parking
             }
         };
 
-        // The program works a little inside of the limits; what remains is for the correction at the end.
+        // Share of the limits that the program reserves for the correction at the end.
         constexpr double CURVATURE_MARGIN = 1e-3;
         constexpr double RATE_MARGIN = 5e-3;
 
-        /** Error at the end that the correction brings down to CLOSED; larger ones go through the program again. */
+        /** Largest error at the end that the correction reduces to CLOSED. Larger ones require another solution of the
+            program. */
         constexpr double CORRECTABLE = 1e-3;
         constexpr double CLOSED = 1e-11;
         constexpr int MAX_PROGRAMS = 4;
         constexpr int MAX_CORRECTIONS = 6;
 
-        // Distances between nodes, metres: a share of the length of the transition near a joint, growing away from it.
+        // Distances between nodes in metres: near a joint a share of the transition's length, increasing away from it.
         constexpr double TRANSITION_SHARE = 1.0 / 10.0;
-        constexpr double FINEST = 0.02;
-        constexpr double COARSEST_AT_JOINT = 0.12;
-        constexpr double COARSEST = 0.3;
+        constexpr double MIN_SPACING = 0.02;
+        constexpr double MAX_SPACING_AT_JOINT = 0.12;
+        constexpr double MAX_SPACING = 0.3;
         constexpr double GROWTH = 0.25;
 
-        /** The part of the clearance that deviations may use up, and the least corridor worth trying, metres. */
+        /** Share of the clearance that deviations may use, and half width in metres of the narrowest corridor to
+            attempt. */
         constexpr double CLEARANCE_SHARE = 0.95;
-        constexpr double NARROWEST_CORRIDOR = 1e-3;
+        constexpr double MIN_CORRIDOR = 1e-3;
 
-        /** Poses are looked at this far to either side, metres, where they themselves have less clearance than the
-            first: next to a wall there may be much room on the other side. */
+        /** Lateral distances in metres of additional queries, for poses with a clearance below the first. Next to a
+            wall the other side may be free. */
         constexpr double SIDE_STEPS[] = {0.25, 0.08, 0.025};
 
-        /** Deviations beyond this are not a smoothed version of the path any more, metres. */
-        constexpr double LARGEST_DEVIATION = 0.6;
+        /** Largest deviation from the arcs in metres. */
+        constexpr double MAX_DEVIATION = 0.6;
 
-        /** Displacement of a piece of linear curvature in the frame of its start. Three Gauss points and short series
-            are exact to 1e-13 of the length for turns of up to 0.15 rad. */
+        /** Displacement along a piece of linear curvature in the frame of its start. Three Gauss points and short
+            series are exact to 1e-13 of the length for turns up to 0.15 rad. */
         inline Pose displacement(double k0, double k1, double length)
         {
             constexpr double T[] = {0.112701665379258311, 0.5, 0.887298334620741689};
@@ -109,42 +110,43 @@ namespace parking
 
         /** \brief Finds, for a part of a stretch of arcs, a path of continuous curvature with the same end poses.
 
-            The part is cut into nodes, closer together near its joints. CurvatureProgram proposes the curvatures at the
-            nodes, linear between them; the path they give is integrated exactly, each piece up to the normal of the
-            reference at the next node, which leaves only a lateral and an angular error at the end. Those are removed
-           by a second program and then by a small correction within what the bounds leave. A reverse stretch is handled
-           as a forward one of a car turned round. Objects keep their memory between calls and are not for several
-           threads. */
+            The part is divided into nodes, which are denser near its joints. CurvatureProgram computes the curvatures
+            at the nodes, with linear curvature between them. The path is integrated exactly, each piece up to the
+            normal of the reference at the next node. This leaves only a lateral and an angular error at the end. A
+            second program and then a small correction within the bounds remove them.
+
+            A reverse stretch is treated as a forward one of a car turned round. Objects reuse their memory and must not
+            be shared between threads. */
         class StretchSmoother
         {
         public:
-            /** \brief For this car, whose parameters have to be valid. */
+            /** \brief A smoother for \e vehicle, which must be valid. */
             explicit StretchSmoother(const Vehicle &vehicle);
 
-            /** \brief Clearance in metres at a pose of the car, see FootprintQueries. */
+            /** \brief Returns the clearance in metres at a pose of the car, see FootprintQueries. */
             using Clearance = std::function<double(const Pose &)>;
 
-            /** \brief What a transition may be like. */
+            /** \brief Limits of a transition. */
             struct Limits
             {
-                double sharpness{0.2};      ///< 1/m^2, change of curvature per metre that must not be exceeded
-                double softSharpness{0.2};  ///< 1/m^2, change that is preferred
-                double tolerance{0.05};     ///< metres, deviation that is worth steering at softSharpness
+                double sharpness{0.2};      ///< largest change of curvature per metre, 1/m^2
+                double softSharpness{0.2};  ///< preferred change of curvature per metre, 1/m^2
+                double tolerance{0.05};     ///< deviation that costs as much as steering at softSharpness, metres
             };
 
             /** \brief Smooths \e part within \e limits.
 
-                \param clearance when set, the body stays where the clearance of the poses of the arcs, and of the same
-                poses moved to either side, promises that it is free
+                \param clearance if set, the body stays within the clearance of the poses of the arcs and of poses
+                beside them
                 \param result the pieces, from where the arcs begin to where they end within 1e-9 m
-                \return whether there is such a path */
+                \return whether the function finds such a path */
             bool smooth(const StretchPart &part, const Limits &limits, const Clearance &clearance,
                         std::vector<PathPiece> &result);
 
         private:
             struct Node
             {
-                Pose pose;  ///< of the reference, in the direction of travel
+                Pose pose;  ///< pose of the reference, in the direction of travel
                 double cosine, sine;
             };
 
@@ -183,17 +185,18 @@ namespace parking
             {
                 return std::abs(arcs[i].curvature - arcs[i - 1].curvature);
             };
-            // Lengths of the intervals from one end of half an arc to its middle, appended to intervals_.
+            // Appends the lengths of the intervals from one end of an arc to its middle to intervals_.
             const auto half = [&](double length, double jump, bool towardsJoint, double curvature)
             {
                 const double transition = jump / sharpness;
-                const double least =
-                    jump == 0.0 ? COARSEST : std::clamp(transition * TRANSITION_SHARE, FINEST, COARSEST_AT_JOINT);
+                const double spacing =
+                    jump == 0.0 ? MAX_SPACING
+                                : std::clamp(transition * TRANSITION_SHARE, MIN_SPACING, MAX_SPACING_AT_JOINT);
                 const std::size_t first = intervals_.size();
                 double sum = 0.0;
                 while (sum < length * (1.0 - 1e-9))
                 {
-                    const double h = std::min(COARSEST, least + GROWTH * std::max(0.0, sum - transition));
+                    const double h = std::min(MAX_SPACING, spacing + GROWTH * std::max(0.0, sum - transition));
                     intervals_.push_back({h, curvature, sharpness * (1.0 - RATE_MARGIN)});
                     sum += h;
                 }
@@ -218,7 +221,7 @@ namespace parking
                 if (i < intervals_.size())
                     pose = advance(pose, intervals_[i].curvature, intervals_[i].length);
             }
-            // The required end, in the turn count of the integration.
+            // The required end with the number of turns of the integration.
             Node &last = nodes_.back();
             const Pose end = part.arcs.end();
             last.pose = {end.x, end.y, last.pose.yaw + wrapAngle(end.yaw + turnedRound - last.pose.yaw)};
@@ -239,7 +242,7 @@ namespace parking
                                       reverse ? node.pose.yaw - PI : node.pose.yaw});
                 };
                 const double here = clearanceAt(0.0);
-                // The free intervals round the pose and round one beside it are one when they overlap.
+                // The free intervals about the pose and about one beside it form one interval if they overlap.
                 const auto reach = [&](double side)
                 {
                     if (here >= SIDE_STEPS[0])
@@ -249,8 +252,8 @@ namespace parking
                             return step + there;
                     return here;
                 };
-                corridors_.push_back({-std::max(NARROWEST_CORRIDOR, CLEARANCE_SHARE * reach(-1.0)),
-                                      std::max(NARROWEST_CORRIDOR, CLEARANCE_SHARE * reach(1.0))});
+                corridors_.push_back({-std::max(MIN_CORRIDOR, CLEARANCE_SHARE * reach(-1.0)),
+                                      std::max(MIN_CORRIDOR, CLEARANCE_SHARE * reach(1.0))});
             }
         }
 
@@ -287,7 +290,7 @@ namespace parking
                 lengths_[i] = length;
                 const double lateral = (y - target.pose.y) * target.cosine - (x - target.pose.x) * target.sine;
                 states_[i + 1] << lateral, pose.yaw - target.pose.yaw, k1;
-                if (!(std::abs(lateral) < LARGEST_DEVIATION))
+                if (!(std::abs(lateral) < MAX_DEVIATION))
                     return false;
             }
             return true;
@@ -391,25 +394,25 @@ namespace parking
             return true;
         }
 
-        /** Share of its length by which smoothing may lengthen or shorten a stretch. */
-        constexpr double LARGEST_CHANGE_OF_LENGTH = 0.03;
+        /** Largest change of the length of a stretch by smoothing, as a share of it. */
+        constexpr double MAX_LENGTH_CHANGE = 0.03;
 
-        /** Tolerance, metres, that makes a curve keep to the arcs as closely as its limits allow. */
+        /** Tolerance in metres for a curve that follows the arcs as closely as its limits allow. */
         constexpr double NEAR = 0.005;
 
-        /** Arcs are long enough to be followed exactly in their middle when they have room for this many transitions
-            from lock to lock at the planned speed. */
+        /** Length from which the middle of an arc is followed exactly, in transitions from lock to lock at the planned
+            speed. */
         constexpr double LONG_ARC_IN_TRANSITIONS = 2.0;
 
-        /** Only arcs that bend less than this part of the limit are followed exactly. */
+        /** Only arcs with a curvature below this share of the limit are followed exactly. */
         constexpr double BEND_OF_CUT = 0.99;
 
-        /** The speed up to which the steering keeps up along all of \e piece. */
+        /** Highest speed at which the steering follows all of \e piece. */
         double steeringLimit(const Vehicle &vehicle, const PathPiece &piece)
         {
             const double from = piece.curvature, to = piece.endCurvature();
-            const double least = from * to <= 0.0 ? 0.0 : std::min(std::abs(from), std::abs(to));
-            return maxSpeedForSharpness(vehicle, piece.sharpness, least);
+            const double curvature = from * to <= 0.0 ? 0.0 : std::min(std::abs(from), std::abs(to));
+            return maxSpeedForSharpness(vehicle, piece.sharpness, curvature);
         }
 
         /** A part of a stretch between two stops. */
@@ -438,20 +441,21 @@ namespace parking
                 return planned_;
             }
 
-            /** One arc as it is. */
+            /** Keeps one arc unchanged. */
             SmoothPart keep(const StretchPart &part) const
             {
                 return {part.arcs, isPathFree(world_, vehicle_, part.arcs), part.movingEnd};
             }
 
-            /** \e whole in as few parts, divided by stops, as can be found. */
+            /** Smooths \e whole in few parts, divided by stops. */
             std::vector<SmoothPart> smooth(const StretchPart &whole)
             {
                 std::vector<SmoothPart> parts;
                 SmoothPart found, attempt;
                 for (std::size_t first = 0, arcs = whole.arcs.pieces.size(); first < arcs;)
                 {
-                    // The most arcs from here on that can be joined, by bisection when not all: one always can.
+                    // Finds the largest number of the next arcs that can be joined, by bisection. A single arc is
+                    // always possible.
                     std::size_t last = arcs;
                     if (!smoothAsOne(whole.part(first, last), found))
                     {
@@ -484,7 +488,7 @@ namespace parking
                     result = keep(part);
                     return true;
                 }
-                // At the planned speed first, confined to the clearance only when it collides without.
+                // The planned speed first, confined to the clearance only if the free curve collides.
                 if (smoothAt(planned_, {false, false}, part, result) &&
                     (isFree(result) ||
                      (world_.clearance && smoothAt(planned_, {false, true}, part, result) && isFree(result))))
@@ -497,16 +501,15 @@ namespace parking
                 return std::min(planned_, options_.minSpeed);
             }
 
-            /** How to look for a curve at some speed. */
+            /** Variant of the search for a curve at a speed. */
             struct Approach
             {
-                bool
-                    near;  ///< deviate as little as the speed allows, rather than steer as softly as at the planned one
-                bool confined;  ///< to the clearance
+                bool near;      ///< whether it minimises deviation instead of steering
+                bool confined;  ///< whether the body stays within the clearance
             };
 
-            /** Below the planned speed. What works is found out at the lowest one, where there is the most room, and
-                then tried at higher ones. */
+            /** Smooths below the planned speed. The lowest speed, which allows the smallest deviations, determines the
+                variant to attempt at higher speeds. */
             bool smoothSlower(const StretchPart &part, SmoothPart &result)
             {
                 for (const Approach approach : {Approach{false, false}, {false, true}, {true, true}, {true, false}})
@@ -521,7 +524,8 @@ namespace parking
                     }
                     if (!isFree(result))
                         continue;
-                    // A soft one steers fast only where it must: the speed it really allows says which one to try.
+                    // A soft curve steers fast only where necessary. The speed that it actually allows is the next to
+                    // attempt.
                     const double allowed = std::min(planned_, steeringSpeed(result.path));
                     SmoothPart faster;
                     for (double speed = 0.5 * planned_; speed > allowed; speed *= 0.5)
@@ -538,10 +542,10 @@ namespace parking
 
             double steeringSpeed(const Path &path) const
             {
-                double least = vehicle_.maxSpeed;
+                double speed = vehicle_.maxSpeed;
                 for (const PathPiece &piece : path.pieces)
-                    least = std::min(least, steeringLimit(vehicle_, piece));
-                return least;
+                    speed = std::min(speed, steeringLimit(vehicle_, piece));
+                return speed;
             }
 
             bool smoothAt(double speed, const Approach &approach, const StretchPart &part, SmoothPart &result)
@@ -555,7 +559,7 @@ namespace parking
                 const double length = part.arcs.length();
                 return smoother_.smooth(part, limits, approach.confined ? world_.clearance : nullptr,
                                         result.path.pieces) &&
-                       std::abs(result.path.length() - length) <= LARGEST_CHANGE_OF_LENGTH * length;
+                       std::abs(result.path.length() - length) <= MAX_LENGTH_CHANGE * length;
             }
 
             bool isFree(const SmoothPart &part) const
@@ -570,7 +574,7 @@ namespace parking
             double planned_{1.0};
         };
 
-        /** Appends what became of a stretch. */
+        /** Appends the parts of a stretch. */
         void append(SmoothPath &result, const std::vector<SmoothPart> &parts)
         {
             const std::size_t first = result.path.pieces.size();
@@ -579,7 +583,7 @@ namespace parking
             {
                 if (standing && first < result.path.pieces.size())
                     result.stops.push_back(result.path.pieces.size());
-                // After a stop a piece begins in any case; halves of an arc that was cut are one again.
+                // A new piece begins after a stop. Otherwise the halves of a cut arc are merged.
                 if (standing)
                     result.path.pieces.push_back(part.path.pieces.front());
                 result.path.extend(part.path.part(standing ? 1 : 0, part.path.pieces.size()));

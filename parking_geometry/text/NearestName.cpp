@@ -11,7 +11,8 @@ namespace parking
 {
     namespace
     {
-        /** Letters to change, leave out, add or swap with the next one, three rows of the table at a time. */
+        /** Edit distance with substitutions, deletions, insertions and swaps of neighbours, with three rows of the
+            table. */
         std::size_t editDistance(const std::string &a, const std::string &b)
         {
             std::vector<std::size_t> before, last, row(b.size() + 1);
@@ -32,7 +33,7 @@ namespace parking
             return row[b.size()];
         }
 
-        /** A third of the letters may be wrong, rounded up, or half of them missing; with more, any name were near. */
+        /** Whether at most a third of the letters differ, rounded up, or at most half of them are missing. */
         bool isNear(std::size_t distance, const std::string &name, const std::string &candidate)
         {
             const bool isShortened = name.size() + distance == candidate.size() && 2 * distance <= candidate.size();
@@ -49,7 +50,7 @@ namespace parking
 
     std::string nearestName(const std::string &name, const std::vector<std::string> &known)
     {
-        // Cut: no name has a thousand letters, and the table is quadratic.
+        // Cut to a reasonable length, because the table is quadratic.
         const std::string wanted = lowerCase(name.substr(0, 64));
         std::string best;
         std::size_t bestDistance = 0;
@@ -58,7 +59,7 @@ namespace parking
             const std::string lower = lowerCase(candidate);
             const std::size_t edits = editDistance(wanted, lower);
             std::size_t distance = 2 * edits;
-            // A part of a name, such as golf, is likelier meant than a name with two other letters.
+            // A part of a name, such as golf, is a better match than a name with two different letters.
             const bool isPart = wanted.size() > 2 && lower.find(wanted) != std::string::npos;
             if (isPart)
                 distance = std::min<std::size_t>(distance, 3);

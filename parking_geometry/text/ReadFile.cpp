@@ -15,7 +15,7 @@ namespace parking
         std::error_code ignored;
         if (std::filesystem::is_directory(file, ignored))
             throw Error(file + ": is a folder; a file is needed");
-        // Some never end.
+        // Some devices never end.
         if (std::filesystem::is_character_file(file, ignored) || std::filesystem::is_block_file(file, ignored))
             throw Error(file + ": is a device; a file is needed");
         const std::unique_ptr<std::FILE, int (*)(std::FILE *)> stream(std::fopen(file.c_str(), "rb"), std::fclose);

@@ -12,8 +12,8 @@
 namespace parking
 {
 #ifndef __cpp_lib_to_chars
-    // The C++ library of emscripten 3.1 reads and writes no floating-point numbers by <charconv>. Programs for browsers
-    // have no other locale than "C".
+    // The C++ library of emscripten 3.1 does not support floating-point numbers in <charconv>. Programs for browsers
+    // use only the locale "C".
     namespace
     {
         std::string shortest(double value, bool everyday)
@@ -24,7 +24,7 @@ namespace parking
                 std::snprintf(buffer, sizeof(buffer), "%.*g", digits, value);
                 if (std::strtod(buffer, nullptr) != value)
                     continue;
-                // As many digits in the notation that is wanted.
+                // The same digits in the required notation.
                 if (everyday)
                 {
                     const int exponent = value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
@@ -53,15 +53,15 @@ namespace parking
 
     std::string inQuotes(std::string_view text)
     {
-        constexpr std::size_t LONGEST = 60;
-        return "'" + oneLine(text.substr(0, LONGEST)) + (text.size() > LONGEST ? "...'" : "'");
+        constexpr std::size_t MAX_LENGTH = 60;
+        return "'" + oneLine(text.substr(0, MAX_LENGTH)) + (text.size() > MAX_LENGTH ? "...'" : "'");
     }
 
     std::string formatNumber(double value)
     {
         if (std::isnan(value))
             return "nan";
-        // Of numbers that people write out in full, the shortest form would be 1e+05.
+        // The shortest form of 100000 would be 1e+05.
         const bool everyday = value == 0.0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
 #ifdef __cpp_lib_to_chars
         char buffer[64];
@@ -78,7 +78,7 @@ namespace parking
     {
         if (std::isnan(value))
             return "nan";
-        std::array<char, 400> buffer;  // enough for the greatest number
+        std::array<char, 400> buffer;  // sufficient for the largest number
 #ifdef __cpp_lib_to_chars
         const std::to_chars_result end =
             std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
@@ -102,7 +102,7 @@ namespace parking
 
     bool parseNumber(std::string_view text, double &value)
     {
-        // from_chars knows no leading plus sign, and must not be given "+-1".
+        // from_chars rejects a leading plus sign, and "+-1" must stay invalid.
         if (text.size() > 1 && text[0] == '+' && text[1] != '-')
             text.remove_prefix(1);
         double number = 0.0;
@@ -111,7 +111,7 @@ namespace parking
         if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(number))
             return false;
 #else
-        // strtod reads more than decimal numbers.
+        // strtod accepts more than decimal numbers.
         if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string_view::npos || text[0] == '+')
             return false;
         const std::string copy(text);

@@ -22,7 +22,7 @@ namespace parking
             throw Error(file + ": cannot be written: " + std::strerror(error));
         }
 
-        /** Writes everything, or returns the error. */
+        /** Writes all of \e content. \return the error, or 0 */
         int writeAll(int descriptor, const std::string &content)
         {
             std::size_t done = 0;
@@ -37,7 +37,8 @@ namespace parking
             return 0;
         }
 
-        /** Closing may be the first to report a full disk (network drives), so its result counts. */
+        /** Closes the file and returns the error. On network drives, closing may be the first call to report a full
+            disk. */
         int closeChecked(int descriptor)
         {
             return ::close(descriptor) == 0 ? 0 : errno;
@@ -54,17 +55,17 @@ namespace parking
                 fail(file, written ? written : closed);
         }
 
-        /** Where a symbolic link leads to, also when nothing is there yet. */
+        /** The target of a symbolic link, which need not exist. */
         fs::path followLinks(fs::path file)
         {
             std::error_code error;
-            // The bound is the system's own for chains of links: a longer one is a ring.
+            // The bound is that of the system for chains of links. Longer chains are cycles.
             for (int links = 0; links < 40 && fs::is_symlink(fs::symlink_status(file, error)); ++links)
                 file = file.parent_path() / fs::read_symlink(file, error);
             return file;
         }
 
-        /** Permissions of the file that is replaced, or those that the process gives to new files. */
+        /** Permissions of the replaced file or, if there is none, the default for new files. */
         mode_t permissionsFor(const std::string &target)
         {
             struct stat status = {};

@@ -29,7 +29,7 @@ namespace parking
             require.positive("max_steering_rate", vehicle.maxSteeringRate, "rad/s");
             Vehicle car = vehicle;
             for (double Vehicle::*limit : {&Vehicle::maxSpeed, &Vehicle::maxAcceleration, &Vehicle::maxSteeringRate})
-                car.*limit = std::max(car.*limit, Vehicle::LEAST_LIMIT);
+                car.*limit = std::max(car.*limit, Vehicle::MIN_LIMIT);
             car.validate();
         }
 

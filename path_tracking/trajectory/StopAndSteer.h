@@ -14,7 +14,7 @@ namespace parking
         Between two standstills the speed rises and falls at the full acceleration; along clothoids it stays low enough
         for the steering rate.
 
-        \param vehicle its limits may be shares of a car's, and so less than Vehicle::LEAST_LIMIT; they are positive
+        \param vehicle its limits may be shares of a car's, and so less than Vehicle::MIN_LIMIT; they are positive
         \param initialSteering, finalSteering radians; without them the wheels are where the path begins and ends
         Throws parking::Error for a path that turns on the spot, never drives, is not finite, turns tighter than the
         car, or takes more than LONGEST_MOTION. */

@@ -8,7 +8,7 @@ const Formats = (() => {
   function readYaml(file, text) {
     let found;
     try { found = jsyaml.load(text, { schema: jsyaml.CORE_SCHEMA }); } catch (error) { fail(file, error.mark && error.mark.line + 1, error.reason || error.message); }
-    if (found === undefined || found === null) fail(file, 0, 'holds nothing but blanks');
+    if (found === undefined || found === null) fail(file, 0, 'contains only blanks');
     if (typeof found !== 'object' || Array.isArray(found)) fail(file, 0, "must be a mapping with lines such as 'key: value'");
     return found;
   }
@@ -106,7 +106,7 @@ const Formats = (() => {
     const corners = values.slice(7, 7 + count);
     if (corners.some(each => !Number.isInteger(each) || each < 3)) fail(file, 0, 'an obstacle needs at least 3 corners');
     const total = corners.reduce((sum, each) => sum + each, 0);
-    if (values.length - 7 - count !== 2 * total) fail(file, 0, `the vertex counts ask for ${2 * total} coordinates and the file holds ${values.length - 7 - count}`);
+    if (values.length - 7 - count !== 2 * total) fail(file, 0, `the vertex counts require ${2 * total} coordinates and the file holds ${values.length - 7 - count}`);
     let at = 7 + count;
     return { name: nameOf(file), vehicle: vehicle(file, 'tpcap', known), start: [values[0], values[1], wrap(values[2])], goals: [[values[3], values[4], wrap(values[5])]], slot: null,
       polygons: corners.map(n => Array.from({ length: n }, () => [values[at++], values[at++]])), map: null };

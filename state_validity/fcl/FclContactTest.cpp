@@ -28,7 +28,7 @@ namespace parking
             for (const double z : {-0.5 * HEIGHT, 0.5 * HEIGHT})
                 for (const Eigen::Vector2d &corner : outline)
                     vertices->emplace_back(corner.x() - centre.x(), corner.y() - centre.y(), z);
-            // Each face is its number of corners and their indices, counter-clockwise seen from outside.
+            // Each face is given by its number of corners and their indices, counter-clockwise from outside.
             auto faces = std::make_shared<std::vector<int>>();
             faces->push_back(count);
             for (int i = count - 1; i >= 0; --i)
@@ -65,20 +65,19 @@ namespace parking
         class FclWorld
         {
         public:
-            /** \brief \param halfLength, halfWidth of the boxes that will be asked about, in metres
+            /** \brief \param halfLength, halfWidth half lengths of the queried boxes in metres
 
-                Throws parking::Error when a polygon is not simple. */
+                Throws parking::Error if a polygon is not simple. */
             FclWorld(const ObstacleSet &obstacles, double halfLength, double halfWidth);
 
-            /** \brief Does the box touch any obstacle, in FCL's judgement? Its size is that given to the constructor.
-             */
+            /** \brief Whether the box touches an obstacle, by FCL. Its size must be that of the constructor. */
             bool collides(const OrientedBox &box) const;
 
         private:
             void add(const std::shared_ptr<fcl::CollisionGeometryd> &geometry, const fcl::Transform3d &pose);
             void addBox(const Eigen::Vector2d &min, const Eigen::Vector2d &max);
 
-            fcl::CollisionObjectd body_;  ///< copied for each question
+            fcl::CollisionObjectd body_;  ///< copied for each query
             std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
             fcl::DynamicAABBTreeCollisionManagerd manager_;
         };
@@ -135,7 +134,7 @@ namespace parking
             pose.linear()(1, 0) = box.sine;
             pose.linear()(1, 1) = box.cosine;
             pose.translation() = fcl::Vector3d(box.x, box.y, 0.0);
-            // A copy shares the shape; making another object would write to the shape, which other threads are reading.
+            // A copy shares the shape. Another object would write to the shape while other threads read it.
             fcl::CollisionObjectd body(body_);
             body.setTransform(pose);
             body.computeAABB();

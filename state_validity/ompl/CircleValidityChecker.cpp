@@ -15,7 +15,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double BEFORE_END = 1e-3;  // metres before an end that is not valid, where the motion is cut
+        constexpr double BEFORE_END = 1e-3;  // metres before an invalid end at which the motion is cut
 
         double checked(double radius)
         {

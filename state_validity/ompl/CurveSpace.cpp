@@ -20,7 +20,7 @@ namespace parking
 {
     namespace
     {
-        /** Longer than any curve in a world of doubles: what OMPL uses for "none". */
+        /** Length above that of every curve, which OMPL uses for "no curve". */
         constexpr double NO_CURVE = 1e100;
 
         template <class Space>
@@ -37,7 +37,7 @@ namespace parking
             curve.pieces[curve.count++] = {side / radius, length * radius};
         }
 
-        /** What \e ask answers about the states at two poses. */
+        /** The result of \e ask for states at two poses. */
         template <class Ask>
         auto withStates(const ob::StateSpace &space, const Pose &from, const Pose &to, const Ask &ask)
         {
@@ -52,7 +52,7 @@ namespace parking
             return ask(first.get(), second.get());
         }
 
-        /** Two states whose difference is a turn on the spot: the length of their curve for radius 1 is a constant. */
+        /** Two states at one position with different headings. The length of their curve for radius 1 is a constant. */
         template <class Length>
         double recoverRadius(const ob::StateSpace &space, const Length &lengthForUnitRadius)
         {

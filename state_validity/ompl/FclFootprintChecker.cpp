@@ -14,7 +14,7 @@ namespace parking
 {
     namespace
     {
-        /** Bad values reach OMPL's users as the exception that they expect from everything else in OMPL. */
+        /** Converts errors for invalid values into OMPL's exception, which users of OMPL expect. */
         template <class Obstacles>
         std::shared_ptr<const FootprintChecker> build(const Obstacles &makeObstacles, const Vehicle &vehicle,
                                                       double margin)

@@ -22,10 +22,9 @@ namespace parking
     namespace
     {
         constexpr double MAX_TOLERANCE = 0.1;
-        // Where clearances decide: nearer than these parts of the tolerance nothing is proven, on the way and at an
-        // end.
-        constexpr double CLOSEST = 0.1, CLOSEST_END = 1e-4;
-        constexpr int MOST_TIGHT = 4096;  // questions nearer than the tolerance, which prove little each
+        // Smallest clearances that prove a motion free, as shares of the tolerance: along the motion and at its ends.
+        constexpr double MIN_CLEARANCE = 0.1, MIN_END_CLEARANCE = 1e-4;
+        constexpr int MAX_TIGHT_CHECKS = 4096;  // with a clearance below the tolerance, which prove only short parts
 
         std::shared_ptr<const FootprintChecker> footprintOf(const ob::SpaceInformationPtr &si)
         {
@@ -37,7 +36,7 @@ namespace parking
             return checker->sharedFootprint();
         }
 
-        /** The box round the way of the rear axle along an arc. */
+        /** The bounding box of the rear axle's path along an arc. */
         Box extents(const Pose &from, double curvature, double length)
         {
             const Pose to = advance(from, curvature, length);
@@ -55,13 +54,13 @@ namespace parking
 
         bool isWithin(const Box &box, const ob::RealVectorBounds &bounds)
         {
-            // As tolerant as RealVectorStateSpace::satisfiesBounds, and of the rounding of a curve on top.
+            // The tolerance of RealVectorStateSpace::satisfiesBounds() and a margin for the rounding of a curve.
             constexpr double SLACK = 1e-9;
             return box.min.x() >= bounds.low[0] - SLACK && box.min.y() >= bounds.low[1] - SLACK &&
                    box.max.x() <= bounds.high[0] + SLACK && box.max.y() <= bounds.high[1] + SLACK;
         }
 
-        /** How far the rear axle drives along an arc within the bounds: |length| when all of it is. */
+        /** Length that the rear axle drives along an arc within the bounds, at most |length|. */
         double lengthWithin(const ob::RealVectorBounds &bounds, const Pose &from, double curvature, double length)
         {
             if (isWithin(extents(from, curvature, length), bounds))
@@ -114,8 +113,8 @@ namespace parking
         }
         ompl_compatibility::countUp(invalid_);
 
-        // OMPL's contract: the state handed back is valid by the space information's own checker, which may know more
-        // than the footprint. It may also be stored in place of s1 or s2, so it is made elsewhere.
+        // OMPL requires that the returned state is valid by the checker of the space information, which may test more
+        // than the footprint. The returned state may share memory with s1 or s2, so a temporary state is used.
         const auto release = [this](ob::State *state)
         {
             si_->freeState(state);
@@ -197,7 +196,7 @@ namespace parking
             return advance(from, arc.curvature, std::copysign(driven, arc.length));
         };
         const double rest = std::abs(arc.length) - free;
-        // Mostly the body collides just beyond.
+        // In most cases the body collides immediately beyond.
         if (!footprint_->isFree(at(free + std::min(rest, 2.0 * tolerance_)), counts))
             return false;
         return proveByClearances([&](double t) { return at(free + t * rest); },
@@ -207,11 +206,11 @@ namespace parking
 
     double SweptMotionValidator::toleranceBetween(const Pose &from, const Pose &to, CheckCounts &counts) const
     {
-        double tolerance = CLOSEST * tolerance_;
+        double tolerance = MIN_CLEARANCE * tolerance_;
         for (const Pose &pose : {from, to})
             if (!footprint_->keeps(pose, 2.0 * tolerance, counts))
                 tolerance = std::min(tolerance, 0.5 * footprint_->exactClearance(pose));
-        return std::max(tolerance, CLOSEST_END * tolerance_);
+        return std::max(tolerance, MIN_END_CLEARANCE * tolerance_);
     }
 
     SweptMotionValidator::Proof SweptMotionValidator::proveLine(const Pose &from, const Pose &to, bool exact,
@@ -232,7 +231,7 @@ namespace parking
                                                                         CheckCounts &counts) const
     {
         const double length = moved * (1.0 + 1e-9) + 1e-12;
-        // Stretches still to be proven free, the earliest on top: all before its begin is proven.
+        // Parts still to be proven free, the earliest on top. Everything before its beginning is proven.
         std::array<std::pair<double, double>, 128> open;
         std::size_t count = 0;
         open[count++] = {0.0, 1.0};
@@ -254,11 +253,11 @@ namespace parking
             proven = begin;
             if (clearance > 0.0 && clearance < tolerance && tolerance == tolerance_)
                 tolerance = toleranceBetween(at(0.0), at(1.0), counts);
-            if (clearance < tolerance_ && ++tight > MOST_TIGHT)
+            if (clearance < tolerance_ && ++tight > MAX_TIGHT_CHECKS)
                 break;
             if (clearance < tolerance)
             {
-                // Not free here, or too near to tell; all that matters now is how much is free before.
+                // This pose is not proven free, so only the part before it still matters.
                 if (!exact || half < tolerance)
                     break;
                 count = 0;

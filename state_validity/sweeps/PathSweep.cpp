@@ -7,21 +7,21 @@ namespace parking
 {
     namespace
     {
-        /** By which the body is enlarged on all sides, metres: what freeLength() takes when nothing is said... */
-        constexpr double USUAL_ENLARGEMENT = 1e-3;
+        /** Enlargement of the body on all sides in metres, the default of freeLength(). */
+        constexpr double DEFAULT_ENLARGEMENT = 1e-3;
 
-        /** ...and what is left for rounding where a path has to touch nothing and no more. */
-        constexpr double LEAST_ENLARGEMENT = 1e-5;
+        /** Enlargement in metres that only covers rounding, for paths that must touch no obstacle. */
+        constexpr double MIN_ENLARGEMENT = 1e-5;
 
-        /** From the arcs that are swept in the place of a clothoid; a share of the enlargement. */
+        /** Largest deviation of a clothoid from the arcs that replace it, as a share of the enlargement. */
         constexpr double DEVIATION = 0.1;
 
-        /** How paths are swept. */
+        /** Parameters of the sweeps. */
         struct Sweeping
         {
             const FootprintChecker &checker;
             double enlargement;
-            bool bothWays;  ///< backwards as well: a sweep is more patient with what is near where it begins
+            bool bothWays;  ///< also backwards, because a sweep tolerates nearer obstacles at its beginning
         };
 
         FootprintQueries poseQueriesOf(const FootprintChecker &checker)
@@ -47,7 +47,7 @@ namespace parking
             return isPathFree(poseQueriesOf(checker), body, Path{pose, {turn}});
         }
 
-        /** Is it free to drive \e arc from where the sweep begins? */
+        /** Whether \e arc is free from the start of the sweep. */
         bool isArcFree(const Sweeping &sweeping, const FootprintChecker::SweepStart &start, const PathPiece &arc)
         {
             CheckCounts counts;
@@ -57,19 +57,20 @@ namespace parking
         bool isArcFree(const Sweeping &sweeping, const Pose &from, const PathPiece &arc)
         {
             CheckCounts counts;
-            const auto isFree = [&](const Pose &begin, const PathPiece &way)
+            const auto isFree = [&](const Pose &begin, const PathPiece &drive)
             {
-                return isArcFree(sweeping, sweeping.checker.sweepStart(begin, sweeping.enlargement, counts), way);
+                return isArcFree(sweeping, sweeping.checker.sweepStart(begin, sweeping.enlargement, counts), drive);
             };
             return isFree(from, arc) || (sweeping.bothWays && isFree(advance(from, arc), {arc.curvature, -arc.length}));
         }
 
-        /** By arcs from which the body deviates by less than \e deviation metres. Where a sweep begins so near to an
-            obstacle that it enlarges the body by less than covers that, the arcs are divided. */
+        /** Whether \e clothoid is free, by arcs from which the body deviates by less than \e deviation metres. If a
+            sweep begins so near to an obstacle that its enlargement does not cover the deviation, the arcs are
+            divided. */
         bool isClothoidFree(const Sweeping &sweeping, const Pose &from, const PathPiece &clothoid, double deviation)
         {
-            // Parts of a quarter of the length. No sweep enlarges the body by less than a part of a nanometre, so that
-            // dividing ends soon.
+            // The factor divides parts by four. Every enlargement is at least a fraction of a nanometre, so the
+            // division ends soon.
             constexpr double FINER = 1.0 / 16.0;
             double driven = 0.0;
             const auto isPartFree = [&](const Pose &begin, const PathPiece &arc)
@@ -77,12 +78,12 @@ namespace parking
                 const PathPiece part{clothoid.curvatureAt(driven), arc.length, clothoid.sharpness};
                 driven += arc.driven();
                 double covered = 0.0;
-                const auto isFree = [&](const Pose &pose, const PathPiece &way)
+                const auto isFree = [&](const Pose &pose, const PathPiece &drive)
                 {
                     CheckCounts counts;
                     const auto start = sweeping.checker.sweepStart(pose, sweeping.enlargement, counts);
                     if (deviation <= DEVIATION * start.enlargement)
-                        return isArcFree(sweeping, start, way);
+                        return isArcFree(sweeping, start, drive);
                     covered = std::max(covered, DEVIATION * start.enlargement);
                     return false;
                 };
@@ -90,10 +91,10 @@ namespace parking
                        (sweeping.bothWays && isFree(advance(begin, arc), {arc.curvature, -arc.length})) ||
                        (covered > 0.0 && isClothoidFree(sweeping, begin, part, std::min(covered, FINER * deviation)));
             };
-            // Each part of the length h becomes the arc of its mean curvature, begun where the part begins on the
-            // clothoid, so that nothing adds up. On the way the heading differs by at most |s| h^2 / 8, s being the
-            // sharpness, and the position by at most |s| h^3 / 12: no point of the body, within r of the rear axle,
-            // deviates by more than |s| h^2 (r / 8 + h / 12).
+            // Each part of the length h becomes the arc of its mean curvature. It begins on the clothoid, so errors do
+            // not accumulate. With the sharpness s, the heading deviates by at most |s| h^2 / 8 and the position by at
+            // most |s| h^3 / 12. No point of the body, within r of the rear axle, deviates by more than |s| h^2 (r / 8
+            // + h / 12).
             const double length = clothoid.driven(), reach = sweeping.checker.farthestPoint();
             const double share = std::abs(clothoid.sharpness) * (reach / 8.0 + length / 12.0) / deviation;
             const int count = 1 + static_cast<int>(length * std::sqrt(share));
@@ -120,19 +121,19 @@ namespace parking
                     return false;
                 pose = advance(pose, piece);
             }
-            // The sweep looks at the pose where it begins.
+            // A sweep checks its first pose.
             return sweeping.checker.isFree(path.end());
         }
     }  // namespace
 
     bool isPathFree(const FootprintChecker &checker, const Path &path)
     {
-        return isPathFree({checker, USUAL_ENLARGEMENT, false}, path);
+        return isPathFree({checker, DEFAULT_ENLARGEMENT, false}, path);
     }
 
     bool touchesNothing(const FootprintChecker &checker, const Path &path)
     {
-        return isPathFree(checker, path) || isPathFree({checker, LEAST_ENLARGEMENT, true}, path);
+        return isPathFree(checker, path) || isPathFree({checker, MIN_ENLARGEMENT, true}, path);
     }
 
     FootprintQueries queriesOf(const FootprintChecker &checker)

@@ -6,12 +6,12 @@ namespace parking
 {
     namespace
     {
-        // Arcs of a larger radius, in metres, lose digits when told from their centre.
-        constexpr double LARGEST_RADIUS = 1e4;
-        constexpr double LARGEST_TURN = 1.01;  // radians
-        // How much wider than the box the turning circle must be.
+        // Arcs of a larger radius in metres lose digits relative to their centre.
+        constexpr double MAX_RADIUS = 1e4;
+        constexpr double MAX_TURN = 1.01;  // radians
+        // Smallest ratio of the turning circle to the box.
         constexpr double CLEAR_OF_BOX = 1.02;
-        constexpr double SLACK = 1e-4;  // metres, on what bounds the swept area: more than moves within OVERRUN
+        constexpr double SLACK = 1e-4;  // metres added to the bounds of the swept area, above the motion within OVERRUN
     }                                   // namespace
 
     bool SweepFront::applies(const BoxSweep &sweep)
@@ -19,8 +19,8 @@ namespace parking
         if (sweep.curvature == 0.0)
             return true;
         const double curvature = std::abs(sweep.curvature);
-        return curvature * LARGEST_RADIUS >= 1.0 && curvature * CLEAR_OF_BOX * sweep.halfWidth <= 1.0 &&
-               curvature * sweep.length <= LARGEST_TURN && std::abs(sweep.axle) <= sweep.halfLength;
+        return curvature * MAX_RADIUS >= 1.0 && curvature * CLEAR_OF_BOX * sweep.halfWidth <= 1.0 &&
+               curvature * sweep.length <= MAX_TURN && std::abs(sweep.axle) <= sweep.halfLength;
     }
 
     SweepFront::SweepFront(const OrientedBox &box, const BoxSweep &sweep, double middleCosine, double middleSine)
@@ -73,8 +73,8 @@ namespace parking
         farthest_ = std::max(frontOuter_.square, rearOuter_.square);
         limit_ = 2.0 * middleSine * middleCosine + OVERRUN / radius_;
 
-        // Half way, with the centre of the arc for the origin; the box of what is swept is as wide as the sines of the
-        // angles from there allow.
+        // The frame half way, with the centre of the arc as origin. The sines of the angles determine the bounding box
+        // of the swept area.
         mx_ = cx_;
         my_ = cy_;
         mdx_ = middleCosine * dx_ + middleSine * lx_;
@@ -83,7 +83,7 @@ namespace parking
         high_ = front_ + outer_ * middleSine + SLACK;
         low_ = -back_ - outer_ * middleSine - SLACK;
         const double near = -inner_ * middleCosine + reach, far = -outer_ - reach;
-        // Towards the centre is left for a motion that turns left.
+        // The direction towards the centre is left for a motion that turns left.
         left_ = turning_ > 0.0 ? near : -far;
         right_ = turning_ > 0.0 ? far : -near;
     }

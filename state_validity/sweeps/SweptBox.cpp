@@ -8,8 +8,8 @@ namespace parking
 {
     namespace
     {
-        /** Tries the roots of A q^2 + 2 B q + C = 0 in [0, limit) through \e accept; the smallest one that it takes
-            becomes the limit. */
+        /** Tests the roots of A q^2 + 2 B q + C = 0 in [0, limit) with \e accept. The smallest accepted one becomes the
+            limit. */
         template <class Accept>
         void solve(double A, double B, double C, double &limit, const Accept &accept)
         {
@@ -31,8 +31,8 @@ namespace parking
 
     double firstContact(const BoxSweep &sweep, double ax, double ay, double bx, double by)
     {
-        // Driving in reverse is driving forwards seen in a mirror, x for -x, and the curvature stays. Everything
-        // relative to the rear axle.
+        // A drive in reverse is the mirror image (x, -x) of a drive forwards with the same curvature. All coordinates
+        // are relative to the rear axle.
         const double k = sweep.curvature, axle = sweep.axle * sweep.direction;
         const double front = sweep.halfLength - axle, back = -sweep.halfLength - axle, side = sweep.halfWidth;
         ax = ax * sweep.direction - axle;

@@ -50,7 +50,7 @@ namespace
             return makeScenario(scenario, "here").goals;
         };
         const std::vector<Pose> here = goals(0.0);
-        for (const double far : {4e9, -5.5e9, FARTHEST_COORDINATE})
+        for (const double far : {4e9, -5.5e9, MAX_COORDINATE})
         {
             const std::vector<Pose> there = goals(far);
             ASSERT_EQ(there.size(), 2u);
@@ -91,7 +91,7 @@ namespace
         {
             s = somePlace(x, 0.0);
         };
-        const double beyond = std::nextafter(FARTHEST_COORDINATE, 2e10);
+        const double beyond = std::nextafter(MAX_COORDINATE, 2e10);
         for (const double sign : {-1.0, 1.0})
         {
             expect([&](Scenario &s) { move(s, sign * beyond); }, "here: the start lies at ");
@@ -99,8 +99,8 @@ namespace
                    std::string(sign < 0.0 ? "at -" : "at ") +
                        "5000000000000, 0; coordinates of at most 10000000000 m are supported");
             Scenario last;
-            move(last, sign * FARTHEST_COORDINATE);
-            EXPECT_EQ(makeScenario(last, "here").worldOffset.x(), sign * FARTHEST_COORDINATE);
+            move(last, sign * MAX_COORDINATE);
+            EXPECT_EQ(makeScenario(last, "here").worldOffset.x(), sign * MAX_COORDINATE);
         }
         expect([](Scenario &s) { s.polygons.front().pop_back(); }, "polygon 1 has 2 corners");
         expect([nan](Scenario &s) { s.polygons.front()[1].y() = nan; }, "polygon 1: corner 2");

@@ -85,13 +85,13 @@ TEST(ParkingSlot, WhatIsWrongIsNamed)
     {
         expectError([&] { spoiled(spoil).goals(car); }, words);
     };
-    const double nan = std::numeric_limits<double>::quiet_NaN(), far = std::nextafter(FARTHEST_COORDINATE, 2e10);
+    const double nan = std::numeric_limits<double>::quiet_NaN(), far = std::nextafter(MAX_COORDINATE, 2e10);
     good([&](ParkingSlot &slot) { slot.length = car.length(), slot.width = car.width; });
     good([](ParkingSlot &slot) { slot.depth = 0.5; });
     good([](ParkingSlot &slot) { slot.lateralOffset = -0.2; });
     good([](ParkingSlot &slot) { slot.angle = 0.5 * PI; });
     good([](ParkingSlot &slot) { slot.kind = SlotKind::Perpendicular, slot.angle = -1.0; });
-    good([](ParkingSlot &slot) { slot.pose.x = -FARTHEST_COORDINATE, slot.pose.y = FARTHEST_COORDINATE; });
+    good([](ParkingSlot &slot) { slot.pose.x = -MAX_COORDINATE, slot.pose.y = MAX_COORDINATE; });
     bad({"slot", "length", "12.3 cm", "4.689 m"}, [&](ParkingSlot &slot) { slot.length = car.length() - 0.123; });
     bad({"slot", "width", "2 cm", "1.942 m"}, [&](ParkingSlot &slot) { slot.width = car.width - 0.02; });
     bad({"depth", "1 cm", "outside", "0.5"}, [](ParkingSlot &slot) { slot.depth = 0.51; });

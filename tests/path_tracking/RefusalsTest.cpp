@@ -177,7 +177,7 @@ namespace parking::test
             const Path path = arcs({}, {{0.0, 2.0}});
             Vehicle broken, slow;
             broken.wheelbase = -1.0;
-            slow.maxSpeed = Vehicle::LEAST_LIMIT;
+            slow.maxSpeed = Vehicle::MIN_LIMIT;
             expectError([&] { ReferencePath(path, broken); }, {"wheelbase"});
             expectError([&] { ClosedLoop{broken}; }, {"wheelbase"});
             expectError([&] { Mpc(broken, {}); }, {"wheelbase"});
@@ -198,7 +198,7 @@ namespace parking::test
             expectError([&motion] { ClosedLoop{Vehicle()}.follow(motion); },
                         {"it takes 1000000002 s", "at most 20000 s"});
             Vehicle slow;
-            slow.maxSpeed = Vehicle::LEAST_LIMIT;
+            slow.maxSpeed = Vehicle::MIN_LIMIT;
             expectError([&slow] { ClosedLoop(slow).drive({{}, {{0.0, 1e5}}}); }, {"the path takes", "at most 20000 s"});
         }
 

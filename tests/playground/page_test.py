@@ -279,7 +279,7 @@ class PageTest(unittest.TestCase):
                 ('a.yaml', 'start: [0, 0, 0]\nstart: [0, 0, 0]\n', 'duplicated mapping key'),
                 ('a.yaml', 'start: [0, 0, 0\n', 'within a flow collection'),
                 ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 0, 0]\nmap: other.yaml\n', 'is not here'),
-                ('a.csv', '1,2,3,4,5,6,1,4,0,0\n', 'the vertex counts ask for 8 coordinates'),
+                ('a.csv', '1,2,3,4,5,6,1,4,0,0\n', 'the vertex counts require 8 coordinates'),
                 ('a.csv', '1,2,x,4,5,6,0\n', "number 3 is 'x'"),
                 ('a.bin', 'nothing of the kind', 'is no scenario')):
             self.ask(f'playground.openFiles([new File([{json.dumps(content)}], {json.dumps(name)})])')

@@ -160,7 +160,7 @@ def test_scenarios_are_read_from_files_and_pipes():
     assert numpy.array_equal(piped.grid, read.grid) and read.unknown_is_occupied
     assert read.files[0] == file and [os.path.basename(each) for each in read.files[1:]] == [
         'underground_garage_map.yaml', 'underground_garage.pgm']
-    with pytest.raises(ia.Error, match='^pipe: holds nothing but blanks'):
+    with pytest.raises(ia.Error, match='^pipe: contains only blanks'):
         ia.Scenario.read('pipe', text=b' ')
     with pytest.raises(ia.Error, match='^Case07.mat: .*parking_convert Case07.mat Case07.yaml$'):
         ia.Scenario.read('Case07.mat', text=b'MATLAB 5.0 MAT-file')

@@ -194,7 +194,7 @@ namespace parking::search
     bool GridModel::isTurnFree(const Pose &from, double turn)
     {
         // In parts, since half a circle could be meant either way.
-        const double parts = std::ceil(std::abs(turn) / PathPiece::LONGEST_TURN);
+        const double parts = std::ceil(std::abs(turn) / PathPiece::MAX_TURN);
         Pose pose = from;
         for (double part = 1.0; part <= parts; part += 1.0)
         {

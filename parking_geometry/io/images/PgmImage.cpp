@@ -25,8 +25,8 @@ namespace parking
             {
             }
 
-            /** The next whole number; throws when there is none, or it is above \e most. */
-            std::size_t take(const char *what, std::size_t most)
+            /** The next whole number. Throws if it is missing, invalid or above \e limit. */
+            std::size_t take(const char *what, std::size_t limit)
             {
                 skipBlanks();
                 const std::size_t begin = position_;
@@ -36,9 +36,9 @@ namespace parking
                 if (word.empty())
                     throw Error(file_ + ": truncated: the file ends before " + what);
                 std::size_t value = 0;
-                if (!parseCount(word, value) || value > most)
+                if (!parseCount(word, value) || value > limit)
                     throw Error(file_ + ": " + what + " is " + inQuotes(word) + "; it must be a whole number up to " +
-                                std::to_string(most));
+                                std::to_string(limit));
                 return value;
             }
 
@@ -122,15 +122,15 @@ namespace parking
     {
         const bool raw = bytes[1] == '5';
         PgmWords words(file, bytes, 2);
-        const std::size_t longest = std::size_t(1) << 31;
-        const std::size_t width = words.take("the width", longest);
-        const std::size_t height = words.take("the height", longest);
+        const std::size_t maxSide = std::size_t(1) << 31;
+        const std::size_t width = words.take("the width", maxSide);
+        const std::size_t height = words.take("the height", maxSide);
         const std::size_t white = words.take("the largest value", 65535);
         checkImageSize(file, width, height);
         if (white == 0)
             throw Error(file + ": the largest value is 0; it must be 1 to 65535");
 
-        // Before any memory is taken: a pixel needs at least a byte, or a digit and a blank.
+        // Check before the allocation: a pixel takes at least a byte, or a digit and a blank.
         const std::size_t left = bytes.size() - words.position();
         if ((raw ? left : (left + 1) / 2) < width * height)
             throw Error(file + ": truncated: it announces " + sizeText(width, height) + " and holds " +

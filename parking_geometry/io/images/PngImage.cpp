@@ -7,7 +7,7 @@ namespace parking
 {
     namespace
     {
-        /** libpng's image, whose memory is given back in any case. */
+        /** An image of libpng that releases its memory. */
         struct Image : png_image
         {
             Image() : png_image()
@@ -22,8 +22,7 @@ namespace parking
             Image &operator=(const Image &) = delete;
         };
 
-        /** Bits of a pixel as the file has it. The header, which is valid, has its depth and type in bytes 24 and 25.
-         */
+        /** Bits of a pixel in the file. Bytes 24 and 25 of the valid header contain its depth and type. */
         std::size_t bitsPerPixel(const std::string &bytes)
         {
             const int type = bytes[25];
@@ -43,8 +42,8 @@ namespace parking
         };
         require(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
         checkImageSize(file, image.width, image.height);
-        // Deflate packs at most 1032 times: a larger announcement is no image, and must not make us take the memory for
-        // it.
+        // The compression ratio of deflate is at most 1032. A larger declared image is invalid and must not cause its
+        // allocation.
         if (image.width * bitsPerPixel(bytes) / 8 > 1032 * bytes.size() / image.height)
             throw Error(file + ": truncated: it announces " + std::to_string(image.width) + " x " +
                         std::to_string(image.height) + " pixels and is " + std::to_string(bytes.size()) +

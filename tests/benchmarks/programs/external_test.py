@@ -43,7 +43,7 @@ class External(ProgramTest):
         self.assertEqual(self.outcome('true', status=4)['status'], 'infeasible')
         begin = time.monotonic()
         self.assertEqual(self.outcome('sleep 1000', status=4, limit=0.5)['status'], 'timeout')
-        self.assertEqual(self.outcome('yes ""', status=4)['status'], 'exception')  # it does not stop printing
+        self.assertEqual(self.outcome('yes ""', status=4)['status'], 'exception')  # endless output
         self.assertLess(time.monotonic() - begin, 60.0)
 
     def test_in_a_comparison_each_is_an_outcome_of_its_runs(self):
@@ -63,7 +63,7 @@ class External(ProgramTest):
         self.assertEqual(len(found), 1 + len(commands))
         self.assertTrue(found['reeds_shepp'][1] and found['good'][1] and found['talks'][1], found)
         self.assertFalse(any(found[name][1] for name in commands if name not in ('good', 'talks')))
-        for name, words in (('nonsense', 'line 1 of the program is no pose'), ('numbers', 'no pose'),
+        for name, words in (('nonsense', 'line 1 of the program is not a pose'), ('numbers', 'not a pose'),
                             ('fails', 'status 3'), ('missing', 'status 127')):
             self.assertEqual(found[name][0], 6)  # an exception
             self.assertIn(words, found[name][2])

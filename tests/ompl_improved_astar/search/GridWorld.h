@@ -164,7 +164,7 @@ namespace parking_test
         for (const parking::PathPiece &piece : path.pieces)
         {
             const parking::Pose from = poses.back(), pose = advance(from, piece);
-            if (std::abs(piece.turn) > parking::PathPiece::LONGEST_TURN)
+            if (std::abs(piece.turn) > parking::PathPiece::MAX_TURN)
                 poses.push_back({from.x, from.y, parking::wrapAngle(from.yaw + 0.5 * piece.turn)});
             poses.push_back({snapped(pose.x), snapped(pose.y), parking::wrapAngle(pose.yaw)});
         }

@@ -229,8 +229,8 @@ namespace
         for (const Verdict &verdict : {curve, line})
         {
             EXPECT_EQ(verdict.fault, Fault::Collision);
-            EXPECT_EQ(verdict.collisions, Referee::MOST_COLLISIONS);
-            EXPECT_LT(verdict.states, Referee::MOST_COLLISIONS + 100000);
+            EXPECT_EQ(verdict.collisions, Referee::MAX_COLLISIONS);
+            EXPECT_LT(verdict.states, Referee::MAX_COLLISIONS + 100000);
         }
     }
 

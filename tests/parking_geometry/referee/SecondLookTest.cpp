@@ -211,11 +211,11 @@ namespace
             double dense = INFINITY;
             for (const Pose &pose : allPoses(path, referee.space().farthestPoint()))
                 dense = std::min(dense, referee.space().clearance(pose, dense));
-            const double found = referee.leastClearance(path);
+            const double found = referee.minClearance(path);
             // Between two poses the body comes no nearer than half a step.
             ASSERT_GE(found, dense - 0.5 * Referee::STEP - 1e-9) << i;
             ASSERT_LE(found, dense + std::max(Referee::CLEARANCE, 0.01 * dense) + 1e-9) << i;
-            const double lines = referee.leastClearance(std::vector<Pose>{path.start, path.end()});
+            const double lines = referee.minClearance(std::vector<Pose>{path.start, path.end()});
             ASSERT_LE(lines, referee.space().clearance(path.start, INFINITY) + 1e-12);
             known += dense > 0.0 ? 1 : 0;
         }
@@ -241,11 +241,11 @@ namespace
         const Verdict good = free.check(path);
         EXPECT_TRUE(good.valid) << good.reason;
         EXPECT_GT(good.states, 2000000U);
-        const double least = free.leastClearance(path);
+        const double least = free.minClearance(path);
         EXPECT_GT(least, 1.0);
         EXPECT_LT(least, 2.5);
         scenario.polygons.push_back({{7654.0, 0.9}, {7654.01, 0.9}, {7654.01, 0.91}, {7654.0, 0.91}});
         EXPECT_EQ(Referee(scenario).check(path).fault, Fault::Collision);
-        EXPECT_EQ(Referee(scenario).leastClearance(path), 0.0);
+        EXPECT_EQ(Referee(scenario).minClearance(path), 0.0);
     }
 }  // namespace

@@ -151,7 +151,7 @@ namespace parking
         TEST(TrajectoryInput, WhatTakesTooLongIsRefusedOrDrivenAsItIs)
         {
             Vehicle slow;
-            slow.maxSpeed = slow.maxAcceleration = slow.maxSteeringRate = Vehicle::LEAST_LIMIT;
+            slow.maxSpeed = slow.maxAcceleration = slow.maxSteeringRate = Vehicle::MIN_LIMIT;
             const auto along = [](double metres)
             {
                 return Path{{-200.0, 0.0, 0.0}, {{0.0, metres}}};
