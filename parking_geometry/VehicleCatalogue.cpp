@@ -69,8 +69,8 @@ namespace parking
 
         /** Mean steering angle of a car whose outer front tyre draws a circle of diameter \e circle.
 
-            Ackermann: that tyre runs at the radius sqrt(wheelbase^2 + (R + track / 2)^2) about the turning centre, R
-            being the radius of the rear axle's midpoint. */
+            By Ackermann steering, this tyre has the radius sqrt(wheelbase^2 + (R + track / 2)^2) about the turning
+            centre. R is the radius of the rear axle's midpoint. */
         double steeringOfCircle(double circle, double wheelbase, double width)
         {
             const double radius = std::sqrt(0.25 * circle * circle - wheelbase * wheelbase) - HALF_TRACK * width;

@@ -28,8 +28,8 @@ namespace parking
 
         /** \brief Share of the straight line between two points along which the circle is free, 1 for the whole line.
 
-            If an obstacle is near, the share ends where the distance to an obstacle falls below a millimetre, or below
-            the distance at the start if that is smaller. The circle at \e from must be free. */
+            The share ends where the distance to an obstacle falls below a millimetre, or below that at the start if it
+            is smaller. The circle at \e from must be free. */
         double freeShare(const Pose &from, const Pose &to) const;
 
     private:

@@ -139,13 +139,13 @@ namespace parking
         if (!isFinite(pose))
             return false;
         const OrientedBox box = boxAt(obstacles_.toLocal(pose));
-        const DistanceField::Bounds room = field_.bounds(box.x, box.y);
-        if (room.lower > circumradius_)
+        const DistanceField::Bounds bounds = field_.bounds(box.x, box.y);
+        if (bounds.lower > circumradius_)
         {
             ++counts.byField;
             return true;
         }
-        if (room.upper < inradius_)
+        if (bounds.upper < inradius_)
         {
             ++counts.byField;
             return false;

@@ -1,5 +1,5 @@
-// A planner in a separate library. It samples random poses until one is reachable from the start and the goal is
-// reachable from it. parking_plan and parking_benchmark load it with --plugin; see docs/benchmarking.md.
+// A planner in a separate library. It samples random poses until one connects the start and the goal by two free
+// motions. parking_plan and parking_benchmark load it with --plugin; see docs/benchmarking.md.
 
 #include <ompl_improved_astar/PlannerPlugin.h>
 
@@ -64,7 +64,7 @@ namespace
 
     void addPlanners(parking::PluginPlanners &planners)
     {
-        planners.add({"via", "by way of one random pose",
+        planners.add({"via", "through one random pose",
                       [](const ob::SpaceInformationPtr &si) { return std::make_shared<ViaPlanner>(si); }, false});
     }
 }  // namespace

@@ -117,9 +117,9 @@ namespace parking
 
         /** Calls emit(word, length) for each word; words longer than emit.cap() are not required.
 
-            The words are those that begin with a forward left turn, under the symmetries of the article: driven
-            backwards in time (x -> -x, phi -> -phi), mirrored (y -> -y, phi -> -phi) and both; and, for words that are
-            not their own reverse, from the goal to the start. Each symmetry changes the angles of the centres in a
+            The words begin with a forward left turn. The symmetries of the article yield the others: driven backwards
+            in time (x -> -x, phi -> -phi), mirrored (y -> -y, phi -> -phi) and both. Words that are not their own
+            reverse are also driven from the goal to the start. Each symmetry changes the angles of the centres in a
             simple way. */
         template <class Emit>
         void enumerate(double x, double y, double phiGiven, Emit &emit)

@@ -19,8 +19,8 @@ namespace parking
 
         y' = psi,  psi' = (k - kRef) - kRef^2 y,  k' = u   (first order in the deviations)
 
-        The program minimises the integral of (y^2 + lever^2 psi^2) / tolerance^2 + (u / uSoft)^2 under |k| <= kMax and
-        |u| <= uMax per interval. At a node with a corridor, y + front psi and y - rear psi must lie in it. At both ends
+        The program minimises the integral of (y^2 + lever^2 psi^2) / tolerance^2 + (u / uSoft)^2. In each interval |k|
+        <= kMax and |u| <= uMax. At a node with a corridor, y + front psi and y - rear psi must lie in it. At both ends
         y and psi are 0, and k is free or given.
 
         The solver is a primal-dual interior point method whose linear systems are Riccati recursions. Its effort is

@@ -59,9 +59,9 @@ namespace parking
 
         /** The obstacles as bodies of FCL, in the local frame.
 
-            Polygons become convex prisms of two metres height, rectangles boxes, the outside of the bounds four boxes;
-           a dynamic tree of axis-parallel boxes is the broad phase. The narrow phase is libccd's (the independent
-           solver misses deep penetrations of convex bodies). Const calls from several threads are safe. */
+            Polygons become convex prisms of two metres height, rectangles boxes, the outside of the bounds four boxes.
+            A dynamic tree of axis-parallel boxes is the broad phase. The narrow phase is libccd's (the independent
+            solver misses deep penetrations of convex bodies). Const calls from several threads are safe. */
         class FclWorld
         {
         public:

@@ -41,8 +41,8 @@ namespace parking
         const double start = halfTurn < 1e-8 ? 0.5 * sweep.length * (1.0 + 1e-12) : std::tan(halfTurn) / std::abs(k);
         double limit = start;
 
-        // With q = tan(turn / 2) / k: cosine = (1 - k^2 q^2) / w, sine = 2 k q / w, where w = 1 + k^2 q^2; the axle is
-        // at (2 q, 2 k q^2) / w.
+        // With q = tan(turn / 2) / k and w = 1 + k^2 q^2: cosine = (1 - k^2 q^2) / w, sine = 2 k q / w. The axle is at
+        // (2 q, 2 k q^2) / w.
         for (const auto &[px, py] : {std::pair<double, double>{ax, ay}, {bx, by}})
         {
             for (const double x : {back, front})

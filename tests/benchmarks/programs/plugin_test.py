@@ -62,7 +62,7 @@ class Plugin(ProgramTest):
         self.assertEqual((result['status'], result['planner']), ('exact', 'via'))
         self.assertEqual(result['parameters'], {'radius': 12})
         self.assertTrue(result['recheck']['valid'])
-        self.assertIn('by way of one random pose', self.plan('--help', '--plugin', self.library).stdout)
+        self.assertIn('through one random pose', self.plan('--help', '--plugin', self.library).stdout)
         self.refused_plan(bundled('perpendicular'), '--planner', 'via', parts=["unknown planner 'via'"])
 
     def test_parking_benchmark(self):
