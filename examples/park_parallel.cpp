@@ -1,5 +1,5 @@
-// A Tesla reverses into a parallel slot in one sweep of two arcs, which is legal because R_min <= R_max. The output
-// includes the minimum length of the slot.
+// A Tesla reverses into a parallel slot in one sweep of two arcs, which is legal because R_min <= R_max. If
+// necessary, the program lengthens the slot.
 
 #include "examples/StreetScene.h"
 #include "parking_geometry/Error.h"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A planner for the plug-in of ExternalPlanner.cpp, as small as can be: from the start straight to the goal.
+"""A minimal planner for the plug-in of ExternalPlanner.cpp: directly from the start to the goal.
 
-It reads a scenario from standard input and prints the poses of a path, "x y yaw" a line; the curves of the space join them.
-Whether it is free, and worth anything, is for others to say."""
+It reads a scenario from standard input and prints the poses of a path, one "x y yaw" per line. The curves of the space join
+them. It does not check collisions."""
 import re
 import sys
 

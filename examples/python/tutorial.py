@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Parking from Python, step by step, with pictures.
 
-usage: tutorial.py [FOLDER]    (pictures and pages go there; by default into the folder tutorial)
+usage: tutorial.py [FOLDER]    (for pictures and pages; default: tutorial)
 
 Needs the package improved_astar and, for the pictures, matplotlib.
 """
@@ -37,7 +37,7 @@ wall = [[-15, 6], [15, 6], [15, 7], [-15, 7]]
 scenario = ia.Scenario.from_polygons(neighbours + [wall], start=(-8, 1.7, 0), slot=slot, vehicle='vw_golf8')
 result = ia.plan(scenario)
 print(f'  {result.status}: {result.length:.2f} m, {result.cusps} changes of direction, '
-      f'{100 * result.clearance:.0f} cm of room, {1e3 * result.statistics["planning_time"]:.1f} ms')
+      f'{100 * result.clearance:.0f} cm of clearance, {1e3 * result.statistics["planning_time"]:.1f} ms')
 picture(result, '1-slot.png')
 assert result
 
@@ -54,7 +54,7 @@ print(f'  {result.duration:.1f} s, at most {numpy.abs(drive[:, 4]).max():.2f} m/
       f'{math.degrees(numpy.abs(drive[:, 6]).max()):.0f} degrees of steering')
 result.animate('Parking a Golf').save(file('3-drive.html'))
 
-print('4. What a change of direction is worth')
+print('4. The penalty of a change of direction')
 narrow = ia.Slot('parallel', pose=(0, -1.2, 0), length=5.2, width=2.4)
 cars = [[[-7, -2.1], [-2.7, -2.1], [-2.7, -0.3], [-7, -0.3]], [[2.7, -2.1], [7, -2.1], [7, -0.3], [2.7, -0.3]],
         [[-15, -3.4], [15, -3.4], [15, -2.4], [-15, -2.4]]]
@@ -65,7 +65,7 @@ for penalty in (0.0, 0.5, 5.0):
     assert each
 picture(each, '4-street.png')
 
-print('5. With room round the car, and smoothly')
+print('5. With clearance and continuous curvature')
 comfortable = ia.ParkingPlanner().plan(scenario)
 print(f'  {comfortable.message}; curvature without jumps: {comfortable.is_smooth}')
 picture(comfortable, '5-smooth.png')
@@ -81,7 +81,7 @@ print(f'  {found.status}: {found.length:.2f} m after {found.statistics["expanded
 picture(found, '6-map.png')
 assert found and ia.check(garage, found)
 
-print('7. The grid model of the paper, side by side')
+print('7. Comparison with the grid model of the paper')
 paper = ia.plan(garage, parameter_set='improved_astar')
 print(f'  grid: {paper.length:.2f} m for a circle that turns on the spot; car: {found.length:.2f} m')
 

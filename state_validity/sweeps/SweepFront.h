@@ -15,8 +15,8 @@ namespace parking
         first touches obstacles with its leading outline. This consists of the front side, the inner side ahead of the
         axle, the outer side behind the axle and the three corners between them. All points turn about one centre, so
 
-        - a point can touch the outline only at the at most two places with the same distance from the centre, found by
-          square roots;
+        - a point can touch the outline at no more than two places, which have the same distance from the centre and
+          follow from square roots;
         - a corner can touch an edge only where the edge has the same distance from the centre as the corner: at two
           places.
 

@@ -31,8 +31,8 @@ namespace parking
 
     double firstContact(const BoxSweep &sweep, double ax, double ay, double bx, double by)
     {
-        // A drive in reverse is the mirror image (x, -x) of a drive forwards with the same curvature. All coordinates
-        // are relative to the rear axle.
+        // A drive in reverse is the mirror image (x becomes -x) of a drive forwards with the same curvature. All
+        // coordinates are relative to the rear axle.
         const double k = sweep.curvature, axle = sweep.axle * sweep.direction;
         const double front = sweep.halfLength - axle, back = -sweep.halfLength - axle, side = sweep.halfWidth;
         ax = ax * sweep.direction - axle;
