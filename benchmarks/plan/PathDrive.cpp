@@ -8,8 +8,8 @@ namespace parking
         {
             const FootprintChecker &footprint = problem.footprint();
             ClosedLoop loop(problem.scenario().vehicle);
-            loop.setClearance([&footprint](const Pose &pose) { return footprint.clearance(pose); });
-            loop.setValidity([&footprint](const Pose &pose) { return footprint.isFree(pose); });
+            loop.setClearance([&footprint](const Pose &pose)
+                              { return footprint.isFree(pose) ? footprint.clearance(pose) : 0.0; });
             return loop;
         }
     }  // namespace
