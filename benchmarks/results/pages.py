@@ -413,7 +413,7 @@ def curves(evidence):
             lambda share: f'{100.0 * share:.0f} %')
         lengths = {planner: comparison.length_over_time(planner) for planner in comparison.planners}
         made[f'docs/results/length-{kind}.svg'] = step_curves(
-            {planner: points for planner, points in lengths.items() if points}, (1e-4, comparison.time_limit), (1.0, 2.0),
+            lengths, (1e-4, comparison.time_limit), (1.0, 2.0),
             'time', 'length over the shortest', lambda ratio: f'{ratio:.1f}')
     return made
 
