@@ -3,7 +3,7 @@
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
-#include "tests/ompl_improved_astar/search/DiscCarWorld.h"
+#include "tests/ompl_improved_astar/search/CarWorlds.h"
 
 #include <gtest/gtest.h>
 
