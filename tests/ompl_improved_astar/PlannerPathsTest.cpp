@@ -1,5 +1,6 @@
 // Every reported path is exact, free and drivable: in random worlds, and where rounding decides.
 
+#include "ompl_improved_astar/StateSpaceEnvironment.h"
 #include "tests/ompl_improved_astar/PlanningProblem.h"
 
 #include <gtest/gtest.h>
@@ -183,6 +184,24 @@ namespace
             swerving += problem.driven(start, goal) > 1.01 * std::abs(length);
         }
         EXPECT_GT(swerving, 3);
+    }
+
+    // Half a circle in one step could be meant either way.
+    TEST(PlannerPaths, KeepTheDirectionOfTurnsOnTheSpot)
+    {
+        for (const double turn : {3.1, -3.1, -6.0})
+        {
+            const parking::Path path{{}, {parking::PathPiece::turnOnTheSpot(turn)}};
+            const std::vector<Pose> poses = parking::pathStates(path, {});
+            double turned = 0.0;
+            for (std::size_t i = 1; i < poses.size(); ++i)
+            {
+                const double step = parking::wrapAngle(poses[i].yaw - poses[i - 1].yaw);
+                EXPECT_LE(std::abs(step), parking::PathPiece::LONGEST_TURN + SAME);
+                turned += step;
+            }
+            EXPECT_NEAR(turned, turn, SAME);
+        }
     }
 
     TEST(PlannerPaths, AreFoundFromNearlyTheGoal)

@@ -246,17 +246,19 @@ TEST(RouteHeuristic, lowerBoundHoldsInASlalomBetweenCells)
     EXPECT_LE(routes.lowerBound({1.5, 1.3, 0.0}), length);
 }
 
-TEST(RouteHeuristic, passesNoWallThinnerThanACell)
+TEST(RouteHeuristic, passesALaneAHairWiderThanTheDiscButNoWallThinnerThanACell)
 {
     Random random(3);
     for (int i = 0; i < 200; ++i)
-        for (const double door : {0.0, 1.5})
-        {
-            DiscCarWorld world({{-9.0, -6.0}, {9.0, 6.0}}, {{{0.0, -6.0}, {1e-3, -door}}, {{0.0, door}, {1e-3, 6.0}}});
-            const Vector2d toward(random.between(-5.0, 5.0), 0.0);
-            RouteHeuristic routes = routesTo({4.0, 0.0}, world, random.between(0.5, 0.92), 0.95, toward);
-            ASSERT_EQ(routes.provesUnreachable({-4.0, 0.0, 0.0}), door == 0.0);
-        }
+        for (const double thickness : {1e-3, 4.0})
+            for (const double door : {0.0, 0.96, 1.5})
+            {
+                DiscCarWorld world({{-9.0, -6.0}, {9.0, 6.0}},
+                                   {{{0.0, -6.0}, {thickness, -door}}, {{0.0, door}, {thickness, 6.0}}});
+                const Vector2d toward(random.between(-5.0, 5.0), random.between(-0.5, 0.5));
+                RouteHeuristic routes = routesTo({6.0, 0.0}, world, random.between(0.5, 0.92), 0.95, toward);
+                ASSERT_EQ(routes.provesUnreachable({-4.0, 0.0, 0.0}), door == 0.0);
+            }
 }
 
 TEST(RouteHeuristic, claimsNothingWhenStoppedAndResumes)

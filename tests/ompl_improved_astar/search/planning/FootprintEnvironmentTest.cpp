@@ -174,6 +174,17 @@ TEST(FootprintEnvironment, aMotionIsFreeWhereItsPosesAre)
     EXPECT_GT(blocked, 150);
 }
 
+TEST(FootprintEnvironment, aMotionAcrossAPostIsNotFreeAlthoughItsEndsAndItsMiddleAre)
+{
+    const Vehicle vehicle;
+    const Pose from{0.0, -5.0, 0.0}, to{0.0, 5.0, 0.0}, post{1.0, 4.9 - 0.5 * vehicle.width, 0.0};
+    const Box bounds{{-20.0, -20.0}, {20.0, 20.0}};
+    const FootprintChecker checker(ObstacleSet::fromPolygons({rectangle(0.02, 0.02, post)}, bounds), vehicle);
+    FootprintEnvironment environment(checker, bounds, TOLERANCE);
+    EXPECT_TRUE(environment.isFree(from) && environment.isFree({}) && environment.isFree(to));
+    EXPECT_FALSE(environment.isMotionFree(from, to));
+}
+
 TEST(FootprintEnvironment, whoStandsOnTheBoundsDrivesAwayFromThem)
 {
     const Vehicle vehicle;
