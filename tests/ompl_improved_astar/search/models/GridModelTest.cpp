@@ -108,6 +108,20 @@ TEST(GridModel, pathsAreFreeWhereTheHeadingMatters)
     EXPECT_GT(found, 300);
 }
 
+TEST(GridModel, aStopIsHeededWhileTheMapIsLoadedAndLoadingGoesOn)
+{
+    GridWorld world(60, 60);
+    PlannerParameters parameters = world.parameters();
+    parameters.obstacleLoading = "eager";
+    Search search;
+    search.begin(world, parameters, world.car());
+    search.addStart({0.5, 0.5, 0.0});
+    search.addGoal({59.5, 59.5, 0.0});
+    EXPECT_EQ(search.run([polls = 0]() mutable { return ++polls > 3; }), Outcome::Stopped);
+    EXPECT_LT(world.states, 64u);
+    EXPECT_EQ(search.run({}), Outcome::Improved);
+}
+
 TEST(GridModel, endsAsNearToAnUnreachableTargetAsAFloodGets)
 {
     int unreachable = 0;
