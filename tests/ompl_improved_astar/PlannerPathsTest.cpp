@@ -197,7 +197,7 @@ namespace
             for (std::size_t i = 1; i < poses.size(); ++i)
             {
                 const double step = parking::wrapAngle(poses[i].yaw - poses[i - 1].yaw);
-                EXPECT_LE(std::abs(step), parking::PathPiece::LONGEST_TURN + SAME);
+                EXPECT_LE(std::abs(step), parking::PathPiece::MAX_TURN + SAME);
                 turned += step;
             }
             EXPECT_NEAR(turned, turn, SAME);
