@@ -98,7 +98,8 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_benchmark CONFIG.cfg [options]\n\n"
-                "Compares planners on parking problems as CONFIG.cfg says. docs/benchmark-reference.md describes such files.\n"
+                "Compares planners on parking problems as CONFIG.cfg says. docs/benchmark-reference.md describes such "
+                "files.\n"
                 "Scenarios are those that parking_plan reads.\n"
                 "Interrupted, it goes on where it was when started again.\n\n"
              << describe() << "\nPlanners:";

@@ -10,7 +10,8 @@
 
 namespace parking
 {
-    /** \brief What a drive in time is like, by the terms of TPCAP and CommonParking; docs/benchmark-reference.md defines each. */
+    /** \brief What a drive in time is like, by the terms of TPCAP and CommonParking; docs/benchmark-reference.md
+     * defines each. */
     struct DriveFigures
     {
         double duration{0.0};      ///< seconds

@@ -10,8 +10,8 @@
 namespace parking
 {
     /** \brief How a path is shaped, whatever is around it: the measures of Bench-MR (Heiden and others, IEEE Robotics
-        and Automation Letters 6, 2021), computed from the exact path instead of from samples. docs/benchmark-reference.md defines
-        each. */
+        and Automation Letters 6, 2021), computed from the exact path instead of from samples.
+       docs/benchmark-reference.md defines each. */
     struct PathShape
     {
         double angleOverLength{0.0};      ///< rad/m: how much the direction of travel turns; half a turn at each cusp

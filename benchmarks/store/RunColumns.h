@@ -65,8 +65,9 @@ namespace parking
 
     /** \brief All columns: the one place that knows their names, types, units and meanings.
 
-        The database and OMPL's logs, the summary, the report's further columns and the table in docs/benchmark-reference.md are
-        loops over it. Whoever adds a figure adds a row here, and sets it where it is measured. */
+        The database and OMPL's logs, the summary, the report's further columns and the table in
+       docs/benchmark-reference.md are loops over it. Whoever adds a figure adds a row here, and sets it where it is
+       measured. */
     const std::vector<RunColumn> &runColumns();
 
     /** \brief The column of this name; null when there is none. */
