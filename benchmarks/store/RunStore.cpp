@@ -20,11 +20,11 @@ namespace parking
 {
     namespace
     {
-        constexpr std::int64_t FORMAT = 3;        // of the tables
+        constexpr std::int64_t FORMAT = 3;        // version of the tables
         constexpr double PROGRESS_STEP = 0.05;    // seconds between samples of the best cost
-        const std::string PREFIX = "geometric_";  // of planners' names, as OMPL's benchmark puts it
+        const std::string PREFIX = "geometric_";  // prefix of planners' names in OMPL's benchmark
 
-        /** The columns are OMPL's; where it has tables of experiments, planners and runs there are views. */
+        /** The tables have OMPL's columns; views replace OMPL's tables of experiments, planners and runs. */
         const char *const TABLES = R"(
             CREATE TABLE all_experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
                 totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER,
@@ -69,7 +69,7 @@ namespace parking
             return name == "id" || name == "experimentid" || name == "plannerid";
         }
 
-        /** What a figure is called in the database. Names that a planner has made up may be those of keys. */
+        /** Name of a figure in the database. Names defined by a planner may collide with those of keys. */
         std::string columnOf(const std::string &figure)
         {
             std::string name = oneLine(figure);
@@ -116,7 +116,7 @@ namespace parking
                 record.figures[name] = value;
         }
 
-        /** As ompl_benchmark_statistics joins the lines of a log. */
+        /** Joins the lines of a log like ompl_benchmark_statistics. */
         std::string settingsOf(const RunRecord &record)
         {
             std::string text;
@@ -138,7 +138,7 @@ namespace parking
             return parameters;
         }
 
-        /** Cost over time as Planner Arena plots it: at regular times and at each improvement. */
+        /** Cost over time for Planner Arena: at regular times and at each improvement. */
         std::map<double, SqlValue> progressOf(const RunRecord &record)
         {
             std::map<double, SqlValue> costs;
@@ -161,11 +161,11 @@ namespace parking
         {
             if (numberOf(database.ask("PRAGMA user_version")) != FORMAT)
                 throw Error(database.file() +
-                            ": is no database of runs that this version of parking_benchmark can "
-                            "read; move it away, or name another --output");
+                            ": is not a database of runs in this version of parking_benchmark; move it, or "
+                            "choose another --output");
         }
 
-        /** \param condition what follows WHERE, with values for its `?` */
+        /** \param condition text after WHERE, with values for its `?` */
         std::vector<RunRecord> readRuns(const Database &database, const std::string &condition,
                                         const std::vector<SqlValue> &values)
         {
@@ -181,7 +181,7 @@ namespace parking
                     condition + " ORDER BY e.name, p.name, runs.run",
                 values);
             const std::vector<std::string> names = rows.names();
-            const int first = 10, end = static_cast<int>(names.size());  // behind those and the three ids
+            const int first = 10, end = static_cast<int>(names.size());  // columns after those and the three ids
             while (rows.step())
             {
                 RunRecord &record = runs.emplace_back();
@@ -283,7 +283,7 @@ namespace parking
 
     void RunStore::describe(const std::vector<Row> &experiments)
     {
-        // What the configuration says; all else is of the beginning.
+        // Settings of the configuration are updated; the rest stays as at the beginning.
         const std::set<std::string> configured{"timelimit", "memorylimit", "runcount", "seed"};
         database_.run("BEGIN IMMEDIATE");
         for (const Row &row : experiments)
@@ -304,7 +304,7 @@ namespace parking
     void RunStore::setColumn(const std::string &table, std::int64_t id, const std::string &column,
                              const SqlValue &value)
     {
-        grow(table, column, "INTEGER");  // a version; the others are there
+        grow(table, column, "INTEGER");  // a version; the other columns exist
         database_.ask("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
     }
 
@@ -380,7 +380,7 @@ namespace parking
         {
             const std::string column = columnOf(figure);
             if (!taken.insert(lowerCase(column)).second)
-                continue;  // names that differ in their capitals only
+                continue;  // names that differ only in capitals
             grow("all_runs", column, typeOf(figure, value));
             row[column] = valueOf(value);
         }

@@ -32,14 +32,14 @@ namespace parking
         using End = IsolatedResult::End;
 
         constexpr double BYTES = 1048576.0;        // in a MB
-        constexpr int LONGEST_WAIT = 100;          // milliseconds between looks at the process and at stop
-        constexpr std::size_t KEPT = 4096;         // bytes of what the work says on its error stream
+        constexpr int LONGEST_WAIT = 100;          // milliseconds between checks of the process and of stop
+        constexpr std::size_t KEPT = 4096;         // maximum bytes kept of the error stream
         constexpr rlim_t LEAST = rlim_t(1) << 20;  // bytes
 
-        // What the process says, each with a byte before it.
+        // Messages of the process, each after a byte with its kind.
         constexpr char HALF_DONE = 'h', ANSWER = 'a', EXCEPTION = 'x', OUT_OF_MEMORY = 'm', LAST = '\n';
 
-        int answers = -1;  // where the process of the work writes; in that process only
+        int answers = -1;  // channel of the process of the work; in that process only
 
         void say(const char *text, std::size_t size)
         {
@@ -59,7 +59,7 @@ namespace parking
             say(line.data(), line.size());
         }
 
-        /** No memory is left to tell it in a nicer way. */
+        /** Reports exhausted memory without allocating any. */
         [[noreturn]] void endWithoutMemory()
         {
             const std::array<char, 2> text{OUT_OF_MEMORY, LAST};
@@ -71,7 +71,7 @@ namespace parking
         {
             const rlimit none{0, 0};
             setrlimit(RLIMIT_CORE, &none);
-            // Pages of data and stack are what the kernel compares with the limit.
+            // The kernel compares pages of data and stack with the limit.
             std::ifstream file("/proc/self/statm");
             double size = 0.0, resident = 0.0, shared = 0.0, text = 0.0, library = 0.0, data = 0.0;
             if (!(file >> size >> resident >> shared >> text >> library >> data) || !(memory > 0.0))
@@ -108,13 +108,13 @@ namespace parking
             }
             catch (...)
             {
-                say(EXCEPTION, "an exception that is no std::exception");
+                say(EXCEPTION, "an exception that is not a std::exception");
             }
-            // Without destructors and whatever waits for the end of the program: all that belongs to the other process.
+            // Without destructors and exit handlers: they belong to the parent process.
             _exit(EXIT_SUCCESS);
         }
 
-        /** A pipe whose ends are closed. */
+        /** A pipe that closes its ends. */
         struct Pipe
         {
             Pipe()
@@ -171,7 +171,7 @@ namespace parking
                    (name != nullptr ? std::string(" (") + name + ")" : "");
         }
 
-        /** The last line that is not blank: where Python's errors say what is wrong. */
+        /** The last line that is not blank: the error message in Python's output. */
         std::string lastLine(const std::string &text)
         {
             const std::size_t last = text.find_last_not_of(" \r\n");
@@ -181,16 +181,16 @@ namespace parking
             return oneLine(text.substr(first, last + 1 - first));
         }
 
-        /** Of a process that ended without a last word. */
+        /** The result of a process that ended without an answer. */
         IsolatedResult endOf(int status, const std::string &errors)
         {
             const std::string last = lastLine(errors), more = last.empty() ? "" : ": " + last;
             if (!WIFSIGNALED(status))
                 return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + more,
                         WEXITSTATUS(status), last};
-            // Nobody but the system does that.
+            // Only the system does that.
             if (WTERMSIG(status) == SIGKILL)
-                return {End::OutOfMemory, "killed by the system, as it is when memory runs out"};
+                return {End::OutOfMemory, "killed by the system, as happens when memory is exhausted"};
             return {End::Died, signalText(WTERMSIG(status)) + more, -1, last};
         }
 
@@ -206,11 +206,11 @@ namespace parking
                 case OUT_OF_MEMORY:
                     return {End::OutOfMemory, "out of memory"};
                 default:
-                    return {End::Died, "it wrote where only its answer belongs"};
+                    return {End::Died, "it wrote into the channel of its answer"};
             }
         }
 
-        /** The process of the work; it does not outlive this. */
+        /** The process of the work; it does not outlive its parent. */
         class Child
         {
         public:
@@ -232,7 +232,7 @@ namespace parking
                 return ended_;
             }
 
-            /** Kills it, if it is still there, and whatever it has started. \return its status */
+            /** Kills the process if it still runs, and its children. \return its status */
             int end()
             {
                 kill(-process_, SIGKILL);
@@ -253,7 +253,7 @@ namespace parking
             int status_{0};
         };
 
-        /** Waits for the last word, or for what comes instead of it. */
+        /** Waits for the answer, or for another end of the process. */
         IsolatedResult await(Child &child, Pipe &said, Pipe &errors, const IsolationLimits &limits,
                              const std::atomic<bool> &stop)
         {
@@ -289,8 +289,8 @@ namespace parking
                     return endOf(child.end(), complaints);
                 if (Clock::now() >= deadline)
                     return {End::TimeUp,
-                            half ? "its path could not be measured in time" : "it did not come back in time"};
-                // Once more round for what it said last. Who has its pipes from it may keep them open.
+                            half ? "measuring its path exceeded the time limit" : "it exceeded the time limit"};
+                // One more iteration for the last output. Children may keep the pipes open.
                 ended = child.hasEnded();
             }
         }

@@ -10,7 +10,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double INTERVAL_TERMINAL = 0.2, INTERVAL_FILE = 15.0;  // seconds between words
+        constexpr double INTERVAL_TERMINAL = 0.2, INTERVAL_FILE = 15.0;  // seconds between lines
 
         /** 754 seconds as "12 min 34 s". */
         std::string duration(double seconds)
