@@ -252,14 +252,14 @@ namespace parking
                (isolation_ == Isolation::Plugins && !registry_.find(config_.planners[planner].planner).library.empty());
     }
 
-    double UnitRunner::patience() const
+    double UnitRunner::wallTimeLimit() const
     {
         return config_.processorTime ? BUSY * config_.timeLimit : config_.timeLimit;
     }
 
     IsolationLimits UnitRunner::limits() const
     {
-        return {SOLVE_SHARE * patience() + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
+        return {SOLVE_SHARE * wallTimeLimit() + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
                 config_.memoryLimit};
     }
 
@@ -385,7 +385,8 @@ namespace parking
                 }
                 catch (const std::exception &)
                 {
-                    return failedRun(recordOf(unit), PlanStatus::Nonsense, "it wrote into the channel of its answer");
+                    return failedRun(recordOf(unit), PlanStatus::InvalidAnswer,
+                                     "it wrote into the channel of its answer");
                 }
             case IsolatedResult::End::TimeUp:
                 return failedRun(recordOf(unit), PlanStatus::Hang, result.text);
@@ -439,7 +440,7 @@ namespace parking
                     failure = std::current_exception();  // Not reported by OMPL
                 }
             });
-        ompl::tools::Benchmark::Request request(patience(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
+        ompl::tools::Benchmark::Request request(wallTimeLimit(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
                                                 false);
         benchmark.benchmark(request);
 

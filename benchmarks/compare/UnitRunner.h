@@ -56,7 +56,7 @@ namespace parking
 
     private:
         bool isIsolated(std::size_t planner) const;
-        double patience() const;
+        double wallTimeLimit() const;
         IsolationLimits limits() const;
         void checkSettings(std::size_t experiment, std::size_t planner);
         /** Record of a run without results. */

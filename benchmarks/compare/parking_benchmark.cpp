@@ -20,7 +20,7 @@
 namespace
 {
     constexpr int DONE = 0, INCOMPLETE = 1, INTERRUPTED = 130;
-    constexpr unsigned int PATIENCE = 3;  // seconds that a run may take to end after a signal
+    constexpr unsigned int STOP_LIMIT = 3;  // seconds that a run may take to end after a signal
 
     std::atomic<bool> interrupted{false};
 
@@ -29,7 +29,7 @@ namespace
         interrupted = true;
         // A second signal ends the program at once.
         std::signal(signal, SIG_DFL);
-        alarm(PATIENCE);
+        alarm(STOP_LIMIT);
     }
 
     /** Ends the program although a planner ignores the signal. Finished runs are already stored. */

@@ -23,29 +23,29 @@ namespace parking
             referee checks everything else. */
         std::optional<PlannerFailure> failureOfAnswer(const ob::ProblemDefinition &problem, bool exact)
         {
-            const auto nonsense = [](const std::string &text)
+            const auto invalid = [](const std::string &text)
             {
-                return PlannerFailure{PlanStatus::Nonsense, text};
+                return PlannerFailure{PlanStatus::InvalidAnswer, text};
             };
             const ob::PathPtr path = problem.getSolutionPath();
             if (!path && exact)
-                return nonsense("it reports an exact solution, but there is no path");
+                return invalid("it reports an exact solution, but there is no path");
             if (!path)
                 return std::nullopt;
             const auto *states = dynamic_cast<const ompl::geometric::PathGeometric *>(path.get());
             if (states == nullptr)
-                return nonsense("its path is of an unknown type");
+                return invalid("its path is of an unknown type");
             if (states->getStateCount() == 0)
-                return nonsense("its path has no states");
+                return invalid("its path has no states");
             for (unsigned int i = 0; i < states->getStateCount(); ++i)
             {
                 const ob::State *state = states->getState(i);
                 if (state == nullptr)
-                    return nonsense("state " + std::to_string(i) + " of its path is null");
+                    return invalid("state " + std::to_string(i) + " of its path is null");
                 const Pose pose = poseOf(state);
                 if (!(std::abs(pose.x) <= FARTHEST && std::abs(pose.y) <= FARTHEST && std::abs(pose.yaw) <= FARTHEST))
-                    return nonsense("state " + std::to_string(i) + " of its path is out of range: " +
-                                    formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw));
+                    return invalid("state " + std::to_string(i) + " of its path is out of range: " +
+                                   formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw));
             }
             return std::nullopt;
         }
@@ -54,8 +54,8 @@ namespace parking
     std::string toString(PlanStatus status)
     {
         constexpr std::array<const char *, PLAN_STATUSES> NAMES{
-            "exact",     "approximate", "timeout", "invalid_start", "invalid_goal", "infeasible",
-            "exception", "crash",       "hang",    "memory",        "nonsense"};
+            "exact",     "approximate", "timeout", "invalid_start", "invalid_goal",  "infeasible",
+            "exception", "crash",       "hang",    "memory",        "invalid_answer"};
         return NAMES.at(static_cast<std::size_t>(status));
     }
 

@@ -26,11 +26,11 @@ namespace parking
         Crash,         ///< a signal ended it, or it ended its process
         Hang,          ///< it did not return
         Memory,        ///< it exceeded the memory limit
-        Nonsense       ///< it reported a missing path, or states out of range
+        InvalidAnswer  ///< it reported a missing path, or states out of range
     };
 
     /** \brief Number of values of PlanStatus. */
-    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
+    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::InvalidAnswer) + 1;
 
     /** \brief Names in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception, crash,
        hang, memory, invalid_answer. */

@@ -33,7 +33,7 @@ class Configuration(InputTest):
         self.refused(problem='[plannerr]', parts=['set.cfg:3:', "did you mean '[planner]'", '[benchmark]'])
         self.refused(problem='scenerio = x', parts=['set.cfg:3:', "did you mean 'scenario'"])
         self.refused(benchmark='time_limt = 3', parts=['set.cfg:7:', "did you mean 'time_limit'"])
-        self.refused(benchmark='nonsense', parts=['set.cfg:7:', 'key = value'])
+        self.refused(benchmark='no key', parts=['set.cfg:7:', 'key = value'])
 
     def test_planners_and_parameters(self):
         self.refused(planner='rrtstr=', parts=['set.cfg:10:', "did you mean 'RRTstar'", 'reeds_shepp'])

@@ -23,7 +23,7 @@ reeds_shepp=
 EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw something',
               'throws_in_constructor': 'bad in constructor', 'throws_in_setup': 'bad in setup',
               'throws_in_clear': 'clear() threw: bad in clear', 'throws_in_data': 'getPlannerData() threw: bad in data'}
-NONSENSE = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is nowhere: nan',
+INVALID_ANSWERS = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is nowhere: nan',
             'empty': 'its path has no states', 'null': 'no path'}
 # Path lengths of coordinates of 1e300 are an assertion in OMPL.
 DEADLY = {'far': ('crash', 'Assertion'),
@@ -72,7 +72,7 @@ class IsolationTest(ProgramTest):
 class Outcomes(IsolationTest):
     def test_whatever_a_planner_does_the_others_finish(self):
         expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
-        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        expected.update({name: ('invalid_answer', text) for name, text in INVALID_ANSWERS.items()})
         expected.update({name: each for name, each in DEADLY.items() if name != 'hangs'})
         done = self.compare(list(expected) + ['fine'])
         self.assert_reasons(done, expected)
@@ -88,9 +88,9 @@ class Outcomes(IsolationTest):
         self.assertGreater(time.monotonic() - begin, 2 * (2 + 3 * 0.3))
         self.assertLess(time.monotonic() - begin, 60)
 
-    def test_without_isolation_exceptions_and_nonsense_do_no_harm(self):
+    def test_without_isolation_exceptions_and_invalid_answers_do_no_harm(self):
         expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
-        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        expected.update({name: ('invalid_answer', text) for name, text in INVALID_ANSWERS.items()})
         self.assert_reasons(self.compare(list(expected), '--no-isolate'), expected)
 
     def test_settings_are_refused_as_ever(self):
