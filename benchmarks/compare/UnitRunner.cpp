@@ -440,8 +440,8 @@ namespace parking
                     failure = std::current_exception();  // Not reported by OMPL
                 }
             });
-        ompl::tools::Benchmark::Request request(wallTimeLimit(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
-                                                false);
+        ompl::tools::Benchmark::Request request(wallTimeLimit(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false,
+                                                false, false);
         benchmark.benchmark(request);
 
         if (failure)

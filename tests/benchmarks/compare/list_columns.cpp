@@ -1,4 +1,5 @@
-// Prints the columns of a run as JSON. The table in docs/benchmark-reference.md and the report's columns are checked against it.
+// Prints the columns of a run as JSON. The table in docs/benchmark-reference.md and the report's columns are checked
+// against it.
 #include "benchmarks/store/RunColumns.h"
 
 #include <iostream>
