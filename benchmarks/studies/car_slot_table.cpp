@@ -195,9 +195,8 @@ namespace
                "\n"
                "\\* The source does not state the width of the aisle or lane: the number is assumed.\n\n"
                "## Requirements of a car\n\n"
-               "Slots are 0.3 m longer than the car, parallel ones also 0.5 m wider. The shortest parallel slot is "
-               "that\n"
-               "of a car in its middle.\n\n" +
+               "Perpendicular slots are 0.3 m longer than the car, parallel ones 0.5 m wider. The shortest parallel\n"
+               "slot is that of a car in its middle.\n\n" +
                needsTable(cars) +
                "\n## Sources\n\n"
                "Cars: see [VehicleCatalogue.cpp](../../parking_geometry/VehicleCatalogue.cpp), which names them one by "

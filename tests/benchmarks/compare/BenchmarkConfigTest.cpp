@@ -170,7 +170,7 @@ rrt=
         refuse("footprint = circle\n", "", {"set.cfg:3: footprint circle", "space se2"});
         refuse("", "rrt.problem.footprint=circle\n", {"set.cfg:5: footprint circle", "not with reeds_shepp"});
         refuse("space = se2\nfootprint = circle\n", "rrt.problem.space=dubins\n", {"set.cfg:7: footprint", "dubins"});
-        const std::vector<std::string> ignored{"circle_radius is the circle's", "rectangle", "footprint = circle"};
+        const std::vector<std::string> ignored{"circle_radius requires footprint = circle", "rectangle"};
         for (const std::string &each : ignored)
         {
             refuse("circle_radius = 1\n", "", {"set.cfg:3: ", each});

@@ -338,7 +338,7 @@ namespace
         refuse(std::string(1000, 'x'), "not a database");
         refuse(whole.substr(0, 5 * 4096), "malformed");
         Database(folder_.path("other.db"), Database::Access::Write).run("CREATE TABLE runs (id INTEGER)");
-        refuse(contentOf(folder_.path("other.db")), "no database of runs");
+        refuse(contentOf(folder_.path("other.db")), "not a database of runs");
         for (const char *damage : {"UPDATE details SET path = '{\"start\": 3}'", "UPDATE all_runs SET cusps = 'many'",
                                    "UPDATE all_runs SET outcome = 11", "UPDATE all_runs SET cusps = 1.5"})
         {

@@ -49,7 +49,7 @@ class Configuration(InputTest):
         self.refused(planner='RRTstar=\nRRTstar.range=far', parts=['set.cfg:11:', 'range', 'far'])
         self.refused(planner='PRM=3', parts=['set.cfg:10:', 'PRM='])
         self.refused(planner='RRTstar.range=1', parts=['set.cfg:10:', 'RRTstar='])
-        self.refused(planner='PRM=\nPRM.=3', parts=['set.cfg:11:', 'names no parameter'])
+        self.refused(planner='PRM=\nPRM.=3', parts=['set.cfg:11:', 'has no parameter name'])
         self.refused(planner='PRM=\nPRM.name=improved_astar', parts=['set.cfg:11:', 'already'])
         self.refused(planner='PRM=\nPRM.name=../x', parts=['set.cfg:11:', '../x'])
         self.refused(planner='PRM=\nPRM.only=angled', parts=['set.cfg:11:', "did you mean 'angled45'"])
@@ -176,7 +176,7 @@ class OtherScenarios(InputTest):
         self.write('set.cfg', CONFIG % ('', '', 'PRM=\nPRM.only=angled45\nRRT=\nRRT.only=angled45, tight*\n'))
         arguments = ['set.cfg', '--runs', 1, '--time', 5, '--quiet', '--output', 'out', '--scenarios', bundled('perpendicular')]
         done = self.benchmark(*arguments, '--planner', 'improved_astar', '--planner', 'PRM')
-        self.assertIn("set.cfg: not run, as 'only' names none of the scenarios of --scenarios: PRM\n", done.stderr)
+        self.assertIn("set.cfg: not run: 'only' names none of the scenarios of --scenarios: PRM\n", done.stderr)
         with self.subTest('a name that neither has'):
             self.refused_benchmark(*arguments, '--planner', 'RRT', parts=['set.cfg:13: planner RRT', 'tight*', 'perpendicular'])
         with self.subTest('nobody is left'):

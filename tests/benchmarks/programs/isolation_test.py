@@ -23,12 +23,12 @@ reeds_shepp=
 EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw something',
               'throws_in_constructor': 'bad in constructor', 'throws_in_setup': 'bad in setup',
               'throws_in_clear': 'clear() threw: bad in clear', 'throws_in_data': 'getPlannerData() threw: bad in data'}
-INVALID_ANSWERS = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is nowhere: nan',
+INVALID_ANSWERS = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is out of range: nan',
             'empty': 'its path has no states', 'null': 'no path'}
 # Path lengths of coordinates of 1e300 are an assertion in OMPL.
 DEADLY = {'far': ('crash', 'Assertion'),
           'segfaults': ('crash', 'killed by signal 11'), 'aborts': ('crash', "signal 6 (Aborted): Assertion `room' failed"),
-          'exits': ('crash', 'ended its process with status 0'), 'hangs': ('hang', 'did not come back in time'),
+          'exits': ('crash', 'ended its process with status 0'), 'hangs': ('hang', 'exceeded the time limit'),
           'eats': ('memory', 'the limit is 300 MB')}
 if SANITIZER:
     # Its own allocator ends the process instead of asking for less, and it has a word of its own on signals.
@@ -113,7 +113,7 @@ class Stopping(IsolationTest):
                     process.send_signal(number)
                     _, errors = process.communicate(timeout=20)
                     self.assertEqual(process.returncode, 130, errors)
-                    self.assertIn('goes on from there', errors)
+                    self.assertIn('rerun the command to resume', errors)
 
 
 if __name__ == '__main__':

@@ -262,7 +262,7 @@ class FilesTest(made_results.FolderTest):
         made_results.write(self.folder, solved('x', 'a', [0.1]) + solved('x', 'b', [0.2]))
         found, _, page = self.made()
         self.assertEqual(found['pairs'], [])
-        self.assertIn('need two problems', page)
+        self.assertIn('require two problems', page)
 
     def test_no_time_limit_is_known(self):
         made_results.write(self.folder, HAND, None)
