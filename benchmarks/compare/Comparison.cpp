@@ -142,7 +142,7 @@ namespace parking
                 throw Error(inQuotes(input) + " is an input in the folder for paths; choose another --output");
     }
 
-    void Comparison::tellUnsolvable(UnitRunner &runner) const
+    void Comparison::reportUnsolvable(UnitRunner &runner) const
     {
         for (std::size_t i = 0; i < experiments_.size(); ++i)
         {
@@ -234,7 +234,7 @@ namespace parking
     {
         UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
-        tellUnsolvable(runner);
+        reportUnsolvable(runner);
         makeFolder(folder_);
         store_ = std::make_unique<RunStore>(database());
         if (options_.fresh)

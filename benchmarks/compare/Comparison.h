@@ -56,7 +56,7 @@ namespace parking
         /** Throws when an output would overwrite an input. */
         void protectInputs() const;
         /** Reports experiments without a possible solution, with the reason. */
-        void tellUnsolvable(UnitRunner &runner) const;
+        void reportUnsolvable(UnitRunner &runner) const;
         /** Rows of the table `experiments` with the settings of the configuration. */
         std::vector<Row> experimentRows() const;
         /** Rows of the table `experiments` with the settings, the machine and the date. */

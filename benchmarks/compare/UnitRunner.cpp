@@ -156,7 +156,7 @@ namespace parking
             }
         }
 
-        /** The quickest trajectory near the path. */
+        /** The fastest trajectory near the path. */
         void optimize(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
             const double begin = processorTime();

@@ -207,19 +207,19 @@ namespace parking
             };
         }
 
-        auto positive(double most = std::numeric_limits<double>::infinity())
+        auto positive(double max = std::numeric_limits<double>::infinity())
         {
-            return [most](Text key, Text value)
+            return [max](Text key, Text value)
             {
-                return positiveNumber(key, value, most);
+                return positiveNumber(key, value, max);
             };
         }
 
-        auto whole(std::size_t most)
+        auto whole(std::size_t max)
         {
-            return [most](Text key, Text value)
+            return [max](Text key, Text value)
             {
-                return wholeNumber(key, value, 1, most);
+                return wholeNumber(key, value, 1, max);
             };
         }
 
@@ -387,13 +387,13 @@ namespace parking
         {
             const ProblemOptions &p = spec.problem;
             const auto require =
-                [&](const char *axis, const std::optional<double> &least, const std::optional<double> &most)
+                [&](const char *axis, const std::optional<double> &min, const std::optional<double> &max)
             {
                 const std::string low = std::string("volume.min.") + axis, high = std::string("volume.max.") + axis;
-                if (least && most && !(*least < *most))
+                if (min && max && !(*min < *max))
                     throw Error(config.lineOf(spec, {"problem." + high, "problem." + low}) + high +
-                                " must be greater than " + low + ", " + formatNumber(*least) + ", not " +
-                                formatNumber(*most));
+                                " must be greater than " + low + ", " + formatNumber(*min) + ", not " +
+                                formatNumber(*max));
             };
             require("x", p.minX, p.maxX);
             require("y", p.minY, p.maxY);

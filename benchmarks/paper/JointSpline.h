@@ -31,7 +31,7 @@ namespace parking
     /** \brief Length of the line through points in metres. */
     double lengthOf(const std::vector<Eigen::Vector2d> &points);
 
-    /** \brief Sum of the turns of the line through the points in radians, without turns above \e most, which are
+    /** \brief Sum of the turns of the line through the points in radians, without turns above \e max, which are
         cusps. */
-    double turningOf(const std::vector<Eigen::Vector2d> &points, double most);
+    double turningOf(const std::vector<Eigen::Vector2d> &points, double max);
 }  // namespace parking

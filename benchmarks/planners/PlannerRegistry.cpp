@@ -115,7 +115,7 @@ namespace parking
             ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
             {
                 std::size_t known = 0;
-                const auto tell = [&]
+                const auto reportSolution = [&]
                 {
                     if (pdef_->getSolutionCount() == known || !pdef_->hasExactSolution())
                         return;
@@ -126,7 +126,7 @@ namespace parking
                 return og::AORRTC::solve(ompl::base::PlannerTerminationCondition(
                     [&]
                     {
-                        tell();
+                        reportSolution();
                         return ptc();
                     }));
             }

@@ -12,8 +12,8 @@ namespace parking
     /** \brief The valid range of a planner's parameter. */
     struct ParameterRange
     {
-        double least,  ///< smallest valid value
-            most;      ///< largest valid value
+        double min,  ///< smallest valid value
+            max;     ///< largest valid value
     };
 
     /** \brief Declares a parameter of \e planner that is stored in \e value, a member of it.
@@ -30,9 +30,9 @@ namespace parking
             [&planner, &value, name, range](Value wanted)
             {
                 const auto number = static_cast<double>(wanted);
-                if (!(number >= range.least && number <= range.most))
-                    throw ompl::Exception(planner.getName(), name + " must be between " + formatNumber(range.least) +
-                                                                 " and " + formatNumber(range.most) + ", not " +
+                if (!(number >= range.min && number <= range.max))
+                    throw ompl::Exception(planner.getName(), name + " must be between " + formatNumber(range.min) +
+                                                                 " and " + formatNumber(range.max) + ", not " +
                                                                  formatNumber(number));
                 value = wanted;
             },

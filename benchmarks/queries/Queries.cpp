@@ -146,12 +146,12 @@ namespace parking
         {
             const double direction = random.between(-PI, PI);
             Pose last = from;
-            for (double way = PUSH; way <= FARTHEST_PUSH; way += PUSH)
+            for (double distance = PUSH; distance <= FARTHEST_PUSH; distance += PUSH)
             {
-                const Pose next =
-                    rounded({from.x + way * std::cos(direction), from.y + way * std::sin(direction), from.yaw});
+                const Pose next = rounded(
+                    {from.x + distance * std::cos(direction), from.y + distance * std::sin(direction), from.yaw});
                 if (!space.isFree(next))
-                    return way > PUSH ? std::optional<Pose>(last) : std::nullopt;
+                    return distance > PUSH ? std::optional<Pose>(last) : std::nullopt;
                 last = next;
             }
             return std::nullopt;

@@ -97,7 +97,7 @@ namespace parking
         check(sqlite3_exec(handle_, statements.c_str(), nullptr, nullptr, nullptr));
     }
 
-    SqlValue Database::ask(const std::string &statement, const std::vector<SqlValue> &values) const
+    SqlValue Database::valueOf(const std::string &statement, const std::vector<SqlValue> &values) const
     {
         Statement answer(*this, statement, values);
         return answer.step() ? answer.value(0) : SqlValue(nullptr);

@@ -78,7 +78,7 @@ namespace parking
         void run(const std::string &statements);
 
         /** \brief The first cell of the first row of a query; no value without rows. */
-        SqlValue ask(const std::string &statement, const std::vector<SqlValue> &values = {}) const;
+        SqlValue valueOf(const std::string &statement, const std::vector<SqlValue> &values = {}) const;
 
         /** \brief The number of the row that was inserted last. */
         std::int64_t lastRow() const;

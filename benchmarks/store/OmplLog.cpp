@@ -104,7 +104,7 @@ namespace parking
             // A run that fails early has no parameters.
             std::vector<std::string> parameters;
             std::istringstream settings(std::get<std::string>(
-                database.ask("SELECT MAX(settings) FROM plannerConfigs WHERE id IN (" + ids + ")")));
+                database.valueOf("SELECT MAX(settings) FROM plannerConfigs WHERE id IN (" + ids + ")")));
             for (std::string line; std::getline(settings, line) && line != ";";)
                 parameters.push_back(line.substr(line.front() == ';' ? 1 : 0));
 

@@ -68,8 +68,8 @@ namespace parking
              InSummary{"reverse share", Median, 3, false}, InReport{"in reverse", 100.0, "%", true}},
             {"mean clearance", Real, "m", "along the path; more than 5 m count as 5 m",
              InSummary{"mean clearance", Median, 3, false}, InReport{"mean clearance", 1.0, "m", true}},
-            {"median clearance", Real, "m", "likewise", InSummary{"median clearance", Median, 3, false},
-             InReport{"median clearance", 1.0, "m", true}},
+            {"median clearance", Real, "m", "along the path; more than 5 m count as 5 m",
+             InSummary{"median clearance", Median, 3, false}, InReport{"median clearance", 1.0, "m", true}},
             {"cusp to cusp time", Real, "s", "fastest drive that stops at cusps only, with immediate steering",
              InSummary{"cusp to cusp time", Median, 0, false}, InReport{"cusp to cusp", 1.0, "s", true}},
             {"cusp to cusp cost", Real, "", "TPCAP's J of that drive", InSummary{"cusp to cusp cost", Median, 0, false},
@@ -113,7 +113,7 @@ namespace parking
             {"drive jerk", Real, "m/s^3", "of the drive: mean of the absolute value",
              InSummary{"drive jerk", Median, 3, false}, InReport{"jerk", 1.0, "m/s³", true}},
 
-            {"trajectory duration", Real, "s", "with `trajectory`: of the quickest trajectory near the path",
+            {"trajectory duration", Real, "s", "with `trajectory`: of the fastest trajectory near the path",
              InSummary{"trajectory duration", Median, 0, false}, InReport{"trajectory", 1.0, "s"}},
             {"trajectory cost", Real, "",
              "its cost in the competition of TPCAP: J = 100 T + 10 (control effort + steering integral) + 5 gear "

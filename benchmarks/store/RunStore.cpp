@@ -159,7 +159,7 @@ namespace parking
 
         void requireFormat(const Database &database)
         {
-            if (numberOf(database.ask("PRAGMA user_version")) != FORMAT)
+            if (numberOf(database.valueOf("PRAGMA user_version")) != FORMAT)
                 throw Error(database.file() +
                             ": is not a database of runs in this version of parking_benchmark; move it, or "
                             "choose another --output");
@@ -224,7 +224,7 @@ namespace parking
 
     RunStore::RunStore(const std::string &file) : database_(file, Database::Access::Write)
     {
-        if (numberOf(database_.ask("SELECT COUNT(*) FROM sqlite_master")) != 0)
+        if (numberOf(database_.valueOf("SELECT COUNT(*) FROM sqlite_master")) != 0)
         {
             requireFormat(database_);
             return;
@@ -277,7 +277,7 @@ namespace parking
             return true;
         if (selected_.count(beginningOf(fingerprint)) == 0)
             return false;
-        database_.ask("INSERT OR IGNORE INTO selection VALUES (?, ?)", {fingerprint, count_});
+        database_.valueOf("INSERT OR IGNORE INTO selection VALUES (?, ?)", {fingerprint, count_});
         return true;
     }
 
@@ -290,7 +290,7 @@ namespace parking
         {
             const SqlValue &name = row.at("name");
             const std::int64_t id = idOf("all_experiments", {{"name", name}});
-            const bool isShown = numberOf(database_.ask("SELECT id FROM experiments WHERE id = ?", {id})) != 0;
+            const bool isShown = numberOf(database_.valueOf("SELECT id FROM experiments WHERE id = ?", {id})) != 0;
             for (const auto &[column, value] : row)
                 if (!isShown || configured.count(column) > 0)
                     setColumn("all_experiments", id, column, value);
@@ -305,7 +305,7 @@ namespace parking
                              const SqlValue &value)
     {
         grow(table, column, "INTEGER");  // a version; the other columns exist
-        database_.ask("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
+        database_.valueOf("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
     }
 
     RunStore::Key RunStore::keyOf(const RunRecord &record)
@@ -366,7 +366,7 @@ namespace parking
             query += " AND " + column + " = ?";
             values.push_back(value);
         }
-        const std::int64_t id = numberOf(database_.ask(query, values));
+        const std::int64_t id = numberOf(database_.valueOf(query, values));
         return id != 0 ? id : insert(table, row);
     }
 
@@ -394,8 +394,8 @@ namespace parking
                            {"reason", record.reason},
                            {"path", record.hasPath ? SqlValue(path.dump()) : SqlValue(nullptr)}});
         if (const double time = record.number("time"); time > 0.0)
-            database_.ask("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
-                          {time, row.at("experimentid")});
+            database_.valueOf("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
+                              {time, row.at("experimentid")});
         known_.insert(keyOf(record));
     }
 
@@ -411,7 +411,7 @@ namespace parking
             if (!selectIfBegun(record.fingerprint) || (same != there.end() && same->second.toJson() == record.toJson()))
                 continue;
             if (same != there.end())
-                database_.ask(
+                database_.valueOf(
                     "UPDATE details SET fingerprint = '' WHERE runid IN (SELECT runs.id FROM runs JOIN "
                     "all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
                     "WHERE e.name = ? AND p.name = ? AND runs.run = ?)",
@@ -428,7 +428,7 @@ namespace parking
         const std::int64_t id = idOf("all_experiments", {{"name", row.at("name")}});
         const auto own = [&](const std::string &column)
         {
-            return textOf(database_.ask("SELECT " + column + " FROM all_experiments WHERE id = ?", {id}));
+            return textOf(database_.valueOf("SELECT " + column + " FROM all_experiments WHERE id = ?", {id}));
         };
         std::set<std::string> hosts;
         for (const std::string &names : {own("hostname"), textOf(row["hostname"])})

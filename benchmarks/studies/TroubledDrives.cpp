@@ -108,15 +108,15 @@ namespace parking
                 if (q.t < since)
                     continue;
                 const Pose a = poseOf(p), b = poseOf(q);
-                const double way = positionDistance(a, b);
-                const int looks = 1 + static_cast<int>((way + 4.0 * std::abs(wrapAngle(b.yaw - a.yaw))) / STEP);
+                const double distance = positionDistance(a, b);
+                const int looks = 1 + static_cast<int>((distance + 4.0 * std::abs(wrapAngle(b.yaw - a.yaw))) / STEP);
                 for (int k = 1; k <= looks; ++k)
                 {
                     const double share = static_cast<double>(k) / looks, time = p.t + share * (q.t - p.t);
                     if (time >= since && !oracle.isFree(between(a, b, share), car, -OVERLAP))
-                        return Touch{time, std::abs(p.v + share * (q.v - p.v)), driven + share * way};
+                        return Touch{time, std::abs(p.v + share * (q.v - p.v)), driven + share * distance};
                 }
-                driven += way;
+                driven += distance;
             }
             return std::nullopt;
         }
@@ -155,15 +155,15 @@ namespace parking
         std::vector<Pose> brakingWay(const Trajectory &drive, const Vehicle &car, const Disturbances &odds,
                                      double since, double brakes)
         {
-            std::vector<Pose> way;
+            std::vector<Pose> path;
             for (double t = since; t < brakes; t += BRAKING_STEP)
             {
                 const TrajectoryPoint point = interpolated(drive, t);
-                way.push_back({point.x, point.y, point.yaw});
+                path.push_back({point.x, point.y, point.yaw});
             }
             const TrajectoryPoint begin = interpolated(drive, brakes);
             Pose pose{begin.x, begin.y, begin.yaw};
-            way.push_back(pose);
+            path.push_back(pose);
             const double brake = (1.0 - odds.brakeLoss) * (1.0 + odds.speedBias) * car.maxAcceleration;
             const double wheelbase = (1.0 + odds.wheelbaseError) * car.wheelbase;
             double speed = begin.v, wheels = begin.steering, t = brakes, place = brakes;
@@ -193,9 +193,9 @@ namespace parking
                 const double yaw = pose.yaw + 0.5 * driven * std::tan(angle) / wheelbase;
                 pose = {pose.x + driven * std::cos(yaw), pose.y + driven * std::sin(yaw),
                         pose.yaw + driven * std::tan(angle) / wheelbase};
-                way.push_back(pose);
+                path.push_back(pose);
             }
-            return way;
+            return path;
         }
 
         const TrajectoryPoint &pointAt(const Trajectory &drive, double time)
@@ -222,7 +222,7 @@ namespace parking
         std::optional<Surprise> surpriseFor(const Scenario &scenario, const Trajectory &drive, Random &random)
         {
             const Vehicle &car = scenario.vehicle;
-            for (int tries = 0; tries < 40; ++tries)
+            for (int attempts = 0; attempts < 40; ++attempts)
             {
                 Surprise surprise;
                 const TrajectoryPoint &now = pointAt(drive, random.between(0.0, drive.back().t));
@@ -278,9 +278,9 @@ namespace parking
             }
             return "";
         }
-        bool isFree(const std::vector<Pose> &way, const Vehicle &car, const PolygonOracle &oracle, double spare)
+        bool isFree(const std::vector<Pose> &path, const Vehicle &car, const PolygonOracle &oracle, double spare)
         {
-            return std::all_of(way.begin(), way.end(),
+            return std::all_of(path.begin(), path.end(),
                                [&](const Pose &pose) { return oracle.isFree(pose, car, spare); });
         }
 
@@ -333,13 +333,13 @@ namespace parking
         if (random.chance(0.6))
             surprise = surpriseFor(scenario, expected, random);
         AutomaticParking parking(parameters);
-        bool told = false;
+        bool reported = false;
         parking.setMapUpdate(
             [&](double time, const Pose &) -> std::optional<Scenario>
             {
-                if (!surprise || told || time < surprise->time - 1e-9)
+                if (!surprise || reported || time < surprise->time - 1e-9)
                     return std::nullopt;
-                told = true;
+                reported = true;
                 Scenario changed = scenario;
                 changed.polygons.push_back(surprise->obstacle);
                 return changed;

@@ -224,7 +224,7 @@ namespace
         {
             // Mostly free ones: collisions take no time and test little.
             Pose pose;
-            for (int tries = 0; tries < 30; ++tries)
+            for (int attempts = 0; attempts < 30; ++attempts)
             {
                 pose = world_->anywhere(random_);
                 if (checker_->isFree(pose) || random_.chance(0.02))
@@ -254,7 +254,7 @@ namespace
                 const std::lock_guard<std::mutex> lock(figures_.mutex);
                 figures_.planning.add(time);
             }
-            judge(scenario, *checker_, result);
+            checkResult(scenario, *checker_, result);
             if (solved && random_.chance(0.05))
                 askOracle(scenario, result.path);
             if (random_.chance(0.01))
@@ -271,7 +271,7 @@ namespace
                 askOthers(scenario);
         }
 
-        void judge(const Scenario &scenario, const FootprintChecker &checker, const search::PlanResult &result)
+        void checkResult(const Scenario &scenario, const FootprintChecker &checker, const search::PlanResult &result)
         {
             const Referee referee(scenario);
             const auto isFree = [&](const Pose &pose)
@@ -314,7 +314,7 @@ namespace
             const double length = random_.between(0.2, 1.5), width = random_.between(0.2, 1.5);
             changed.polygons.push_back(parking_test::rectangle(length, width, {at.x, at.y, random_.between(-PI, PI)}));
             const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
-            judge(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
+            checkResult(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
             ++figures_.replanned;
         }
 
@@ -432,7 +432,7 @@ namespace
         for (std::size_t i = 0; i < threads; ++i)
             running.emplace_back([&settings, &figures, &stop, worker = 1000 * seed + i]
                                  { SoakWorker(settings, worker, figures).work(stop); });
-        double settled = 0.0, most = 0.0, said = 0.0;
+        double settled = 0.0, most = 0.0, reported = 0.0;
         for (double now = 0.0; now < limit && (settings.most == 0 || figures.queries < settings.most);
              now = seconds(begin))
         {
@@ -442,9 +442,9 @@ namespace
             const bool begins = settings.most > 0 ? figures.queries < settings.most / 10 : now < 0.1 * limit;
             if (begins)
                 settled = std::max(settled, memory);
-            if (now - said >= every)
+            if (now - reported >= every)
             {
-                said = now;
+                reported = now;
                 std::cerr << line(figures, now, memory) << std::endl;
             }
         }

@@ -172,13 +172,13 @@ namespace
     {
         const std::vector<Place> &places = placesOf(grids, surroundings);
         CheckCounts counts;
-        std::size_t free = 0, asked = 0, world = 0, round = 0, i = 0;
+        std::size_t free = 0, checks = 0, world = 0, round = 0, i = 0;
         for (auto _ : state)
         {
             const Place &place = places[world];
             free += kind == Checker::Tiered ? place.tiered->isFree(place.poses[i], counts)
                                             : place.plain->isFree(place.poses[i]);
-            ++asked;
+            ++checks;
             if (++i < place.poses.size())
                 continue;
             i = 0;
@@ -187,9 +187,9 @@ namespace
             round = 0;
             world = (world + 1) % places.size();
         }
-        const auto percent = [asked](std::size_t count)
+        const auto percent = [checks](std::size_t count)
         {
-            return 100.0 * static_cast<double>(count) / static_cast<double>(asked);
+            return 100.0 * static_cast<double>(count) / static_cast<double>(checks);
         };
         state.counters["free %"] = percent(free);
         state.counters["field %"] = percent(counts.byField);

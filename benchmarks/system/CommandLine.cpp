@@ -105,26 +105,26 @@ namespace parking
         return given(option) ? values_[option].as<std::vector<std::string>>() : std::vector<std::string>{};
     }
 
-    std::optional<double> CommandLine::positive(const std::string &option, double most) const
+    std::optional<double> CommandLine::positive(const std::string &option, double max) const
     {
-        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), most)) : std::nullopt;
+        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), max)) : std::nullopt;
     }
 
-    std::optional<double> CommandLine::between(const std::string &option, double least, double most,
+    std::optional<double> CommandLine::between(const std::string &option, double min, double max,
                                                const std::string &unit) const
     {
         if (!given(option))
             return std::nullopt;
         double value = 0.0;
-        if (!parseNumber(*text(option), value) || value < least || value > most)
-            throw Error("--" + option + " must be a number from " + formatNumber(least) + " to " + formatNumber(most) +
+        if (!parseNumber(*text(option), value) || value < min || value > max)
+            throw Error("--" + option + " must be a number from " + formatNumber(min) + " to " + formatNumber(max) +
                         " " + unit + ", not " + inQuotes(*text(option)));
         return value;
     }
 
-    std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const
+    std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t min, std::size_t max) const
     {
-        return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), least, most))
+        return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), min, max))
                              : std::nullopt;
     }
 
@@ -136,20 +136,20 @@ namespace parking
         return name;
     }
 
-    double positiveNumber(const std::string &name, const std::string &text, double most)
+    double positiveNumber(const std::string &name, const std::string &text, double max)
     {
         double value = 0.0;
-        if (!parseNumber(text, value) || value <= 0.0 || value > most)
+        if (!parseNumber(text, value) || value <= 0.0 || value > max)
             throw Error(name + " must be a positive number" +
-                        (std::isfinite(most) ? " of at most " + formatNumber(most) : "") + ", not " + inQuotes(text));
+                        (std::isfinite(max) ? " of at most " + formatNumber(max) : "") + ", not " + inQuotes(text));
         return value;
     }
 
-    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most)
+    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t min, std::size_t max)
     {
         std::size_t value = 0;
-        if (!parseCount(text, value) || value < least || value > most)
-            throw Error(name + " must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+        if (!parseCount(text, value) || value < min || value > max)
+            throw Error(name + " must be a whole number from " + std::to_string(min) + " to " + std::to_string(max) +
                         ", not " + inQuotes(text));
         return value;
     }

@@ -51,14 +51,13 @@ namespace parking
 
         /** \brief A positive number, see positiveNumber(). */
         std::optional<double> positive(const std::string &option,
-                                       double most = std::numeric_limits<double>::infinity()) const;
+                                       double max = std::numeric_limits<double>::infinity()) const;
 
-        /** \brief A number from \e least to \e most; \e unit is for the message. */
-        std::optional<double> between(const std::string &option, double least, double most,
-                                      const std::string &unit) const;
+        /** \brief A number from \e min to \e max; \e unit is for the message. */
+        std::optional<double> between(const std::string &option, double min, double max, const std::string &unit) const;
 
         /** \brief A whole number, see wholeNumber(). */
-        std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
+        std::optional<std::size_t> whole(const std::string &option, std::size_t min, std::size_t max) const;
 
         /** \brief The name of a file to write. Throws parking::Error naming the option for an empty name. */
         std::optional<std::string> outputFile(const std::string &option) const;
@@ -68,13 +67,13 @@ namespace parking
     };
 
     /** \brief The number given for option \e name. Throws parking::Error naming the option unless it is positive,
-        finite and at most \e most. */
+        finite and at most \e max. */
     double positiveNumber(const std::string &name, const std::string &text,
-                          double most = std::numeric_limits<double>::infinity());
+                          double max = std::numeric_limits<double>::infinity());
 
     /** \brief The whole number given for option \e name. Throws parking::Error naming the option unless it is from \e
-        least to \e most. */
-    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most);
+        min to \e max. */
+    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t min, std::size_t max);
 
     /** \brief Splits KEY=VALUE. Throws parking::Error naming option \e name without a '=' or without a key. */
     std::pair<std::string, std::string> keyAndValue(const std::string &name, const std::string &text);

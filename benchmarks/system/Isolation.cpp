@@ -41,7 +41,7 @@ namespace parking
 
         int answers = -1;  // channel of the process of the work; in that process only
 
-        void say(const char *text, std::size_t size)
+        void send(const char *text, std::size_t size)
         {
             while (size > 0)
             {
@@ -53,17 +53,17 @@ namespace parking
             }
         }
 
-        void say(char kind, const std::string &text)
+        void send(char kind, const std::string &text)
         {
             const std::string line = kind + text + LAST;
-            say(line.data(), line.size());
+            send(line.data(), line.size());
         }
 
         /** Reports exhausted memory without allocating any. */
         [[noreturn]] void endWithoutMemory()
         {
             const std::array<char, 2> text{OUT_OF_MEMORY, LAST};
-            say(text.data(), text.size());
+            send(text.data(), text.size());
             _exit(EXIT_FAILURE);
         }
 
@@ -91,12 +91,12 @@ namespace parking
             try
             {
                 limitResources(memory);
-                say(ANSWER, what(
-                                []
-                                {
-                                    const char text = HALF_DONE;
-                                    say(&text, 1);
-                                }));
+                send(ANSWER, what(
+                                 []
+                                 {
+                                     const char text = HALF_DONE;
+                                     send(&text, 1);
+                                 }));
             }
             catch (const std::bad_alloc &)
             {
@@ -104,11 +104,11 @@ namespace parking
             }
             catch (const std::exception &error)
             {
-                say(EXCEPTION, oneLine(error.what()));
+                send(EXCEPTION, oneLine(error.what()));
             }
             catch (...)
             {
-                say(EXCEPTION, "an exception that is not a std::exception");
+                send(EXCEPTION, "an exception that is not a std::exception");
             }
             // Without destructors and exit handlers: they belong to the parent process.
             _exit(EXIT_SUCCESS);
@@ -194,10 +194,10 @@ namespace parking
             return {End::Died, signalText(WTERMSIG(status)) + more, -1, last};
         }
 
-        IsolatedResult readAnswer(const std::string &said, std::size_t begin)
+        IsolatedResult readAnswer(const std::string &messages, std::size_t begin)
         {
-            const std::string text = said.substr(begin + 1, said.size() - begin - 2);
-            switch (said[begin])
+            const std::string text = messages.substr(begin + 1, messages.size() - begin - 2);
+            switch (messages[begin])
             {
                 case ANSWER:
                     return {End::Answered, text};
@@ -254,7 +254,7 @@ namespace parking
         };
 
         /** Waits for the answer, or for another end of the process. */
-        IsolatedResult await(Child &child, Pipe &said, Pipe &errors, const IsolationLimits &limits,
+        IsolatedResult await(Child &child, Pipe &messages, Pipe &errors, const IsolationLimits &limits,
                              const std::atomic<bool> &stop)
         {
             const auto later = [](double seconds)
@@ -266,11 +266,11 @@ namespace parking
             bool half = false, ended = false;
             for (;;)
             {
-                std::array<pollfd, 2> ends{{{said.ends[0], POLLIN, 0}, {errors.ends[0], POLLIN, 0}}};
+                std::array<pollfd, 2> ends{{{messages.ends[0], POLLIN, 0}, {errors.ends[0], POLLIN, 0}}};
                 if (!ended)
                     poll(ends.data(), ends.size(), LONGEST_WAIT);
-                if (said.ends[0] >= 0)
-                    take(said, words);
+                if (messages.ends[0] >= 0)
+                    take(messages, words);
                 if (errors.ends[0] >= 0)
                     take(errors, complaints);
                 if (complaints.size() > 2 * KEPT)
@@ -299,7 +299,7 @@ namespace parking
     IsolatedResult runIsolated(const std::function<std::string(const std::function<void()> &halfDone)> &what,
                                const IsolationLimits &limits, const std::atomic<bool> &stop)
     {
-        Pipe said, errors;
+        Pipe messages, errors;
         std::cout.flush();
         std::cerr.flush();
         std::fflush(nullptr);
@@ -316,16 +316,16 @@ namespace parking
             if (getppid() != self || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0 ||
                 dup2(errors.ends[1], STDERR_FILENO) < 0)
                 _exit(EXIT_FAILURE);
-            said.closeEnd(0);
+            messages.closeEnd(0);
             errors.closeEnd(0);
-            answers = said.ends[1];
+            answers = messages.ends[1];
             work(what, limits.memory);
         }
         Child child(process);
-        said.closeEnd(1);
+        messages.closeEnd(1);
         errors.closeEnd(1);
-        fcntl(said.ends[0], F_SETFL, O_NONBLOCK);
+        fcntl(messages.ends[0], F_SETFL, O_NONBLOCK);
         fcntl(errors.ends[0], F_SETFL, O_NONBLOCK);
-        return await(child, said, errors, limits, stop);
+        return await(child, messages, errors, limits, stop);
     }
 }  // namespace parking

@@ -42,7 +42,7 @@ namespace parking
         };
 
         double remaining() const;
-        void say(const std::string &text, bool last);
+        void print(const std::string &text, bool last);
 
         std::map<std::string, Count> counts_;
         std::size_t total_;
@@ -51,6 +51,6 @@ namespace parking
         bool quiet_;
         bool terminal_;
         std::size_t width_{0};
-        std::chrono::steady_clock::time_point said_;
+        std::chrono::steady_clock::time_point printed_;
     };
 }  // namespace parking

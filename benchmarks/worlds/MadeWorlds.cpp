@@ -274,24 +274,24 @@ namespace parking_test
             {
                 return static_cast<std::size_t>(y * side + x);
             };
-            std::vector<std::pair<int, int>> way{{0, 0}};
+            std::vector<std::pair<int, int>> route{{0, 0}};
             seen[0] = true;
-            while (!way.empty())
+            while (!route.empty())
             {
-                const auto [x, y] = way.back();
+                const auto [x, y] = route.back();
                 std::vector<std::pair<int, int>> next;
                 for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
                     if (x + dx >= 0 && y + dy >= 0 && x + dx < side && y + dy < side && !seen[at(x + dx, y + dy)])
                         next.emplace_back(dx, dy);
                 if (next.empty())
                 {
-                    way.pop_back();
+                    route.pop_back();
                     continue;
                 }
                 const auto [dx, dy] = next[random.index(next.size())];
                 open[at(x + std::min(dx, 0), y + std::min(dy, 0))][dx == 0 ? 1 : 0] = true;
                 seen[at(x + dx, y + dy)] = true;
-                way.emplace_back(x + dx, y + dy);
+                route.emplace_back(x + dx, y + dy);
             }
             Polygons world;
             for (int y = 0; y < side; ++y)

@@ -39,11 +39,11 @@ namespace parking
                     std::visit([&](auto member) { visit(row.name, settings.parameters.*member); }, row.member);
         }
 
-        void checkRange(const char *name, double value, double least, double most)
+        void checkRange(const char *name, double value, double min, double max)
         {
-            if (!(value >= least && value <= most))
-                throw Error(std::string(name) + " must be between " + formatNumber(least) + " and " +
-                            formatNumber(most) + ", not " + formatNumber(value));
+            if (!(value >= min && value <= max))
+                throw Error(std::string(name) + " must be between " + formatNumber(min) + " and " + formatNumber(max) +
+                            ", not " + formatNumber(value));
         }
     }  // namespace
 
