@@ -292,7 +292,7 @@ namespace parking
             if (!fs::is_directory(input, ignored))
                 files.push_back(input);
             else if (addFolder(input, "benchmark*.db"); files.empty())
-                throw Error(input + ": holds no runs to merge (benchmark*.db)");
+                throw Error(input + ": contains no runs to merge (benchmark*.db)");
         std::sort(files.begin(), files.end());
         return files;
     }
@@ -301,7 +301,7 @@ namespace parking
     {
         const std::vector<std::string> files = parts();
         if (files.empty() && !fs::exists(database()))
-            throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
+            throw Error(folder_ + ": contains no runs to merge (benchmark*.db)");
         const Fingerprints prints = fingerprints();
         const auto require = [&](const std::string &file, const std::vector<RunRecord> &records)
         {
@@ -311,7 +311,7 @@ namespace parking
                 return print != prints.end() && record.fingerprint.find(print->second + "+") == 0;
             };
             if (!records.empty() && std::none_of(records.begin(), records.end(), isWanted))
-                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                throw Error(file + ": contains the runs of another comparison than " + config_.file +
                             " with these options (configuration, scenarios, limits or seed differ)");
         };
         std::vector<StoredRuns> all;

@@ -81,8 +81,8 @@ namespace parking
     /** \brief Reads a .cfg file like those of OMPL.app's ompl_benchmark: sections [problem], [benchmark] and [planner].
 
         Throws parking::Error naming file and line. Reasons are an unknown section, key or planner (with the nearest
-        known one), a value out of range (with the valid range), a key given twice, and incompatible settings.
-        Parameters of planners are checked when the planner is created. */
+        known one), or a value out of range (with the valid range). Others are a key given twice and incompatible
+       settings. Parameters of planners are checked when the planner is created. */
     BenchmarkConfig readBenchmarkConfig(const std::string &file, const PlannerRegistry &registry);
 
     /** \brief Keeps only the planners of these names. Throws parking::Error for a name that \e config does not

@@ -156,7 +156,7 @@ def columns_fault(solution, names):
         return f'it has {count} samples'
     for name in names:
         if solution[name].shape != (count - 1 if name == 'gear' else count, 1):
-            return f'{name} is no column of the right length'
+            return f'{name} is not a column of the right length'
         if not np.isfinite(solution[name]).all():
             return f'{name} is not finite'
     return None

@@ -3,8 +3,8 @@
 The code is the project's own and uses the numbers that HOPE publishes (src/configs.py of github.com/jiamiya/HOPE). They
 are the clearance round the car in its slot, the width of the aisle, the number of obstacles beyond it, and the start
 poses. normal and complex have bays and parallel slots, extreme only parallel slots. HOPE's fourth level uses recordings
-of the Dragon Lake lot, which this project may not distribute. dlp is here a lot of that size (140 m by 80 m, about 400
-bays), filled at random, with a start in an aisle up to 30 m away."""
+of the Dragon Lake lot, which this project may not distribute. dlp is a lot of that size (140 m by 80 m, about 400
+bays), filled at random. The start is in an aisle up to 30 m away."""
 import math
 from dataclasses import dataclass
 

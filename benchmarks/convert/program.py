@@ -72,7 +72,7 @@ OPTIONS = (  # name, placeholder of its value (empty: none), help
     ('--check', None, 'check INPUT, and OUTPUT after writing; status 1 when a check fails'),
     ('--vehicle', 'NAME|FILE', "the car (default: the file's, or the format's)"),
     ('--start', 'X,Y,YAW', "replace the file's, or add it if the format has none"),
-    ('--goal', 'X,Y,YAW', 'likewise'),
+    ('--goal', 'X,Y,YAW', "replace the file's goal, or add it if the format has none"),
     ('--hope', 'LEVEL', 'generate problems of this level of HOPE; OUTPUT is a folder'),
     ('--count', 'N', 'number of problems (default 10)'),
     ('--seed', 'N', 'seed of the first problem; each further one has the next number (default 1)'),
@@ -86,11 +86,13 @@ The format of INPUT is detected by its content.'''
 EXAMPLES = '''Examples, run at the root of the project:
   parking_convert benchmarks/scenarios/parallel.yaml parallel.svg
   parking_convert --hope complex hope --count 100 --seed 1
+
 More examples:
   parking_convert Case7.csv Case7.yaml --check
   parking_convert parking1.svg parking1.yaml --start 3,-7.2,0 --goal 4.05,-2.6,1.5708 --check
   parking_plan case07.yaml --trajectory --json case07.json
   parking_convert case07.json Case07.mat --to commonparking-trajectory --check
+
 Status: 0 done, 1 a check failed, 2 invalid input or usage'''
 
 

@@ -105,7 +105,7 @@ namespace parking
             if (std::holds_alternative<std::nullptr_t>(cell))
                 return;
             if (std::holds_alternative<std::string>(cell))
-                throw Error("the column " + inQuotes(column) + " holds a text");
+                throw Error("the column " + inQuotes(column) + " contains a text");
             const auto *whole = std::get_if<std::int64_t>(&cell);
             const FigureValue value = whole == nullptr    ? FigureValue(std::get<double>(cell))
                                       : type == "BOOLEAN" ? FigureValue(*whole != 0)

@@ -305,7 +305,7 @@ namespace
         {
             if (world_->scenario.grid)
                 return;
-            // An obstacle stands half way.
+            // Puts an obstacle in the middle of the path.
             const Path rest = path.rest(0.5 * path.length());
             Scenario changed = world_->scenario;
             changed.start = {rest.start.x, rest.start.y, wrapAngle(rest.start.yaw)};

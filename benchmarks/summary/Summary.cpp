@@ -136,7 +136,7 @@ namespace parking
                     values.push_back(record->number(column.name));
                 else if (column.summary->statistic == Statistic::Distribution)
                     values.push_back(HUGE_VAL);
-            // Of runs with the figure: a path without a trajectory has no figures of one.
+            // Only runs with the figure count: a path without a trajectory has no figures of one.
             values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                          values.end());
             if (column.summary->statistic == Statistic::Share)

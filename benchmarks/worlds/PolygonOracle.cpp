@@ -104,7 +104,7 @@ namespace parking_test
             return begin <= end;
         }
 
-        /** When no side of the polygon has a point in the body, it lies outside or round all of the body. */
+        /** If no side of the polygon has a point in the body, it lies outside or round all of the body. */
         template <class Corners>
         bool touches(const Corners &polygon) const
         {

@@ -319,7 +319,7 @@
 
   // Begin.
   let theme = null;
-  try { theme = localStorage.getItem('theme'); } catch (error) { /* no storage: as the system says */ }
+  try { theme = localStorage.getItem('theme'); } catch (error) { /* no storage: the system's theme */ }
   if (theme === 'dark' || (theme === null && matchMedia('(prefers-color-scheme: dark)').matches)) document.documentElement.classList.add('dark');
   Draw.refresh();
   legend();

@@ -187,7 +187,7 @@ class Output(InputTest):
     def test_no_folder_is_made_for_runs_that_are_not_there(self):
         os.mkdir(self.path('empty'))
         self.write('set.cfg', CONFIG % ('', '', ''))
-        for source, part in (('nosuch', 'nosuch'), ('empty', 'empty: holds no runs')):
+        for source, part in (('nosuch', 'nosuch'), ('empty', 'empty: contains no runs')):
             self.refused_benchmark('set.cfg', '--merge', '--from', source, '--output', 'new', parts=[part])
             self.assertFalse(os.path.exists(self.path('new')))
 
