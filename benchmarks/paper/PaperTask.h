@@ -71,9 +71,9 @@ namespace parking
         The run consists of the manoeuvre out of the slot in reverse, A* to its beginning, one spline along both, and
         the drive. Without a slot there is no manoeuvre, and A* plans to the goal.
 
-        A* plans to a position and arrives with any heading. There may be manoeuvres from either side. The run uses the
-        one with the shortest path of A* among those whose heading differs by at most a right angle, otherwise the one
-        with the smallest difference. */
+        A* plans to a position and arrives with any heading. There may be manoeuvres from either side. Those
+        whose heading differs from A*'s by at most a right angle come first, in order of the length of A*'s path. Others
+        follow in order of the difference. */
     class PaperTask
     {
     public:

@@ -246,7 +246,7 @@ def counted_claims(results, scenarios):
     task = 'benchmarks/paper/PaperTask.h'
     return [
         row('manoeuvre: arcs and lines out of the slot', 'parking_geometry/manoeuvres/ReverseParking.h',
-            'a collision-free way into the slot', sum(found), len(found)),
+            'a collision-free path into the slot', sum(found), len(found)),
         row('disc for the car', 'benchmarks/paper/DiscWorld.h', 'sufficient: the body is free along A\\*\'s path', sum(covered),
             len(covered)),
         row('end of A\\* is a position', task, 'the manoeuvre joins', sum(turn < 30.0 for turn in arrivals), len(arrivals),
