@@ -117,7 +117,7 @@ namespace
         for (const auto &[poses, reason] :
              std::vector<std::pair<std::vector<Pose>, std::string>>{{{}, "no states"},
                                                                     {{start, {5.0, nan, 0.0}, goal}, "state 1"},
-                                                                    {{start, {2e6, 0.0, 0.0}, goal}, "nowhere"}})
+                                                                    {{start, {2e6, 0.0, 0.0}, goal}, "out of range"}})
         {
             const PlanReport result = planned(problem, poses);
             EXPECT_FALSE(result.first().path.has_value());

@@ -20,7 +20,7 @@ improved_astar=
 reeds_shepp=
 {{planners}}
 '''.format(angled=bundled('angled45'))
-EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw something',
+EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw an exception that is not',
               'throws_in_constructor': 'bad in constructor', 'throws_in_setup': 'bad in setup',
               'throws_in_clear': 'clear() threw: bad in clear', 'throws_in_data': 'getPlannerData() threw: bad in data'}
 INVALID_ANSWERS = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is out of range: nan',
