@@ -30,8 +30,8 @@ namespace parking
             add("merge", "execute no runs: merge the runs in the output folder, or those of --from");
             add("from", manyValues("FILE|DIR"), "with --merge: file or folder of runs; repeatable");
             add("isolate",
-                "execute each run in its own process, which contains crashes, hangs and exhausted memory (runs "
-                "of plug-ins always are)");
+                "execute each run in its own process, which contains crashes, hangs and exhausted memory (always "
+                "for plug-ins)");
             add("no-isolate", "execute plug-ins in this process, too: only exceptions are contained");
             add("fresh", "repeat all runs, including finished ones");
             add("no-report", "leave out the HTML report");
