@@ -264,7 +264,7 @@ namespace parking
         if (!entry.allocate)
             throw Error("planner " + entry.name + " has no allocator");
         if (const auto known = lookUp(entry.name); known != entries_.end())
-            throw Error("another planner has the name " + known->name);
+            throw Error("another planner already has the name " + known->name);
         entries_.push_back(std::move(entry));
     }
 

@@ -224,7 +224,7 @@ class ProblemsTest(ConvertTest):
                                 (['case.csv', 'x.yaml', '--vehicle', ''], '--vehicle'),
                                 (['case.csv', 'x.yaml', '--vehicle', 'golf'], 'golf'),
                                 (['case.csv', 'x.yaml', '--count', '3'], 'requires --hope'),
-                                (['case.csv', 'x.yaml', '--seed', '3'], '--seed goes'),
+                                (['case.csv', 'x.yaml', '--seed', '3'], '--seed requires'),
                                 (['case.csv', '--check', '--to', 'yaml'], '--to is'),
                                 (['--hope', 'normal', 'x', '--start', '0,0,0'], '--start changes'),
                                 (['--hope', 'normal', 'x', '--vehicle', 'tpcap'], '--vehicle changes'),
@@ -238,7 +238,7 @@ class ProblemsTest(ConvertTest):
         text = self.convert('--help')
         for each in program.PROBLEM_FORMATS + program.RESULT_FORMATS:
             self.assertIn(f'\n  {each.name} ', text)
-        for word in ('extreme', 'Examples:', '.mat', '.svg', '.csv', '.yaml'):
+        for word in ('extreme', '\nExamples', '.mat', '.svg', '.csv', '.yaml'):
             self.assertIn(word, text)
 
 
@@ -376,7 +376,7 @@ class ResultsTest(ConvertTest):
         self.refused('plain.json', 'out.mat', parts=['no path'])
         for text in ('{"planner": 3}', '{', '{"a": ' * 100000):
             self.write('plain.json', text)
-            self.refused('plain.json', 'out.mat', parts=['plain.json: no result of parking_plan --json: '])
+            self.refused('plain.json', 'out.mat', parts=['plain.json: not a result of parking_plan --json: '])
 
     def test_fields_that_are_wrong_are_named(self):
         result = self.result()
@@ -418,7 +418,7 @@ class ResultsTest(ConvertTest):
                 (['vehicle', 'max_steering_angle'], 2, 'max_steering_angle is 2'),
                 (['path'], {'x': 1}, 'path is an object', 'a list'),
                 (['path', 3], 5, 'path[3] is 5'), (['path', 3, 'direction'], 0, 'path[3].direction is 0', '1 or -1'),
-                (['path', 3, 'x'], float('nan'), 'no result', 'NaN'), (['path', 3, 'y'], 1e300, 'path[3] does not follow'),
+                (['path', 3, 'x'], float('nan'), 'not a result', 'NaN'), (['path', 3, 'y'], 1e300, 'path[3] does not follow'),
                 (['path', 3, 'y'], result['path'][3]['y'] + 0.1, 'path[3] does not follow', 'm and'),
                 (['path', 3, 'yaw'], result['path'][3]['yaw'] + 0.1, 'path[3] does not follow'),
                 (['path', 3, 'direction'], -result['path'][3]['direction'], 'path[3] does not follow'),

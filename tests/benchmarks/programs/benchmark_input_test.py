@@ -72,7 +72,7 @@ class Configuration(InputTest):
         self.refused(problem='space = se3', parts=["did you mean 'se2'"])
         self.refused(problem='circle_radius = -1', parts=['circle_radius'])
         self.refused(problem='start.x = nan', parts=['start.x'])
-        self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'in which x is between'])
+        self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'whose x ranges between'])
         self.refused(problem='objective = clearance', parts=['length'])
         self.refused(problem='sampler = best', parts=['gaussian'])
 
@@ -98,7 +98,7 @@ class Configuration(InputTest):
         for arguments in (['--scenarios', 'pipe'], ['--scenarios', '/dev/zero'], ['--plugin', 'pipe']):
             self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=[arguments[1]])
         self.write('piped.cfg', CONFIG % ('scenario = pipe', '', ''))
-        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'pipe: is a pipe', 'more than once'])
+        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'pipe: is a pipe', 'read only once'])
         self.write('piped.cfg', CONFIG % ('vehicle = car.yaml', '', ''))
         self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'car.yaml: is a pipe'])
         self.refused_benchmark('/dev/zero', parts=['/dev/zero', 'device'])
@@ -137,7 +137,7 @@ class Unsolvable(InputTest):
                 (self.pose('start', 0.5, 2), 'the car is outside of the map, in whole or in part, at the start 0.5, 2, 0'),
                 (self.pose('goal', 5, 3), 'the car is in collision at the goal 5, 3, 0 (the goal is given in set.cfg)'),
                 (self.pose('goal', 60, 2), 'the car is outside of the map, in whole or in part, at the goal 60, 2, 0'),
-                ('volume.min.x = 2.5', 'the car is outside of the volume that is planned in at the start 2, 2, 0'),
+                ('volume.min.x = 2.5', 'the car is outside of the planning volume at the start 2, 2, 0'),
                 ('space = se2\nfootprint = circle\n' + self.pose('start', 6.2, 2), 'the circle is in collision at the start')):
             with self.subTest(problem):
                 told = self.told(problem)

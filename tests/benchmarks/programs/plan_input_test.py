@@ -163,7 +163,7 @@ class Output(ProgramTest):
             for name in ('nowhere/out', 'file/out', '/', ''):
                 with self.subTest(option=option, name=name):
                     self.refused_plan(bundled('angled45'), option, name)
-            self.refused_plan(bundled('angled45'), option, '', parts=[f'{option} must name a file'])
+            self.refused_plan(bundled('angled45'), option, '', parts=[f'{option} requires the name of a file'])
             self.refused_plan(bundled('angled45'), option, '/dev/full', parts=['No space left'])
         self.assertEqual(os.listdir(self.folder), ['file'])
 
