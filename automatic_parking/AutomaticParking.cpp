@@ -1,5 +1,6 @@
 #include "automatic_parking/AutomaticParking.h"
 
+#include "automatic_parking/Stopwatch.h"
 #include "parking_geometry/Error.h"
 #include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
@@ -8,7 +9,6 @@
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -70,11 +70,9 @@ namespace parking
     class AutomaticParking::Session
     {
     public:
-        Session(const ParkingParameters &parameters, const MapUpdate &update, const TrackingController::Solve &solve,
-                const Scenario &scenario)
+        Session(const ParkingParameters &parameters, const MapUpdate &update, const Scenario &scenario)
           : parameters_(parameters),
             update_(update),
-            solve_(solve),
             scenario_((scenario.vehicle.validate(), scenario)),
             world_(scenario, fclContactTest())
         {
@@ -141,7 +139,7 @@ namespace parking
             {
                 truth = path.start;
                 goal_ = leg.plan.goal = path.end();
-                leg.plan.clearance = world_.clearance(path);
+                leg.plan.clearance = leastClearance(world_.footprint(), path);
             }
             const bool driven = drive(leg, truth, 0);
             result_.legs.push_back(std::move(leg));
@@ -187,7 +185,7 @@ namespace parking
         {
             if (!parameters_.optimizeTrajectory || leg.plan.clearance < parameters_.motionClearance)
                 return;
-            const auto begin = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             const Vehicle &car = scenario_.vehicle;
             QuickestTrajectoryOptions options = parameters_.trajectory;
             options.trajectory.initialSteering = std::clamp(steering_, -car.maxSteeringAngle, car.maxSteeringAngle);
@@ -212,7 +210,7 @@ namespace parking
             {
                 note(std::string("the path is driven with standstills: ") + error.what());
             }
-            leg.optimizationTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            leg.optimizationTime = watch.seconds();
             result_.planningTime += leg.optimizationTime;
         }
 
@@ -250,7 +248,7 @@ namespace parking
         {
             if (enlarged_ && enlarged_->isFree(stoppingWay.start))
                 return isPathFree(*enlarged_, stoppingWay);
-            return !world_.footprint().isFree(stoppingWay.start) || world_.isFree(stoppingWay);
+            return !world_.footprint().isFree(stoppingWay.start) || isPathFree(world_.footprint(), stoppingWay);
         }
 
         /** Drives the plan of \e leg; false when it cannot be driven. */
@@ -264,9 +262,12 @@ namespace parking
             parameters.tracking.accelerationShare =
                 std::min(parameters.tracking.accelerationShare, accelerationShare());
             ClosedLoop loop(scenario_.vehicle, parameters);
-            loop.setClearance([this](const Pose &pose) { return world_.footprint().clearance(pose); });
-            loop.setValidity([this](const Pose &pose) { return world_.footprint().isFree(pose); });
-            loop.setSolve(solve_);
+            loop.setClearance(
+                [this](const Pose &pose)
+                {
+                    const FootprintChecker &footprint = world_.footprint();
+                    return footprint.isFree(pose) ? footprint.clearance(pose) : 0.0;
+                });
             cause_.clear();
             enlarged_ = world_.enlarged(gapOf(leg));
             loop.setGuard([this](const TrackingStep &step) { return canStop(step.stoppingWay); });
@@ -284,8 +285,9 @@ namespace parking
             }
             // The car is the same on the next drive.
             parameters_.drive.tracking.response = leg.drive.response;
-            if (cause_.empty())
-                cause_ = whyStopped(leg.drive);
+            for (const DriveRecord &record : leg.drive.log)
+                if (cause_.empty())
+                    cause_ = record.control.interruption;
             for (TrajectoryPoint point : leg.drive.trajectory)
             {
                 // A drive begins where the one before has ended.
@@ -300,19 +302,6 @@ namespace parking
             if (leg.drive.arrived || cause_.empty())
                 note(leg.drive.message);
             return true;
-        }
-
-        /** Why the controller stopped, when another plan may help. */
-        static std::string whyStopped(const DriveResult &drive)
-        {
-            for (const DriveRecord &record : drive.log)
-                if (record.control.wheelsAreBack)
-                    return "the wheels did not follow their command";
-                else if (record.control.poseIsBack)
-                    return "the pose was lost";
-                else if (record.control.blocked)
-                    return "the car could not stop in time if it went on";
-            return "";
         }
 
         bool isAt(const Pose &pose, const Pose &goal) const
@@ -430,7 +419,6 @@ namespace parking
 
         ParkingParameters parameters_;
         const MapUpdate &update_;
-        const TrackingController::Solve &solve_;
         Scenario scenario_;
         ParkingWorld world_;
         Pose goal_;
@@ -452,20 +440,15 @@ namespace parking
         update_ = std::move(update);
     }
 
-    void AutomaticParking::setSolve(TrackingController::Solve solve)
-    {
-        solve_ = std::move(solve);
-    }
-
     ParkingResult AutomaticParking::park(const Scenario &scenario, const std::optional<Pose> &start) const
     {
-        return Session(parameters_, update_, solve_, scenario).park(start);
+        return Session(parameters_, update_, scenario).park(start);
     }
 
     ParkingResult AutomaticParking::drive(const Scenario &scenario, const Path &path) const
     {
         const MapUpdate none;
-        return Session(parameters_, none, solve_, scenario).follow(path);
+        return Session(parameters_, none, scenario).follow(path);
     }
 
     Evaluation combined(const std::vector<Evaluation> &drives)

@@ -114,9 +114,6 @@ namespace parking
         /** \brief Whom to ask for a changed world; empty: the world stays as it is. */
         void setMapUpdate(MapUpdate update);
 
-        /** \brief Replaces the optimiser of the controller (see TrackingController). */
-        void setSolve(TrackingController::Solve solve);
-
         /** \brief Parks the car of \e scenario.
 
             Throws parking::Error for an invalid scenario (no goal, an invalid car); everything else is in
@@ -133,7 +130,6 @@ namespace parking
 
         ParkingParameters parameters_;
         MapUpdate update_;
-        TrackingController::Solve solve_;
     };
 
     /** \brief The figures of several drives, one after the other, as if they were one. */

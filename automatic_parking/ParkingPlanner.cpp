@@ -1,5 +1,6 @@
 #include "automatic_parking/ParkingPlanner.h"
 
+#include "automatic_parking/Stopwatch.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/Plan.h"
 #include "parking_geometry/Error.h"
@@ -9,7 +10,6 @@
 #include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -54,19 +54,6 @@ namespace parking
             }
         };
 
-        /** Seconds since it was made. */
-        class Stopwatch
-        {
-        public:
-            double seconds() const
-            {
-                return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-            }
-
-        private:
-            std::chrono::steady_clock::time_point begin_{std::chrono::steady_clock::now()};
-        };
-
         std::string centimetres(double metres)
         {
             return formatNumber(std::round(100.0 * metres)) + " cm";
@@ -106,7 +93,7 @@ namespace parking
                 plan_.gap = best.level.gap;
                 plan_.turningRadius = best.level.radius;
                 smooth(*best.checker);
-                plan_.clearance = world_.clearance(plan_.path);
+                plan_.clearance = leastClearance(world_.footprint(), plan_.path);
                 plan_.message =
                     (plan_.manoeuvre.path.pieces.empty() ? "planned all the way" : "approach and manoeuvre") +
                     std::string(", at least ") + centimetres(plan_.clearance) + " from obstacles";
@@ -492,7 +479,7 @@ namespace parking
                     plan_.smooth =
                         PathSmoother(scenario_.vehicle, parameters_.smoothing).smooth(plan_.arcs, queriesOf(checker));
                     // The arcs were swept; where the smoother cannot promise as much for what it made, they stay.
-                    if (plan_.smooth.free && world_.isFree(plan_.smooth.path))
+                    if (plan_.smooth.free && isPathFree(world_.footprint(), plan_.smooth.path))
                         plan_.path = plan_.smooth.path;
                     else
                         plan_.smooth = {};

@@ -2,7 +2,6 @@
 
 #include "parking_geometry/Error.h"
 #include "state_validity/ObstacleSet.h"
-#include "state_validity/sweeps/PathSweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@ namespace parking
 {
     namespace
     {
-        // How exactly the least clearance is found: the promise of ParkingWorld::clearance().
+        // How exactly the least clearance is found: the promise of leastClearance().
         constexpr double CLEARANCE_STEP = 1e-3;   // metres
         constexpr double CLEARANCE_SHARE = 0.01;  // or this share of it
     }                                             // namespace
@@ -37,11 +36,6 @@ namespace parking
         {
             return nullptr;
         }
-    }
-
-    bool ParkingWorld::isFree(const Path &path) const
-    {
-        return isPathFree(*footprint_, path);
     }
 
     double leastClearance(const FootprintChecker &checker, const Path &path)
@@ -71,10 +65,5 @@ namespace parking
             from = advance(from, piece);
         }
         return least;
-    }
-
-    double ParkingWorld::clearance(const Path &path) const
-    {
-        return leastClearance(*footprint_, path);
     }
 }  // namespace parking

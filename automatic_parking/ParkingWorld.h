@@ -32,13 +32,6 @@ namespace parking
             world. */
         std::shared_ptr<const FootprintChecker> enlarged(double gap) const;
 
-        /** \brief Is the whole of \e path free? Swept, not sampled. */
-        bool isFree(const Path &path) const;
-
-        /** \brief Least distance in metres between the body and the obstacles along \e path, to a millimetre or one
-            percent; 0 when they touch. */
-        double clearance(const Path &path) const;
-
     private:
         ContactTestMaker contact_;
         std::shared_ptr<const FootprintChecker> footprint_;

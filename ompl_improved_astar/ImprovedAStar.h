@@ -133,7 +133,7 @@ namespace ompl::geometric
         parking::search::PlanOutcome outcome() const;
 
         /** \brief One line that explains why there is no solution; empty if unknown or if only the time limit was met.
-        */
+         */
         const std::string &reason() const;
 
         /** \brief Best cost divided by a lower bound of all paths, at least 1; see

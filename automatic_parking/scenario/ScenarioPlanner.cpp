@@ -1,6 +1,7 @@
 #include "automatic_parking/scenario/ScenarioPlanner.h"
 
 #include "automatic_parking/ParkingWorld.h"
+#include "automatic_parking/Stopwatch.h"
 #include "ompl_improved_astar/search/MotionModel.h"
 #include "ompl_improved_astar/search/planning/FootprintEnvironment.h"
 #include "ompl_improved_astar/search/planning/GridSmoothing.h"
@@ -8,7 +9,6 @@
 #include "parking_geometry/text/Require.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -19,13 +19,6 @@ namespace parking
         constexpr double SWEEP_TOLERANCE = 1e-3;  // metres kept from obstacles by the search
         constexpr double SAMPLING = 0.1;          // metres between states
         constexpr double SAME = 1e-4;             // metres and radians: rounding of long paths
-
-        using Clock = std::chrono::steady_clock;
-
-        double secondsSince(Clock::time_point begin)
-        {
-            return std::chrono::duration<double>(Clock::now() - begin).count();
-        }
 
         /** The world of the grid models: the paper's circle, which has no heading. */
         class CircleEnvironment final : public search::MotionEnvironment
@@ -137,11 +130,11 @@ namespace parking
         search::PlanRequest request = this->request(parameters);
         request.maxExpansions = limits.expansions;
         request.improved = limits.improved;
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         const bool endless = std::isinf(limits.time);
-        request.stop = [&limits, begin, endless]
+        request.stop = [&limits, watch, endless]
         {
-            return (!endless && secondsSince(begin) > limits.time) || (limits.interrupted && limits.interrupted());
+            return (!endless && watch.seconds() > limits.time) || (limits.interrupted && limits.interrupted());
         };
 
         const std::unique_ptr<search::MotionEnvironment> environment = this->environment(parameters);
@@ -152,7 +145,7 @@ namespace parking
             search::smoothGridPath(result.path, *environment, request.car.turningRadius, request.stop);
         if (const auto *footprint = dynamic_cast<const FootprintEnvironment *>(environment.get()))
             result.checks = footprint->counts();
-        result.planningTime = std::max(0.0, secondsSince(begin) - result.loadingTime);
+        result.planningTime = std::max(0.0, watch.seconds() - result.loadingTime);
         return result;
     }
 

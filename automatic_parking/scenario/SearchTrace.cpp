@@ -1,6 +1,7 @@
 #include "automatic_parking/scenario/SearchTrace.h"
 
-#include <chrono>
+#include "automatic_parking/Stopwatch.h"
+
 #include <memory>
 #include <utility>
 
@@ -67,14 +68,10 @@ namespace parking
                 trace.steps.back() = step;
             return start.nodes().size() + goal.nodes().size() >= mostNodes;
         };
-        const auto begin = std::chrono::steady_clock::now();
-        path.solve(
-            [&]
-            {
-                const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-                return note() || seconds > limits.time || (limits.interrupted && limits.interrupted());
-            },
-            limits.improved);
+        const Stopwatch watch;
+        path.solve([&]
+                   { return note() || watch.seconds() > limits.time || (limits.interrupted && limits.interrupted()); },
+                   limits.improved);
         note();
         trace.start = nodesOf(start);
         trace.goal = nodesOf(goal);

@@ -267,8 +267,8 @@ namespace parking
     ClosedLoop Problem::closedLoop() const
     {
         ClosedLoop loop(scenario_.vehicle);
-        loop.setClearance([checker = footprint_](const Pose &pose) { return checker->clearance(pose); });
-        loop.setValidity([checker = footprint_](const Pose &pose) { return checker->isFree(pose); });
+        loop.setClearance([checker = footprint_](const Pose &pose)
+                          { return checker->isFree(pose) ? checker->clearance(pose) : 0.0; });
         return loop;
     }
 

@@ -22,8 +22,8 @@ namespace parking::search
         double gearChangePenalty{0.0};      ///< cost of each change between forwards and reverse
         double steeringChangePenalty{0.0};  ///< cost of turning the wheels from straight to full lock
         double fullLockCurvature{1.0};      ///< 1/m, of full lock
-        double preferredClearance{0.0}; ///< metres kept from obstacles if that is cheap; 0: none
-        double clearanceCost{0.0}; ///< extra cost per metre driven closer than that
+        double preferredClearance{0.0};     ///< metres kept from obstacles if that is cheap; 0: none
+        double clearanceCost{0.0};          ///< extra cost per metre driven closer than that
         double sampleSpacing{0.1};          ///< metres between the poses at which the clearance is sampled
 
         /** \brief Cost of driving \e piece in its own direction, obstacles ignored. */
@@ -69,7 +69,7 @@ namespace parking::search
     struct PricedPath
     {
         Path path;                      ///< what is driven
-        std::vector<double> proximity; ///< extra cost of each piece for closeness to obstacles
+        std::vector<double> proximity;  ///< extra cost of each piece for closeness to obstacles
         double cost{0.0};               ///< of the whole, proximity included
 
         /** \brief Extra cost of the whole path for closeness to obstacles. */

@@ -24,19 +24,19 @@ namespace parking::search
     /** \brief Why Search::run() returned. */
     enum class SearchOutcome
     {
-        Improved, ///< a first or a cheaper solution
-        Exhausted, ///< nothing left to expand, or proven infeasible: see exhaustion()
-        Stopped ///< the stop function returned true
+        Improved,   ///< a first or a cheaper solution
+        Exhausted,  ///< nothing left to expand, or proven infeasible: see exhaustion()
+        Stopped     ///< the stop function returned true
     };
 
     /** \brief Why a search is exhausted. */
     enum class Exhaustion
     {
-        None, ///< it is not
-        WalledIn, ///< proven: a disc inscribed in the car has no route around the obstacles
-        Enclosed, ///< proven: a car that moves sideways and turns on the spot has no path (Enclosure)
-        SearchedOut, ///< every motion from one end has been tried, down to the finest resolution
-        NoProgress ///< a search for the pose nearest to a goal has stalled
+        None,         ///< it is not
+        WalledIn,     ///< proven: a disc inscribed in the car has no route around the obstacles
+        Enclosed,     ///< proven: a car that moves sideways and turns on the spot has no path (Enclosure)
+        SearchedOut,  ///< every motion from one end has been tried, down to the finest resolution
+        NoProgress    ///< a search for the pose nearest to a goal has stalled
     };
 
     /** \brief Bidirectional best-first search over a motion model.

@@ -11,13 +11,12 @@ namespace parking
         constexpr double SHORTEST_LAG = 1e-3;        // seconds; below it there is none
         constexpr double LONGEST_LAG = 0.5;          // seconds
         constexpr double GAIN = 0.2;  // share of what one period says that is believed; the first say more
+    }                                 // namespace
 
-        /** Share of a step that the mean of a period has not followed; it rises with the lag. */
-        double unfollowed(double lag, double duration)
-        {
-            return lag / duration * (1.0 - std::exp(-duration / lag));
-        }
-    }  // namespace
+    double unfollowed(double lag, double duration)
+    {
+        return lag > 0.0 ? lag / duration * (1.0 - std::exp(-duration / lag)) : 0.0;
+    }
 
     LagStep::LagStep(double lag, double duration)
     {
@@ -25,7 +24,7 @@ namespace parking
             return;
         // With q = exp(-h / T): value' = c' - T / h (1 - q) (c' - c) - q (c - value).
         ofValue = std::exp(-duration / lag);
-        const double late = lag / duration * (1.0 - ofValue);
+        const double late = unfollowed(lag, duration);
         ofCommand = 1.0 - late;
         ofBefore = late - ofValue;
     }

@@ -17,7 +17,17 @@ namespace parking
 
         /** \param lag seconds, time constant; 0: the value is the command \param duration seconds, of the step */
         LagStep(double lag, double duration);
+
+        /** \brief The value after the step. \param before value before it */
+        double after(double command, double commandBefore, double before) const
+        {
+            return ofCommand * command + ofBefore * commandBefore + ofValue * before;
+        }
     };
+
+    /** \brief Share of a step of the command that the mean over \e duration seconds has not followed; 0 without a lag,
+        and the larger the longer that is. */
+    double unfollowed(double lag, double duration);
 
     /** \brief Learns the time constant of a first-order lag from how far a value trails its command.
 

@@ -17,12 +17,7 @@ namespace parking
         constexpr double BRAKE_GAIN = 0.4;     // share of what a period says that is believed
         constexpr double LEAST_TURN = 0.015;   // radians that wheels should have turned by
         constexpr double HARDLY = 0.05;        // share of it that counts as standing still
-
-        double meanOfLag(double lag, double duration)
-        {
-            return lag > 0.0 ? lag / duration * (1.0 - std::exp(-duration / lag)) : 0.0;
-        }
-    }  // namespace
+    }                                          // namespace
 
     void ResponseParameters::validate() const
     {
@@ -127,10 +122,9 @@ namespace parking
 
     double CarResponse::expectedTurn(std::size_t delay, double lag) const
     {
-        const LagStep step(lag, period_);
         const double before = estimator_.measuredSteering();
-        return step.ofCommand * delay_.given(delay).steering + step.ofBefore * delay_.given(delay + 1).steering +
-               step.ofValue * before - before;
+        return LagStep(lag, period_).after(delay_.given(delay).steering, delay_.given(delay + 1).steering, before) -
+               before;
     }
 
     ResponseParameters CarResponse::learnt() const
@@ -174,8 +168,7 @@ namespace parking
         if (!wheelsStick())
         {
             const LagStep lag(steeringLag_.lag(), period_);
-            next.wheels = lag.ofCommand * (command.steering + offset) + lag.ofBefore * (state.commanded + offset) +
-                          lag.ofValue * state.wheels;
+            next.wheels = lag.after(command.steering + offset, state.commanded + offset, state.wheels);
         }
         next.commanded = command.steering;
 
@@ -183,7 +176,7 @@ namespace parking
         if (command.hold && asked * state.speed >= 0.0)
             asked = state.speed == 0.0 ? 0.0 : -std::copysign(vehicle_.maxAcceleration, state.speed);
         asked *= estimator_.speedScale() * (asked * state.speed < 0.0 ? brakeScale : 1.0);
-        const double lag = driveLag_.lag(), late = meanOfLag(lag, period_);
+        const double lag = driveLag_.lag(), late = unfollowed(lag, period_);
         const double mean = asked + late * (state.acceleration - asked);
         next.acceleration = lag > 0.0 ? asked + std::exp(-period_ / lag) * (state.acceleration - asked) : asked;
         next.speed = state.speed + mean * period_;

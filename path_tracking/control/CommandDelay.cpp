@@ -45,16 +45,14 @@ namespace parking
             Guess &guess = guesses_[i];
             const Command &now = given(i), &last = given(i + 1);
             // First what is foretold, then what is learnt.
-            const LagStep wheels(guess.wheels.lag(), period_);
             const double angle =
-                wheels.ofCommand * now.steering + wheels.ofBefore * last.steering + wheels.ofValue * before.steering;
+                LagStep(guess.wheels.lag(), period_).after(now.steering, last.steering, before.steering);
             double error = squared((after.steering - angle) / ANGLE);
             const double gained = (after.speed - before.speed) / period_;
-            const LagStep drive(guess.drive.lag(), period_);
             double asked = now.acceleration;
             if (now.hold && before.speed == 0.0)
                 asked = 0.0;
-            const double late = guess.drive.lag() > 0.0 ? 1.0 - drive.ofCommand : 0.0;
+            const double late = unfollowed(guess.drive.lag(), period_);
             if (!now.hold || before.speed == 0.0)
                 error += squared((gained - asked - late * (guess.drive.acceleration() - asked)) / ACCELERATION);
             guess.wheels.learn(period_, now.steering - last.steering, last.steering - before.steering,

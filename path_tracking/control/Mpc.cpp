@@ -4,7 +4,6 @@
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/control/MpcCost.h"
 #include "path_tracking/control/MpcWorkingSet.h"
-#include "path_tracking/simulation/BicycleModel.h"
 
 #include <algorithm>
 #include <chrono>
@@ -167,11 +166,6 @@ namespace parking
             options_.callbacks.push_back(&stopAfterStep_);
         }
 
-        const MpcParameters &parameters() const
-        {
-            return parameters_;
-        }
-
         void reset()
         {
             warm_ = false;
@@ -285,27 +279,12 @@ namespace parking
 
         void extract(const MpcProblem &problem, MpcSolution &solution) const
         {
-            const double step = parameters_.step;
-            solution.controls.reserve(parameters_.horizon);
-            solution.predicted.reserve(parameters_.horizon);
-            const LagStep drive(problem.driveLag, step), steer(problem.steeringLag, step);
-            Pose pose = problem.pose;
-            double commanded = problem.direction * limits_[SPEED].last, speed = problem.speed;
-            double steering = limits_[STEERING].last, wheels = problem.wheels;
+            double before = problem.direction * limits_[SPEED].last;
             for (Eigen::Index k = 0; 2 * k < unknowns_.size(); ++k)
             {
-                const double command = problem.direction * unknowns_[2 * k], angle = unknowns_[2 * k + 1];
-                solution.controls.push_back({(command - commanded) / step, angle});
-                const double nextSpeed = drive.ofCommand * command + drive.ofBefore * commanded + drive.ofValue * speed;
-                const double nextWheels = steer.ofCommand * angle + steer.ofBefore * steering + steer.ofValue * wheels;
-                const BicycleStep<double> moved = bicycleStep(pose.yaw, speed, (nextSpeed - speed) / step, wheels,
-                                                              nextWheels, step, vehicle_.wheelbase);
-                pose = {pose.x + moved.dx, pose.y + moved.dy, wrapAngle(pose.yaw + moved.dyaw)};
-                solution.predicted.push_back(pose);
-                commanded = command;
-                speed = nextSpeed;
-                steering = angle;
-                wheels = nextWheels;
+                const double speed = problem.direction * unknowns_[2 * k];
+                solution.controls.push_back({(speed - before) / parameters_.step, unknowns_[2 * k + 1]});
+                before = speed;
             }
             solution.usable = true;
         }
@@ -331,11 +310,6 @@ namespace parking
     Mpc::~Mpc() = default;
     Mpc::Mpc(Mpc &&) noexcept = default;
     Mpc &Mpc::operator=(Mpc &&) noexcept = default;
-
-    const MpcParameters &Mpc::parameters() const
-    {
-        return solver_->parameters();
-    }
 
     void Mpc::reset()
     {

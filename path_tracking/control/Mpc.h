@@ -77,7 +77,6 @@ namespace parking
     {
         bool usable{false};                ///< false: controls is empty and message says why
         std::vector<MpcControl> controls;  ///< one per step of the horizon, within all limits
-        std::vector<Pose> predicted;       ///< the pose after each of them
         int iterations{0};                 ///< steps of the solver, at most MpcParameters::maxIterations
         double cost{0.0};                  ///< at the begin of the last step, up to a constant; without unit
         double solveTime{0.0};             ///< seconds of wall clock
@@ -111,9 +110,6 @@ namespace parking
 
         /** \brief As the constructor. */
         Mpc &operator=(Mpc &&) noexcept;
-
-        /** \brief The parameters as given. */
-        const MpcParameters &parameters() const;
 
         /** \brief Forgets the last answer: the next problem starts from the reference's controls. */
         void reset();

@@ -144,10 +144,8 @@ namespace parking
         {
             const Eigen::Index v = 2 * k, d = 2 * k + 1;  // columns of this step's unknowns
             const double command = unknowns[v], steering = unknowns[d];
-            const double speed =
-                drive_.ofCommand * command + drive_.ofBefore * commandBefore + drive_.ofValue * speedBefore;
-            const double wheels =
-                steer_.ofCommand * steering + steer_.ofBefore * steeringBefore + steer_.ofValue * wheelsBefore;
+            const double speed = drive_.after(command, commandBefore, speedBefore);
+            const double wheels = steer_.after(steering, steeringBefore, wheelsBefore);
             const Pose &wanted = reference_[static_cast<std::size_t>(k)];
             const double c = std::cos(wanted.yaw), s = std::sin(wanted.yaw);
             if (jacobian != nullptr)

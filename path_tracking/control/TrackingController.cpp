@@ -472,8 +472,8 @@ namespace parking
         // They are told to turn a little towards the middle, and are back when they do.
         constexpr double TRIED = 0.1, TURNED = 0.02;
         wheelsAwaited_ += parameters_.mpc.step;
-        step.wheelsAreBack = std::abs(estimator().measuredSteering() - *stuckAt_) >= TURNED;
-        if (!step.wheelsAreBack && wheelsAwaited_ <= parameters_.wheelPatience)
+        const bool areBack = std::abs(estimator().measuredSteering() - *stuckAt_) >= TURNED;
+        if (!areBack && wheelsAwaited_ <= parameters_.wheelPatience)
         {
             const double target = std::clamp(*stuckAt_ - std::copysign(TRIED, *stuckAt_), -vehicle_.maxSteeringAngle,
                                              vehicle_.maxSteeringAngle);
@@ -481,9 +481,11 @@ namespace parking
             return;
         }
         mode_ = TrackingMode::Stopped;
-        step.event = step.wheelsAreBack ? "the wheels turn again"
-                                        : "safe stop: the wheels do not follow their command, and have not for " +
-                                              formatNumber(parameters_.wheelPatience) + " s";
+        step.event = areBack ? "the wheels turn again"
+                             : "safe stop: the wheels do not follow their command, and have not for " +
+                                   formatNumber(parameters_.wheelPatience) + " s";
+        if (areBack)
+            step.interruption = "the wheels did not follow their command";
     }
 
     void TrackingController::waitForPose(TrackingStep &step)
@@ -492,10 +494,12 @@ namespace parking
         if (verdict == PoseWatch::Verdict::Wait)
             return;
         mode_ = TrackingMode::Stopped;
-        step.poseIsBack = verdict == PoseWatch::Verdict::Back;
-        step.event = step.poseIsBack ? "the pose is back"
-                                     : "safe stop: the pose was lost, and not back after " +
-                                           formatNumber(parameters_.posePatience) + " s";
+        const bool isBack = verdict == PoseWatch::Verdict::Back;
+        step.event = isBack ? "the pose is back"
+                            : "safe stop: the pose was lost, and not back after " +
+                                  formatNumber(parameters_.posePatience) + " s";
+        if (isBack)
+            step.interruption = "the pose was lost";
     }
 
     Path TrackingController::stoppingWay(const Command &command) const
@@ -532,8 +536,9 @@ namespace parking
             step.event = "slowing down: the way to a stop is not free";
         if (std::abs(estimator().speed()) <= STANDING)
             refused_ += parameters_.mpc.step;
-        step.blocked = refused_ >= parameters_.guardPatience;
-        if (step.blocked)
-            beginStop("the car cannot go on and still stop in time", step);
+        if (refused_ < parameters_.guardPatience)
+            return;
+        step.interruption = "the car could not stop in time if it went on";
+        beginStop("the car cannot go on and still stop in time", step);
     }
 }  // namespace parking

@@ -43,9 +43,9 @@ namespace parking
         bool solverFailed{false};                   ///< and was its answer useless?
         double solveTime{0.0};                      ///< seconds
         int iterations{0};                          ///< of the optimiser
-        bool wheelsAreBack{false};                  ///< has the car stopped, and waited, until its wheels turned again?
-        bool poseIsBack{false};                     ///< has the car stopped, and waited, until its pose was back?
-        bool blocked{false};                        ///< has the guard kept the car standing until it was a safe stop?
+        /** Why the car stands after a safe stop though another drive may lead on from here: what it waited for is back,
+            or the guard kept it from going on. Empty otherwise. */
+        std::string interruption;
         /** What the car drives from the estimate on when it obeys this command and then stops: with the delay and the
             lags that were learnt, and the brake in reserve. Only a guard gets to see it. */
         Path stoppingWay;

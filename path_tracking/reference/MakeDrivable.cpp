@@ -1,28 +1,44 @@
 #include "path_tracking/reference/MakeDrivable.h"
 
 #include "parking_geometry/Error.h"
+#include "parking_geometry/curves/Biarc.h"
 #include "parking_geometry/curves/ReedsShepp.h"
+#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
-#include "path_tracking/reference/CornerRounding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace parking
 {
     namespace
     {
-        constexpr double SHUNT_STEP = 0.1;       ///< metres between the places where a shunt's deviation is looked at
-        constexpr double SHORTEST_PIECE = 1e-7;  ///< metres; less is rounding
-        constexpr double MOST_CURVATURE = 1.01;  ///< of the car's that a path may have: rounding of turning radii
-        constexpr double ROUNDING_TURN = 1e-9;   ///< radians; less is rounding of headings and not a corner
-        constexpr double EXACT = 1e-5;           ///< metres from a place that count as standing there
-        constexpr double EXACT_YAW = 1e-6;       ///< radians likewise
-        constexpr double BESIDE = 0.01;          ///< metres from a place that two gentle arcs make good
-        constexpr double BESIDE_YAW = 0.03;      ///< radians likewise
+        constexpr double SHUNT_STEP = 0.1;       // metres between the places where a shunt's deviation is looked at
+        constexpr double SHORTEST_PIECE = 1e-7;  // metres; less is rounding
+        constexpr double MOST_CURVATURE = 1.01;  // of the car's that a path may have: rounding of turning radii
+        constexpr double ROUNDING_TURN = 1e-9;   // radians; less is rounding of headings and not a corner
+        constexpr double EXACT = 1e-5;           // metres from a place that count as standing there
+        constexpr double EXACT_YAW = 1e-6;       // radians likewise
+        constexpr double BESIDE = 0.01;          // metres from a place that two gentle arcs make good
+        constexpr double BESIDE_YAW = 0.03;      // radians likewise
+        constexpr double END = 0.02;             // metres beside the end of the path from which the car shunts to it
+        constexpr double END_YAW = 0.03;         // radians likewise
+
+        constexpr double STEP = 0.05;               // metres that the simulated car drives at a time
+        constexpr double BACK_ON_PATH = 0.005;      // metres beside the stretch that count as being on it
+        constexpr double BACK_IN_YAW = 0.005;       // radians likewise
+        constexpr double BACK_IN_CURVATURE = 0.02;  // 1/m likewise
+        constexpr double SEARCH_AHEAD = 2.0;        // metres of the stretch searched for the nearest place
+        constexpr double JOIN_LENGTH = 1.0;         // metres over which a car returns exactly
+        constexpr double LEAST_JOIN = 0.3;          // metres; in less, even millimetres ask for much steering
 
         bool apart(const Pose &a, const Pose &b, double most, double mostYaw)
         {
@@ -74,16 +90,273 @@ namespace parking
             return merged;
         }
 
+        /** The stretch as a polyline of places with distances from its begin. */
+        class Guide
+        {
+        public:
+            explicit Guide(const Path &stretch)
+            {
+                Pose pose = stretch.start;
+                points_.emplace_back(pose.x, pose.y);
+                distances_.push_back(0.0);
+                driven_.push_back(0.0);
+                double before = 0.0;
+                for (const PathPiece &piece : stretch.pieces)
+                {
+                    if (piece.turn != 0.0)
+                        lastCorner_ = distances_.back();
+                    // Bent pieces are resampled so that the polyline is the stretch.
+                    const bool bent = piece.curvature != 0.0 || piece.sharpness != 0.0;
+                    const int parts = bent ? std::max(1, static_cast<int>(std::ceil(piece.driven() / STEP))) : 1;
+                    for (int k = 1; k <= parts && piece.length != 0.0; ++k)
+                    {
+                        const double along = piece.driven() * k / parts;
+                        const Pose place = advance(pose, piece, along);
+                        append({place.x, place.y}, before + along);
+                    }
+                    pose = advance(pose, piece);
+                    before += piece.driven();
+                }
+            }
+
+            double length() const
+            {
+                return distances_.back();
+            }
+
+            /** Distance of the last corner from the begin. */
+            double lastCorner() const
+            {
+                return lastCorner_;
+            }
+
+            Eigen::Vector2d endDirection() const
+            {
+                const std::size_t n = points_.size();
+                return (points_[n - 1] - points_[n - 2]).normalized();
+            }
+
+            const Eigen::Vector2d &end() const
+            {
+                return points_.back();
+            }
+
+            /** The place at \e distance; beyond the end straight on. */
+            Eigen::Vector2d at(double distance) const
+            {
+                if (distance >= length())
+                    return points_.back() + endDirection() * (distance - length());
+                const std::size_t i = indexAfter(distance);
+                return points_[i - 1] + shareOf(i, distance) * (points_[i] - points_[i - 1]);
+            }
+
+            /** Metres driven along the stretch itself at \e distance. */
+            double drivenAt(double distance) const
+            {
+                const std::size_t i = indexAfter(distance);
+                return driven_[i - 1] + shareOf(i, distance) * (driven_[i] - driven_[i - 1]);
+            }
+
+            /** Distance from the begin to the place nearest to \e point, at most SEARCH_AHEAD beyond \e from. */
+            double nearest(const Eigen::Vector2d &point, double from, double &deviation) const
+            {
+                double best = std::numeric_limits<double>::infinity();
+                double result = from;
+                for (std::size_t i = indexAfter(from); i < points_.size(); ++i)
+                {
+                    const Eigen::Vector2d edge = points_[i] - points_[i - 1];
+                    const double span = distances_[i] - distances_[i - 1];
+                    const double lowest = std::max(0.0, (from - distances_[i - 1]) / span);
+                    const double share =
+                        std::clamp((point - points_[i - 1]).dot(edge) / edge.squaredNorm(), lowest, 1.0);
+                    const double apart = (points_[i - 1] + share * edge - point).norm();
+                    if (apart < best)
+                    {
+                        best = apart;
+                        result = distances_[i - 1] + share * span;
+                    }
+                    if (distances_[i] > from + SEARCH_AHEAD)
+                        break;
+                }
+                deviation = best;
+                return result;
+            }
+
+        private:
+            std::size_t indexAfter(double distance) const
+            {
+                const auto next = std::upper_bound(distances_.begin() + 1, distances_.end() - 1, distance);
+                return static_cast<std::size_t>(next - distances_.begin());
+            }
+
+            double shareOf(std::size_t i, double distance) const
+            {
+                return std::min(1.0, (distance - distances_[i - 1]) / (distances_[i] - distances_[i - 1]));
+            }
+
+            void append(const Eigen::Vector2d &point, double driven)
+            {
+                if ((point - points_.back()).norm() < 1e-9)
+                    return;
+                distances_.push_back(distances_.back() + (point - points_.back()).norm());
+                points_.push_back(point);
+                driven_.push_back(driven);
+            }
+
+            std::vector<Eigen::Vector2d> points_;
+            std::vector<double> distances_;
+            std::vector<double> driven_;
+            double lastCorner_{0.0};
+        };
+
+        /** What roundCorners() made of a stretch. */
+        struct RoundedCorners
+        {
+            Path path;               // drivable, in one direction
+            double deviation{0.0};   // metres, the farthest that the rear axle is from the stretch
+            double worstPlace{0.0};  // metres along the stretch since its begin where that is
+            bool following{false};   // whether the car could follow at all
+        };
+
+        /** The way of a car at \e car, which is beside \e stretch by rounding or little more, onto it, and the rest of
+            it: two arcs over a metre from \e from metres on, then the stretch's own pieces.
+
+            \return nothing when there is no such way within the steering limit: the stretch is too short, or full lock
+            leaves no room to correct */
+        std::optional<Path> joinStretch(const Path &stretch, double from, const Pose &car, const Vehicle &vehicle)
+        {
+            // The joint keeps to one piece where that is long enough: two arcs cannot imitate more.
+            const Path left = stretch.rest(from);
+            if (left.pieces.empty() || left.pieces.front().driven() < LEAST_JOIN)
+                return std::nullopt;
+            const Path behind = left.rest(std::min(left.pieces.front().driven(), JOIN_LENGTH));
+            std::optional<Path> path = biarc(car, behind.start, left.pieces.front().direction());
+            if (!path)
+                return std::nullopt;
+            for (const PathPiece &piece : path->pieces)
+                if (std::abs(piece.curvature) > 1.0 / vehicle.minTurningRadius())
+                    return std::nullopt;
+            path->extend(behind);
+            return path;
+        }
+
+        /** The way onto the stretch from \e driven metres on, when the car is on it as good as exactly. */
+        std::optional<Path> joinHere(const Path &stretch, double driven, const Pose &car, double curvature,
+                                     const Vehicle &vehicle)
+        {
+            const Path left = stretch.rest(driven);
+            if (left.pieces.empty())
+                return std::nullopt;
+            const Pose offset = relativeTo(left.start, car);
+            if (std::abs(offset.x) > STEP || std::abs(offset.y) > BACK_ON_PATH || std::abs(offset.yaw) > BACK_IN_YAW ||
+                std::abs(left.pieces.front().curvature - curvature) > BACK_IN_CURVATURE)
+                return std::nullopt;
+            return joinStretch(stretch, driven, car, vehicle);
+        }
+
+        /** One simulated drive, aiming \e ahead metres in front. Directions of travel are headings here: a car in
+            reverse is a car driving forwards with its heading turned by half a turn and its curvature negated. */
+        RoundedCorners pursue(const Path &stretch, const Guide &guide, const Pose &start, const Vehicle &vehicle,
+                              double steeringSlope, double ahead)
+        {
+            const double sign = stretch.stretches().front().direction;
+            const double turned = sign > 0.0 ? 0.0 : PI;
+            Pose car{start.x, start.y, start.yaw + turned};
+            RoundedCorners result;
+            result.path.start = start;
+            double along = 0.0, steering = 0.0;
+            const auto most = static_cast<std::size_t>((2.0 * guide.length() + 10.0) / STEP);
+            const auto locate = [&]
+            {
+                double deviation = 0.0;
+                along = guide.nearest({car.x, car.y}, along, deviation);
+                if (deviation > result.deviation)
+                {
+                    result.deviation = deviation;
+                    result.worstPlace = guide.drivenAt(along);
+                }
+            };
+            for (std::size_t count = 0; count < most; ++count)
+            {
+                locate();
+                if (along > guide.lastCorner())
+                    if (const auto rest = joinHere(stretch, guide.drivenAt(along), {car.x, car.y, car.yaw - turned},
+                                                   sign * vehicle.curvature(steering), vehicle))
+                    {
+                        result.path.extend(*rest);
+                        result.following = true;
+                        return result;
+                    }
+                const Eigen::Vector2d target = guide.at(along + ahead);
+                const Pose aim = relativeTo(car, {target.x(), target.y(), 0.0});
+                const double squared = aim.x * aim.x + aim.y * aim.y;
+                // A target behind the car asks for full lock, not for a gentle curve round it.
+                double wanted = aim.x <= 0.0 ? std::copysign(vehicle.maxSteeringAngle, aim.y)
+                                             : vehicle.steeringAngle(2.0 * aim.y / squared);
+                wanted = std::clamp(wanted, -vehicle.maxSteeringAngle, vehicle.maxSteeringAngle);
+                // The car stands at the begin of a stretch and may turn its wheels there.
+                const double change = count == 0 ? 2.0 * PI : steeringSlope * STEP;
+                const double before = vehicle.curvature(steering);
+                steering = std::clamp(wanted, steering - change, steering + change);
+                const double after = vehicle.curvature(steering);
+                PathPiece piece =
+                    count == 0 ? PathPiece(after, STEP) : PathPiece(before, STEP, (after - before) / STEP);
+                Pose next = advance(car, piece);
+                const double left = (guide.end() - Eigen::Vector2d(car.x, car.y)).dot(guide.endDirection());
+                const double gain = left - (guide.end() - Eigen::Vector2d(next.x, next.y)).dot(guide.endDirection());
+                const bool ends = along >= guide.length() - 2.0 * STEP && gain > 1e-6 && left <= gain;
+                if (ends)
+                {
+                    piece.length = STEP * std::max(0.0, left) / gain;
+                    next = advance(car, piece);
+                }
+                car = next;
+                if (piece.length > 1e-6)
+                    result.path.append({sign * piece.curvature, sign * piece.length, sign * piece.sharpness});
+                if (ends)
+                {
+                    locate();
+                    result.following = !result.path.pieces.empty();
+                    return result;
+                }
+            }
+            return result;
+        }
+        /** Cuts the corners of \e stretch, pieces of one direction with turns on the spot between them but none at
+            either end, as a car has to.
+
+            A simulated car drives it from \e start and aims at a point ahead (pure pursuit; R. C. Coulter,
+            "Implementation of the pure pursuit path tracking algorithm", CMU-RI-TR-92-01), with the steering limit and
+            no more than \e steeringSlope radians of steering per metre. Of several distances to the point ahead the one
+            with the least deviation is taken. Behind the last corner the car returns to the stretch: once it is within
+            5 mm and 0.3 degrees, two gentle arcs lead it there exactly, and what is left is driven as it is. Where
+            there is no room for that it ends beside the end of the stretch. */
+        RoundedCorners roundCorners(const Path &stretch, const Pose &start, const Vehicle &vehicle,
+                                    double steeringSlope)
+        {
+            const Guide guide(stretch);
+            constexpr std::array<double, 6> DISTANCES{0.25, 0.375, 0.5, 0.75, 1.0, 2.0};
+            RoundedCorners best;
+            for (const double share : DISTANCES)
+            {
+                RoundedCorners candidate =
+                    pursue(stretch, guide, start, vehicle, steeringSlope, share * vehicle.minTurningRadius());
+                if (candidate.following && (!best.following || candidate.deviation < best.deviation))
+                    best = std::move(candidate);
+            }
+            return best;
+        }
+
         class Builder
         {
         public:
-            Builder(const Vehicle &vehicle, const CornerParameters &parameters, const Pose &start)
+            Builder(const Vehicle &vehicle, const ReferenceParameters &parameters, const Pose &start)
               : vehicle_(vehicle),
                 parameters_(parameters),
                 curves_(vehicle.minTurningRadius()),
                 car_(start)
             {
-                result_.start = start;
+                result_.path.start = start;
             }
 
             /** Adds a stretch that begins where its first piece does, whatever the heading of the car. */
@@ -109,17 +382,15 @@ namespace parking
                 append(stretch);
             }
 
-            Path finish(const Pose &goal, CornerReport &report)
+            DrivablePath finish(const Pose &goal)
             {
-                if (apart(car_, goal, parameters_.endTolerance, parameters_.endYawTolerance))
+                const double most = parameters_.maxCornerRadii * vehicle_.minTurningRadius();
+                if (apart(car_, goal, END, END_YAW))
                     shuntTo(goal);
-                if (!(report_.deviation <= parameters_.maxDeviation))
+                if (!(result_.deviation <= most))
                     throw Error("path: the car would leave it by " +
-                                formatNumber(std::round(100.0 * report_.deviation) / 100.0) +
-                                " m at its corners; at most " + formatNumber(parameters_.maxDeviation) +
-                                " m are allowed");
-                report.shunts = report_.shunts;
-                report.deviation = report_.deviation;
+                                formatNumber(std::round(100.0 * result_.deviation) / 100.0) +
+                                " m at its corners; at most " + formatNumber(most) + " m are allowed");
                 return std::move(result_);
             }
 
@@ -135,7 +406,7 @@ namespace parking
                 {
                     if (piece.turn != 0.0)
                         continue;
-                    result_.append(piece);
+                    result_.path.append(piece);
                     car_ = advance(car_, piece);
                 }
             }
@@ -143,10 +414,11 @@ namespace parking
             /** Cuts the corners of \e stretch, or turns at the worst and tries both sides of it again. */
             void follow(const Path &stretch)
             {
-                const RoundedCorners rounded = roundCorners(stretch, car_, vehicle_, parameters_.steeringSlope);
-                if (rounded.following && rounded.deviation <= parameters_.maxCut)
+                const RoundedCorners rounded =
+                    roundCorners(stretch, car_, vehicle_, vehicle_.maxSteeringRate / parameters_.cornerSpeed);
+                if (rounded.following && rounded.deviation <= parameters_.maxCornerCut)
                 {
-                    report_.deviation = std::max(report_.deviation, rounded.deviation);
+                    result_.deviation = std::max(result_.deviation, rounded.deviation);
                     append(rounded.path);
                     return;
                 }
@@ -198,35 +470,40 @@ namespace parking
                     if (std::abs(curve.pieces[i].length) > SHORTEST_PIECE)
                         path.append(curve.pieces[i]);
                 for (const PathState &state : path.sample(SHUNT_STEP))
-                    report_.deviation = std::max(report_.deviation, std::min(positionDistance(state.pose, car_),
+                    result_.deviation = std::max(result_.deviation, std::min(positionDistance(state.pose, car_),
                                                                              positionDistance(state.pose, pose)));
-                ++report_.shunts;
+                ++result_.shunts;
                 append(path);
             }
 
             const Vehicle &vehicle_;
-            const CornerParameters &parameters_;
+            const ReferenceParameters &parameters_;
             ReedsShepp curves_;
             Pose car_;
-            CornerReport report_;
-            Path result_;
+            DrivablePath result_;
         };
     }  // namespace
 
-    Path makeDrivable(const Path &path, const Vehicle &vehicle, const CornerParameters &parameters,
-                      CornerReport *report)
+    void ReferenceParameters::validate() const
+    {
+        const Require require("reference");
+        require.positive("bodyTolerance", bodyTolerance, "metres");
+        require.positive("minBlendSpeed", minBlendSpeed, "m/s");
+        require.positive("maxBlendLength", maxBlendLength, "metres");
+        require.positive("maxCornerCut", maxCornerCut, "metres");
+        require.positive("maxCornerRadii", maxCornerRadii, "turning radii");
+        require.positive("cornerSpeed", cornerSpeed, "m/s");
+    }
+
+    DrivablePath makeDrivable(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
     {
         check(path, vehicle);
-        CornerReport ignored;
-        CornerReport &told = report != nullptr ? *report : ignored;
-        told = {};
-        told.corners = static_cast<std::size_t>(std::count_if(path.pieces.begin(), path.pieces.end(), isCorner));
-        if (told.corners == 0)
+        if (std::none_of(path.pieces.begin(), path.pieces.end(), isCorner))
         {
-            Path same{path.start, {}};
+            DrivablePath same{{path.start, {}}};
             for (const PathPiece &piece : path.pieces)
                 if (piece.driven() >= SHORTEST_PIECE)
-                    same.append(piece);
+                    same.path.append(piece);
             return same;
         }
         const Path merged = withTurnsMerged(path);
@@ -252,6 +529,8 @@ namespace parking
                 part.pieces.pop_back();
             builder.add(part);
         }
-        return builder.finish(pose, told);
+        DrivablePath drivable = builder.finish(pose);
+        drivable.corners = static_cast<std::size_t>(std::count_if(path.pieces.begin(), path.pieces.end(), isCorner));
+        return drivable;
     }
 }  // namespace parking

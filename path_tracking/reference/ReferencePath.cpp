@@ -1,7 +1,5 @@
 #include "path_tracking/reference/ReferencePath.h"
 
-#include "parking_geometry/text/Require.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -97,31 +95,16 @@ namespace parking
         }
     }  // namespace
 
-    void ReferenceParameters::validate() const
-    {
-        const Require require("reference");
-        require.positive("bodyTolerance", bodyTolerance, "metres");
-        require.positive("minBlendSpeed", minBlendSpeed, "m/s");
-        require.positive("maxBlendLength", maxBlendLength, "metres");
-        require.positive("maxCornerCut", maxCornerCut, "metres");
-        require.positive("maxCornerRadii", maxCornerRadii, "turning radii");
-        require.positive("cornerSpeed", cornerSpeed, "m/s");
-    }
-
     ReferencePath::ReferencePath(const Path &path, const Vehicle &vehicle, const ReferenceParameters &parameters)
       : vehicle_(vehicle)
     {
         vehicle.validate();
         parameters.validate();
-        CornerParameters corners;
-        corners.steeringSlope = vehicle.maxSteeringRate / parameters.cornerSpeed;
-        corners.maxCut = parameters.maxCornerCut;
-        corners.maxDeviation = parameters.maxCornerRadii * vehicle.minTurningRadius();
-        path_ = makeDrivable(path, vehicle, corners, &corners_);
-        for (const Stretch &stretch : path_.stretches())
+        drivable_ = makeDrivable(path, vehicle, parameters);
+        for (const Stretch &stretch : drivable_.path.stretches())
         {
             const std::size_t first = nodes_.size();
-            const std::vector<Run> runs = addNodes(nodes_.empty() ? path_.start : nodes_.back().pose, stretch);
+            const std::vector<Run> runs = addNodes(nodes_.empty() ? path.start : nodes_.back().pose, stretch);
             addLegs(runs, first, stretch.direction, parameters);
         }
         for (Node &node : nodes_)
@@ -135,7 +118,7 @@ namespace parking
         std::vector<Run> runs;
         for (std::size_t i = stretch.first; i < stretch.last; ++i)
         {
-            const PathPiece &piece = path_.pieces[i];
+            const PathPiece &piece = drivable_.path.pieces[i];
             const auto angleAt = [&](double driven)
             {
                 return std::clamp(vehicle_.steeringAngle(piece.curvatureAt(driven)), -vehicle_.maxSteeringAngle,

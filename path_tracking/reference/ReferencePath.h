@@ -10,29 +10,6 @@
 
 namespace parking
 {
-    /** \brief How a path is made drivable before it is timed. */
-    struct ReferenceParameters
-    {
-        /** Metres that any point of the body may leave the path when the steering wheel is turned in motion where the
-            curvature jumps. */
-        double bodyTolerance{0.01};
-        /** m/s; where turning the wheel within bodyTolerance would need a lower speed, the car stops to steer. */
-        double minBlendSpeed{0.1};
-        /** Metres; a jump of curvature is never spread over more than this. */
-        double maxBlendLength{1.0};
-        /** Metres that the rear axle may leave a path at a sharp corner by cutting it; a sharper one is turned at with
-            shunts. */
-        double maxCornerCut{1.0};
-        /** Turning radii of the car that the rear axle may leave a path with sharp corners at all; beyond it the path
-            is refused. Turning round on the spot, which takes shunts, needs two. */
-        double maxCornerRadii{3.0};
-        /** m/s at which the car shall be able to turn its wheels round the corners of such a path. */
-        double cornerSpeed{0.5};
-
-        /** \brief Throws parking::Error naming the first field that is not a positive finite number. */
-        void validate() const;
-    };
-
     /** \brief A part of the path between two standstills: a stretch, or part of one where the car stops to steer. */
     struct ReferenceLeg
     {
@@ -76,7 +53,7 @@ namespace parking
         /** \brief The path that is driven: the given one without its corners. */
         const Path &path() const
         {
-            return path_;
+            return drivable_.path;
         }
 
         /** \brief The car that the path was prepared for. */
@@ -106,10 +83,10 @@ namespace parking
             return nodes_.back().pose;
         }
 
-        /** \brief What became of the corners of the given path. */
-        const CornerReport &corners() const
+        /** \brief The same, and what became of the corners of the given path. */
+        const DrivablePath &drivable() const
         {
-            return corners_;
+            return drivable_;
         }
 
     private:
@@ -135,8 +112,7 @@ namespace parking
                      const ReferenceParameters &parameters);
 
         Vehicle vehicle_;
-        Path path_;
-        CornerReport corners_;
+        DrivablePath drivable_;
         std::vector<Node> nodes_;
         std::vector<ReferenceLeg> legs_;
         std::vector<NodeRange> legNodes_;  // per leg

@@ -65,7 +65,7 @@ namespace parking
 
     TimedReference::TimedReference(const ReferencePath &path, const SpeedLimits &limits, double initialSteering)
       : steeringRate_(limits.steeringRate),
-        cornerDeviation_(path.corners().deviation)
+        cornerDeviation_(path.drivable().deviation)
     {
         limits.validate();
         const double most = path.vehicle().maxSteeringAngle;
@@ -81,7 +81,7 @@ namespace parking
             legs_.push_back({leg.direction, leg.beginLength, leg.endLength,
                              std::abs(angle - finalSteering_) / limits.steeringRate, drive.back().t, angle});
             finalSteering_ = leg.steering.back().angle;
-            std::vector<Moment> &moments = moments_.emplace_back();
+            std::vector<TimedState> &moments = moments_.emplace_back();
             const auto add = [&](const SpeedPoint &at)
             {
                 moments.push_back({at.t, at.s, at.speed, path.steering(i, at.s), path.pose(i, at.s)});
@@ -111,24 +111,24 @@ namespace parking
             motion, vehicle, STEP, WAY,
             [&](const MotionPart &part)
             {
-                const double speed = 0.5 * (part.from.v + part.to.v), h = part.end - part.begin;
-                if (speed == 0.0)
+                const double length = part.length();
+                if (length == 0.0)
                 {
-                    standstill += h;
+                    standstill += part.duration();
                     finalSteering_ = part.to.steering;
                     return true;
                 }
                 if (!drives)
                 {
-                    legs_.push_back({speed > 0.0 ? 1 : -1, s, s, standstill, 0.0, part.from.steering});
+                    legs_.push_back({length > 0.0 ? 1 : -1, s, s, standstill, 0.0, part.from.steering});
                     moments_.push_back({{0.0, s, 0.0, part.from.steering, part.before}});
-                    begin = part.begin;
+                    begin = part.from.t;
                     standstill = 0.0;
                 }
-                s += std::abs(speed) * h;
-                moments_.back().push_back({part.end - begin, s, std::abs(part.to.v), part.to.steering, part.after});
+                s += std::abs(length);
+                moments_.back().push_back({part.to.t - begin, s, std::abs(part.to.v), part.to.steering, part.after});
                 legs_.back().endLength = s;
-                legs_.back().duration = part.end - begin;
+                legs_.back().duration = part.to.t - begin;
                 finalSteering_ = part.to.steering;
                 drives = part.to.v != 0.0;
                 return true;
@@ -146,7 +146,7 @@ namespace parking
         return sum;
     }
 
-    Pose TimedReference::poseBetween(const Moment &a, const Moment &b, double s) const
+    Pose TimedReference::poseBetween(const TimedState &a, const TimedState &b, double s) const
     {
         const Pose chord = relativeTo(a.pose, b.pose);
         const double length = std::copysign(b.s - a.s, chord.x);
@@ -157,12 +157,13 @@ namespace parking
 
     TimedState TimedReference::at(std::size_t leg, double time) const
     {
-        const std::vector<Moment> &moments = moments_[leg];
+        const std::vector<TimedState> &moments = moments_[leg];
         const auto next = std::upper_bound(moments.begin() + 1, moments.end() - 1, time,
-                                           [](double value, const Moment &moment) { return value < moment.t; });
-        const Moment &a = *(next - 1), &b = *next;
+                                           [](double value, const TimedState &moment) { return value < moment.t; });
+        const TimedState &a = *(next - 1), &b = *next;
         const double h = b.t - a.t, part = h > 0.0 ? std::clamp((time - a.t) / h, 0.0, 1.0) : 1.0;
         TimedState state;
+        state.t = a.t + part * h;
         state.speed = a.speed + part * (b.speed - a.speed);
         state.steering = a.steering + part * (b.steering - a.steering);
         state.s = std::clamp(a.s + 0.5 * part * h * (a.speed + state.speed), a.s, b.s);
@@ -171,16 +172,16 @@ namespace parking
     }
 
     /** The first moment of a leg that is not before \e s, but not the very first. */
-    const TimedReference::Moment &TimedReference::behind(std::size_t leg, double s) const
+    const TimedState &TimedReference::behind(std::size_t leg, double s) const
     {
-        const std::vector<Moment> &moments = moments_[leg];
+        const std::vector<TimedState> &moments = moments_[leg];
         return *std::lower_bound(moments.begin() + 1, moments.end() - 1, s,
-                                 [](const Moment &moment, double value) { return moment.s < value; });
+                                 [](const TimedState &moment, double value) { return moment.s < value; });
     }
 
     double TimedReference::steering(std::size_t leg, double s) const
     {
-        const Moment *b = &behind(leg, s), *a = b - 1;
+        const TimedState *b = &behind(leg, s), *a = b - 1;
         const double part = b->s > a->s ? std::clamp((s - a->s) / (b->s - a->s), 0.0, 1.0) : 1.0;
         return a->steering + part * (b->steering - a->steering);
     }
@@ -191,9 +192,9 @@ namespace parking
         from = std::clamp(from, l.beginLength, l.endLength);
         to = std::clamp(to, from, l.endLength);
         double best = std::numeric_limits<double>::infinity(), s = from;
-        for (const Moment *b = &behind(leg, from); b <= &moments_[leg].back(); ++b)
+        for (const TimedState *b = &behind(leg, from); b <= &moments_[leg].back(); ++b)
         {
-            const Moment *a = b - 1;
+            const TimedState *a = b - 1;
             const double length = b->s - a->s;
             const double dx = b->pose.x - a->pose.x, dy = b->pose.y - a->pose.y, squared = dx * dx + dy * dy;
             const double lowest = length > 0.0 ? std::clamp((from - a->s) / length, 0.0, 1.0) : 0.0;
@@ -214,7 +215,7 @@ namespace parking
         // From the chord to the arc: one step along it.
         const auto offset = [&]
         {
-            const Moment &b = behind(leg, s);
+            const TimedState &b = behind(leg, s);
             return relativeTo(poseBetween(*(&b - 1), b, s), pose);
         };
         s = std::clamp(s + l.direction * offset().x, from, to);

@@ -25,6 +25,7 @@ namespace parking
     /** \brief Where the car should be at a moment. */
     struct TimedState
     {
+        double t{0.0};         ///< seconds since the motion on the leg began
         double s{0.0};         ///< metres driven since the start
         double speed{0.0};     ///< m/s along the leg, not negative
         double steering{0.0};  ///< radians
@@ -116,20 +117,11 @@ namespace parking
         double duration() const;
 
     private:
-        /** A moment of a leg. The speed is linear in time from one to the next. */
-        struct Moment
-        {
-            double t;  // seconds since the leg's begin
-            double s;  // metres driven since the start
-            double speed, steering;
-            Pose pose;
-        };
-
-        Pose poseBetween(const Moment &a, const Moment &b, double s) const;
-        const Moment &behind(std::size_t leg, double s) const;
+        Pose poseBetween(const TimedState &a, const TimedState &b, double s) const;
+        const TimedState &behind(std::size_t leg, double s) const;
 
         std::vector<TimedLeg> legs_;
-        std::vector<std::vector<Moment>> moments_;  // per leg, two at least
+        std::vector<std::vector<TimedState>> moments_;  // per leg, two at least; the speed is linear in between
         double steeringRate_;
         double finalStandstill_{0.0}, finalSteering_{0.0};
         double cornerDeviation_{0.0};

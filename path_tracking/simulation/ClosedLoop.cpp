@@ -1,7 +1,6 @@
 #include "path_tracking/simulation/ClosedLoop.h"
 
 #include "parking_geometry/Error.h"
-#include "parking_geometry/text/Require.h"
 #include "parking_geometry/text/Text.h"
 #include "path_tracking/reference/TimedReference.h"
 
@@ -15,6 +14,11 @@ namespace parking
 {
     namespace
     {
+        constexpr double PLANT_STEP = 0.005;     // seconds of integration
+        constexpr double CHECK_DISTANCE = 0.02;  // metres that the body moves at most between two collision checks
+        /** Seconds after which the drive is stopped: this share of the timed path's duration, and more. */
+        constexpr double PATIENCE = 2.0, MORE_PATIENCE = 60.0;
+
         TimeStatistics timeStatistics(std::vector<double> values)
         {
             if (values.empty())
@@ -33,11 +37,9 @@ namespace parking
         {
         public:
             Recorder(const Vehicle &vehicle, const TrackingController &controller,
-                     const ClosedLoop::Clearance &clearance, const ClosedLoop::Validity &validity, double checkDistance)
+                     const ClosedLoop::Clearance &clearance)
               : controller_(controller),
                 clearance_(clearance),
-                validity_(validity),
-                checkDistance_(checkDistance),
                 reach_(std::hypot(std::max(vehicle.wheelbase + vehicle.frontOverhang, vehicle.rearOverhang),
                                   0.5 * vehicle.width))
             {
@@ -47,16 +49,9 @@ namespace parking
             void check(const Pose &pose)
             {
                 ++figures_.checkedPoses;
-                bool hit = false;
-                if (clearance_)
-                {
-                    const double clearance = clearance_(pose);
-                    figures_.minClearance = std::min(figures_.minClearance, clearance);
-                    hit = !(clearance > 0.0);
-                }
-                if (validity_)
-                    hit = hit || !validity_(pose);
-                if (hit)
+                const double clearance = clearance_(pose);
+                figures_.minClearance = std::min(figures_.minClearance, clearance);
+                if (!(clearance > 0.0))
                     ++figures_.collisions;
                 checked_ = pose;
             }
@@ -81,8 +76,7 @@ namespace parking
                     crossTrackTime_ += duration * std::abs(place.lateral);
                 }
                 // Checked when the next step might go beyond the distance.
-                if ((clearance_ || validity_) &&
-                    bodyMotion(checked_, state.pose) + bodyMotion(before, state.pose) >= checkDistance_)
+                if (clearance_ && bodyMotion(checked_, state.pose) + bodyMotion(before, state.pose) >= CHECK_DISTANCE)
                     check(state.pose);
             }
 
@@ -90,14 +84,14 @@ namespace parking
             {
                 last_ = state;
                 checked_ = state.pose;
-                if (clearance_ || validity_)
+                if (clearance_)
                     check(state.pose);
             }
 
             Evaluation finish(const Pose &wanted, double travelTime)
             {
                 const TimedReference &reference = controller_.reference();
-                if (clearance_ || validity_)
+                if (clearance_)
                     check(last_.pose);
                 figures_.plannedLength = reference.length();
                 figures_.plannedTime = reference.duration();
@@ -138,8 +132,6 @@ namespace parking
 
             const TrackingController &controller_;
             const ClosedLoop::Clearance &clearance_;
-            const ClosedLoop::Validity &validity_;
-            double checkDistance_;
             double reach_;
             Plant::State last_;
             Pose checked_;
@@ -154,10 +146,6 @@ namespace parking
     {
         tracking.validate();
         disturbances.validate();
-        const Require require("closed loop");
-        require.positive("plantStep", plantStep);
-        require.positive("checkDistance", checkDistance);
-        require.positive("patience", patience);
     }
 
     ClosedLoop::ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters)
@@ -173,11 +161,6 @@ namespace parking
         clearance_ = std::move(clearance);
     }
 
-    void ClosedLoop::setValidity(Validity validity)
-    {
-        validity_ = std::move(validity);
-    }
-
     void ClosedLoop::setMonitor(Monitor monitor)
     {
         monitor_ = std::move(monitor);
@@ -188,14 +171,9 @@ namespace parking
         guard_ = std::move(guard);
     }
 
-    void ClosedLoop::setSolve(TrackingController::Solve solve)
-    {
-        solve_ = std::move(solve);
-    }
-
     DriveResult ClosedLoop::drive(const Path &path, const std::optional<Pose> &start, double initialSteering) const
     {
-        TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering, solve_);
+        TrackingController controller(path, vehicle_, parameters_.tracking, initialSteering);
         return run(controller, path.end(), start.value_or(path.start), initialSteering);
     }
 
@@ -204,7 +182,7 @@ namespace parking
         auto reference = std::make_shared<TimedReference>(motion, vehicle_);
         const Pose goal = reference->end();
         const double steering = motion.knots.front().steering;
-        TrackingController controller(std::move(reference), vehicle_, parameters_.tracking, steering, solve_);
+        TrackingController controller(std::move(reference), vehicle_, parameters_.tracking, steering);
         return run(controller, goal, start.value_or(motion.start), steering);
     }
 
@@ -216,12 +194,12 @@ namespace parking
             throw Error("closed loop: the path takes " + formatNumber(std::round(reference.duration())) +
                         " s; at most " + formatNumber(LONGEST_MOTION) + " s are driven");
         controller.setGuard(guard_);
-        Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, parameters_.plantStep);
-        Recorder recorder(vehicle_, controller, clearance_, validity_, parameters_.checkDistance);
+        Plant plant(vehicle_, parameters_.disturbances, start, initialSteering, PLANT_STEP);
+        Recorder recorder(vehicle_, controller, clearance_);
         recorder.begin(plant.state());
 
         const double period = parameters_.tracking.mpc.step;
-        const double patience = 60.0 + parameters_.patience * reference.duration();
+        const double patience = MORE_PATIENCE + PATIENCE * reference.duration();
         DriveResult result;
         double t = 0.0, trueS = 0.0;
         std::size_t trueLeg = 0;

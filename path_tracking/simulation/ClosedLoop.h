@@ -21,11 +21,6 @@ namespace parking
     {
         TrackingParameters tracking;  ///< of the controller
         Disturbances disturbances;    ///< what makes the simulated car differ from the controller's model
-        double plantStep{0.005};      ///< seconds of integration
-        /** Metres that the body moves at most between two collision checks. */
-        double checkDistance{0.02};
-        /** Seconds after which the drive is stopped: this share of the timed path's duration, and a minute. */
-        double patience{2.0};
 
         /** \brief Throws parking::Error naming the first field out of its range. */
         void validate() const;
@@ -95,34 +90,29 @@ namespace parking
 
     /** \brief Drives a simulated car along a path, or through a motion in time.
 
-        The controller runs once per period of the MPC, the plant is integrated in smaller steps between. Equal inputs
-        give equal results (but for the solver's times). */
+        The controller runs once per period of the MPC, the plant is integrated in steps of 5 ms between, and collisions
+        are checked wherever the body has moved by 2 cm. A drive that takes a minute more than twice its planned time is
+        stopped. Equal inputs give equal results (but for the solver's times). */
     class ClosedLoop
     {
     public:
-        /** \brief Signed distance in metres from the body at a pose to the nearest obstacle, not positive in collision;
-            a lower bound will do. */
+        /** \brief Signed distance in metres from the body at a pose to the nearest obstacle, positive only at a free
+            pose; a lower bound will do. */
         using Clearance = std::function<double(const Pose &)>;
-        /** \brief Is the pose free? */
-        using Validity = std::function<bool(const Pose &)>;
         /** \brief Looks at each period; returning false asks for a safe stop (a changed map, for example). */
         using Monitor = std::function<bool(const DriveRecord &)>;
 
         /** \brief Throws parking::Error when \e vehicle or \e parameters are not valid. */
         ClosedLoop(const Vehicle &vehicle, const ClosedLoopParameters &parameters = {});
 
-        /** \brief Whom to ask how near obstacles are. Without a clearance and a validity nothing is checked. */
+        /** \brief Whom to ask how near obstacles are; empty: nothing is checked. */
         void setClearance(Clearance clearance);
-
-        /** \brief Whom to ask, beside the clearance, whether a pose is free. */
-        void setValidity(Validity validity);
 
         /** \brief Who may stop the drive; empty: nobody. */
         void setMonitor(Monitor monitor);
+
         /** \brief Asked before every command of a drive (see TrackingController::Guard). */
         void setGuard(TrackingController::Guard guard);
-        /** \brief Replaces the optimiser (see TrackingController). */
-        void setSolve(TrackingController::Solve solve);
 
         /** \brief Drives along \e path.
 
@@ -145,9 +135,7 @@ namespace parking
         Vehicle vehicle_;
         ClosedLoopParameters parameters_;
         Clearance clearance_;
-        Validity validity_;
         Monitor monitor_;
         TrackingController::Guard guard_;
-        TrackingController::Solve solve_;
     };
 }  // namespace parking

@@ -40,8 +40,8 @@ namespace parking
         std::vector<TimeSpan> stuck;  ///< when the wheels stay where they are
         std::uint64_t seed{1};        ///< of the noise
 
-        /** \brief What the figures of docs/trajectories-and-tracking.md were measured with: 0.1 s of steering lag, noise of 2 cm
-            and 0.5 degrees, 5 % of speed bias. */
+        /** \brief What the figures of docs/trajectories-and-tracking.md were measured with: 0.1 s of steering lag,
+           noise of 2 cm and 0.5 degrees, 5 % of speed bias. */
         static Disturbances everyday(std::uint64_t seed);
 
         /** \brief Throws parking::Error naming the first field out of its range. */

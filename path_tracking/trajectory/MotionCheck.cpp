@@ -27,7 +27,7 @@ namespace parking
         bool isFree(const MotionPart &part, const FootprintChecker &checker, int divisions)
         {
             const Vehicle &vehicle = checker.vehicle();
-            const double length = 0.5 * (part.from.v + part.to.v) * (part.end - part.begin);
+            const double length = part.length();
             if (length == 0.0)
                 return true;
             CheckCounts counts;
@@ -41,7 +41,7 @@ namespace parking
             if (start.enlargement < 0.0 || left <= COVERED * start.enlargement)
                 return checker.freeLength(start, curvature, length, counts) >= std::abs(length);
             return divisions < MOST_DIVISIONS &&
-                   visitParts({part.before, {part.from, part.to}}, vehicle, 0.5 * (part.end - part.begin), WAY,
+                   visitParts({part.before, {part.from, part.to}}, vehicle, 0.5 * part.duration(), WAY,
                               [&](const MotionPart &half) { return isFree(half, checker, divisions + 1); });
         }
     }  // namespace

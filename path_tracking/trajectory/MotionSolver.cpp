@@ -1,11 +1,11 @@
 #include "path_tracking/trajectory/MotionSolver.h"
 
 #include "path_tracking/trajectory/MotionCheck.h"
-#include "path_tracking/trajectory/program/InteriorPoint.h"
 #include "path_tracking/trajectory/program/MotionOutline.h"
 #include "path_tracking/trajectory/program/MotionProgram.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace parking
@@ -14,7 +14,7 @@ namespace parking
     {
         /** Of programs that begin with a solution, and of those that only get better phases. To end at 2e-5 s costs
            0.02 % of the time that is driven, which only the last program is worth. */
-        constexpr MotionBarriers AGAIN{3e-4, 2e-5}, REFINING{5e-5, 3e-6};
+        constexpr InteriorPointOptions AGAIN{3e-4, 2e-5}, REFINING{5e-5, 3e-6};
         constexpr double LEAST_WORK = 4.5e4;        // that may be done for any path
         constexpr double LEAST_ITERATIONS = 120.0;  // that may be done for any path, of programs of the first's size
         constexpr double WORK_TO_FIND = 5.0;        // times as much work as long as nothing is found
@@ -59,20 +59,17 @@ namespace parking
         return solveFrom(solution, REFINING);
     }
 
-    MotionOutcome MotionSolver::solveFrom(const MotionSolution &solution, const MotionBarriers &barriers)
+    MotionOutcome MotionSolver::solveFrom(const MotionSolution &solution, const InteriorPointOptions &options)
     {
         const MotionProblem &guess = solution.problem;
-        MotionOutcome found = solve(
-            guess, barriers,
+        return solve(
+            guess, options,
             [&guess](std::size_t interval, double fraction) { return guess.poseAt(interval, fraction); },
             solution.view);
-        if (found.solution)
-            found.solution->path = solution.path;
-        return found;
     }
 
-    MotionOutcome MotionSolver::solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
-                                      const MotionView &view, std::size_t mostIterations)
+    MotionOutcome MotionSolver::solve(MotionProblem problem, const InteriorPointOptions &options, const Guess &guess,
+                                      const MotionView &view)
     {
         SeparationOptions separation = view.separation;
         separation.known = touched_;
@@ -85,15 +82,17 @@ namespace parking
             return {};
         }
         lines.write(problem);
-        auto cost = minimize(problem, barriers, mostIterations);
+        auto cost = minimize(problem, options);
         if (!cost)
             return {};
         TimedMotion motion = motionOf(problem, view.start);
+        InteriorPointOptions again = options;
+        again.firstBarrier = AGAIN.firstBarrier;
         // Along hundreds of metres the small errors of collocation add up.
         for (int i = 0; i < MOST_CORRECTIONS && !reachesGoal(motion, view); ++i)
         {
             correctIntervals(problem);
-            cost = minimize(problem, {AGAIN.first, barriers.last}, mostIterations);
+            cost = minimize(problem, again);
             if (!cost)
                 return {};
             motion = motionOf(problem, view.start);
@@ -105,19 +104,14 @@ namespace parking
     }
 
     /** Solves the program itself, and gives its nodes to \e problem. \return the cost */
-    std::optional<double> MotionSolver::minimize(MotionProblem &problem, const MotionBarriers &barriers,
-                                                 std::size_t mostIterations)
+    std::optional<double> MotionSolver::minimize(MotionProblem &problem, InteriorPointOptions options)
     {
         MotionProgram program(problem);
-        InteriorPointOptions options;
-        options.firstBarrier = barriers.first;
-        options.lastBarrier = barriers.last;
         const double size = static_cast<double>(problem.nodes.size()) + static_cast<double>(problem.rows.size()) / 12.0;
         if (budget_ == 0.0)
             budget_ = std::max(LEAST_WORK, LEAST_ITERATIONS * size);
         const double affordable = std::max(0.0, left() / size);
-        options.mostIterations =
-            std::min({options.mostIterations, mostIterations, 1 + static_cast<std::size_t>(affordable)});
+        options.mostIterations = std::min(options.mostIterations, 1 + static_cast<std::size_t>(affordable));
         InteriorPointResult solved = solveMotion(program, options, world_.interrupted);
         work_ += size * static_cast<double>(solved.iterations);
         ++rounds_;

@@ -4,13 +4,13 @@
 #include "parking_geometry/Vehicle.h"
 #include "path_tracking/trajectory/TimedMotion.h"
 #include "path_tracking/trajectory/program/ConvexPiece.h"
+#include "path_tracking/trajectory/program/InteriorPoint.h"
 #include "path_tracking/trajectory/program/MotionProblem.h"
 #include "path_tracking/trajectory/program/Separation.h"
 #include "state_validity/FootprintChecker.h"
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,15 +34,9 @@ namespace parking
     {
         SeparationOptions separation;  ///< which obstacles, and how far from them
         double spacing{0.2};           ///< metres between checkpoints
+        std::size_t path{0};           ///< which of several paths it follows
         Pose start;                    ///< where the motion begins, in the coordinates of the checker
         Pose goal;                     ///< where it has to end, likewise
-    };
-
-    /** \brief With which barrier a program begins to be solved, and with which that ends: see InteriorPointOptions. */
-    struct MotionBarriers
-    {
-        double first;  ///< seconds
-        double last;   ///< seconds
     };
 
     /** \brief A solution of a program. */
@@ -52,7 +46,6 @@ namespace parking
         TimedMotion motion;     ///< in the coordinates of the checker
         double cost;            ///< as the weights of the problem say
         MotionView view;        ///< what solving it again depends on
-        std::size_t path{0};    ///< which of several paths it was made from
     };
 
     /** \brief What solving a program came to. */
@@ -77,17 +70,14 @@ namespace parking
             there. */
         using Guess = std::function<Pose(std::size_t, double)>;
 
-        /** \brief Any number of iterations. */
-        static constexpr std::size_t ANY = std::numeric_limits<std::size_t>::max();
-
         /** \brief For motions in \e world, which is referred to. */
         explicit MotionSolver(const MotionWorld &world) : world_(world)
         {
         }
 
         /** \brief Solves a program with lines along \e guess. */
-        MotionOutcome solve(MotionProblem problem, const MotionBarriers &barriers, const Guess &guess,
-                            const MotionView &view, std::size_t mostIterations = ANY);
+        MotionOutcome solve(MotionProblem problem, const InteriorPointOptions &options, const Guess &guess,
+                            const MotionView &view);
 
         /** \brief Solves a solution's program again, with lines along that solution. */
         MotionOutcome solveAgain(const MotionSolution &solution);
@@ -123,11 +113,10 @@ namespace parking
         }
 
     private:
-        MotionOutcome solveFrom(const MotionSolution &solution, const MotionBarriers &barriers);
+        MotionOutcome solveFrom(const MotionSolution &solution, const InteriorPointOptions &options);
         double left() const;
         void stop();
-        std::optional<double> minimize(MotionProblem &problem, const MotionBarriers &barriers,
-                                       std::size_t mostIterations);
+        std::optional<double> minimize(MotionProblem &problem, InteriorPointOptions options);
         bool reachesGoal(const TimedMotion &motion, const MotionView &view) const;
         void check(MotionOutcome &outcome);
 

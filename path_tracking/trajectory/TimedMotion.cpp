@@ -65,7 +65,7 @@ namespace parking
             {
                 const MotionKnot to = k == parts ? b : between(a, b, k / parts);
                 const Pose after = driven == 0.0 ? pose : step(pose, from, to, vehicle.wheelbase);
-                if (!visit({from.t, to.t, from, to, pose, after}))
+                if (!visit({from, to, pose, after}))
                     return false;
                 from = to;
                 pose = after;
@@ -93,7 +93,7 @@ namespace parking
         visitParts(motion, vehicle, 0.02, 0.05,
                    [&](const MotionPart &part)
                    {
-                       s += 0.5 * std::abs(part.from.v + part.to.v) * (part.end - part.begin);
+                       s += std::abs(part.length());
                        if (s < driven)
                            return true;
                        if (rest.knots.empty())
@@ -117,7 +117,7 @@ namespace parking
         visitParts(motion, vehicle, std::min(step, 0.05), 0.05,
                    [&](const MotionPart &part)
                    {
-                       const double h = part.end - part.begin;
+                       const double h = part.duration();
                        const double a = (part.to.v - part.from.v) / h;
                        const double w = (part.to.steering - part.from.steering) / h;
                        if (trajectory.empty())

@@ -47,12 +47,22 @@ namespace parking
     /** \brief A short part of a motion along which speed and steering are linear in time. */
     struct MotionPart
     {
-        double begin;     ///< seconds
-        double end;       ///< seconds
-        MotionKnot from,  ///< at \e begin
-            to;           ///< at \e end
-        Pose before,      ///< at \e begin; yaw not wrapped
-            after;        ///< at \e end; yaw not wrapped
+        MotionKnot from,  ///< where it begins
+            to;           ///< where it ends
+        Pose before,      ///< at \e from; yaw not wrapped
+            after;        ///< at \e to; yaw not wrapped
+
+        /** \brief Seconds. */
+        double duration() const
+        {
+            return to.t - from.t;
+        }
+
+        /** \brief Metres driven, negative in reverse. */
+        double length() const
+        {
+            return 0.5 * (from.v + to.v) * duration();
+        }
     };
 
     /** \brief Integrates \e motion (Runge-Kutta of fourth order) and calls \e visit with its parts in order, none of

@@ -28,11 +28,10 @@ namespace parking
         constexpr std::size_t MOST_RETRIES = 2;  // of a motion that is quicker than what holds, but does not
         constexpr double LONGEST_DROPPED = 0.5;  // metres of a stretch that is tried to do without
         constexpr std::size_t MOST_DROPS = 4;    // such attempts
-        constexpr std::size_t MOST_DROP_ITERATIONS = 40;  // of each: where it works it works soon
-        constexpr double LIMITS_LEFT = 2e-5;              // share of the limits that is left for rounding
-        constexpr double MOST_INTERVALS = 1e4;            // of a motion that is searched for: 8 kB and 0.2 ms each
-        /** Of rounds that begin with a guess. */
-        constexpr MotionBarriers FROM_GUESS{5e-3, 2e-5};
+        constexpr double LIMITS_LEFT = 2e-5;     // share of the limits that is left for rounding
+        constexpr double MOST_INTERVALS = 1e4;   // of a motion that is searched for: 8 kB and 0.2 ms each
+        /** Of programs that begin with a guess, and of those without a stretch: where that works it works soon. */
+        constexpr InteriorPointOptions FROM_GUESS{}, DROPPING{5e-3, 2e-5, 40};
 
         /** Compares at equal shares of the lengths. */
         bool isNear(const Path &a, const Path &b)
@@ -114,6 +113,11 @@ namespace parking
                options_.weights.steering * cost.steeringIntegral;
     }
 
+    MotionOutline TrajectoryOptimizer::outline(std::vector<StretchGuess> stretches, double step) const
+    {
+        return {std::move(stretches), body_, step, options_.initialSteering, options_.finalSteering, options_.sharpest};
+    }
+
     /** One optimisation: programs are solved one after another until a motion is found and no longer gets better. */
     class TrajectoryOptimizer::Search
     {
@@ -160,27 +164,19 @@ namespace parking
         {
             Attempt(const TrajectoryOptimizer &owner, const MotionWorld &world, const Path &from, std::size_t index)
               : local(from),
-                path(index),
                 step(owner.options_.step)
             {
                 local.start = world.toLocal(from.start);
+                view.path = index;
                 view.start = from.start;
                 view.goal = from.end();
                 view.separation.margin = owner.options_.margin;
                 view.separation.range = RANGE;
-                outline.emplace(outlineOf(owner));
+                outline.emplace(owner.outline(guessesAlong(local, owner.body_), step));
                 leastCost = owner.options_.weights.time * outline->duration();
             }
 
-            MotionOutline outlineOf(const TrajectoryOptimizer &owner) const
-            {
-                const TrajectoryOptions &options = owner.options_;
-                return {guessesAlong(local, owner.body_), owner.body_,           step,
-                        options.initialSteering,          options.finalSteering, options.sharpest};
-            }
-
             Path local;  // in the coordinates of the pieces
-            std::size_t path;
             MotionView view;
             double step;
             std::optional<MotionOutline> outline;
@@ -227,7 +223,7 @@ namespace parking
         }
 
         MotionOutcome solveAlong(const MotionOutline &outline, const MotionView &view,
-                                 std::size_t mostIterations = MotionSolver::ANY)
+                                 const InteriorPointOptions &options = FROM_GUESS)
         {
             MotionProblem problem;
             problem.vehicle = owner_.body_;
@@ -240,9 +236,8 @@ namespace parking
                 problem.weights.nearness = 0.0;
             outline.write(problem);
             return solver_.solve(
-                std::move(problem), FROM_GUESS,
-                [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); }, view,
-                mostIterations);
+                std::move(problem), options,
+                [&outline](std::size_t interval, double fraction) { return outline.poseAt(interval, fraction); }, view);
         }
 
         /** A solution near a path; none leaves the attempt more careful than it was. What is cheaper than \e limit and
@@ -250,8 +245,6 @@ namespace parking
         std::optional<MotionSolution> solve(Attempt &attempt, double limit)
         {
             MotionOutcome found = solveAlong(*attempt.outline, attempt.view);
-            if (found.solution)
-                found.solution->path = attempt.path;
             // What had a solution, but a wrong one, needs to see more: at first what it ran into, and where that was
             // known already, more of everything. What had none needs more room.
             if (found.holds || found.hasLearnt)
@@ -263,7 +256,7 @@ namespace parking
             {
                 attempt.view.separation.margin *= 0.25;
                 attempt.step = std::max(0.7 * attempt.step, attempt.outline->duration() / MOST_INTERVALS);
-                attempt.outline.emplace(attempt.outlineOf(owner_));
+                attempt.outline.emplace(owner_.outline(guessesAlong(attempt.local, owner_.body_), attempt.step));
             }
             return std::nullopt;
         }
@@ -277,10 +270,7 @@ namespace parking
             {
                 if (found.solution->cost >= limit)
                     break;
-                const std::size_t path = found.solution->path;
                 found = found.hasStrayed ? anew() : solver_.solveAgain(*found.solution);
-                if (found.solution)
-                    found.solution->path = path;
             }
             return found.holds ? std::move(found.solution) : std::nullopt;
         }
@@ -344,13 +334,9 @@ namespace parking
                     if (rest.empty())
                         return;
                     ++tries;
-                    MotionOutcome found =
-                        solveAlong({rest, owner_.body_, owner_.options_.step, owner_.options_.initialSteering,
-                                    owner_.options_.finalSteering, owner_.options_.sharpest},
-                                   best.view, MOST_DROP_ITERATIONS);
+                    MotionOutcome found = solveAlong(owner_.outline(rest, owner_.options_.step), best.view, DROPPING);
                     if (!found.holds || found.solution->cost >= best.cost)
                         continue;
-                    found.solution->path = best.path;
                     best = std::move(*found.solution);
                     improve(best);
                     again = true;
@@ -428,7 +414,7 @@ namespace parking
         else
         {
             result.motion = std::move(found->motion);
-            result.path = found->path;
+            result.path = found->view.path;
             result.fallback = false;
         }
     }

@@ -14,6 +14,9 @@
 
 namespace parking
 {
+    class MotionOutline;
+    class StretchGuess;
+
     /** \brief What a TrajectoryOptimizer aims at. */
     struct TrajectoryOptions
     {
@@ -105,6 +108,7 @@ namespace parking
         class Search;
 
         double costOf(const TimedMotion &motion) const;
+        MotionOutline outline(std::vector<StretchGuess> stretches, double step) const;
         void improve(const std::vector<Path> &paths, const std::vector<std::size_t> &which,
                      const std::function<bool()> &interrupted, OptimizedTrajectory &result) const;
 

@@ -2,6 +2,7 @@
 
 #include "python/src/Handles.h"
 
+#include <memory>
 #include <string>
 
 #include <pybind11/pybind11.h>
@@ -14,6 +15,9 @@ namespace parking::python
     void addPlans(pybind11::module_ &module);      ///< adds Drive, Result, plan()
     void addParking(pybind11::module_ &module);    ///< adds ParkingPlan, ParkingPlanner
     void addReferee(pybind11::module_ &module);    ///< adds Verdict, check()
+
+    /** \brief What both kinds of result show of their paths. */
+    void addPathProperties(pybind11::class_<PathHandle, std::shared_ptr<PathHandle>> &type);
 
     /** \brief The scenario that a Python object is; throws parking::Error naming \e field otherwise. */
     ScenarioPointer scenarioFrom(const pybind11::handle &value, const std::string &field);

@@ -1,8 +1,7 @@
 // What Result and ParkingPlan have in common.
-#include "python/src/Paths.h"
-
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "parking_geometry/Error.h"
+#include "python/src/Bindings.h"
 #include "python/src/Signals.h"
 #include "python/src/Values.h"
 

@@ -3,7 +3,6 @@
 #include "parking_geometry/text/Text.h"
 #include "python/src/Bindings.h"
 #include "python/src/Handles.h"
-#include "python/src/Paths.h"
 #include "python/src/Signals.h"
 #include "python/src/Values.h"
 
@@ -13,7 +12,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <ctime>
 #include <exception>
 #include <thread>
 
@@ -204,29 +202,6 @@ namespace parking::python
             result["map_loading_time"] = self.scenario().loadingTime() + plan.loadingTime;
             return result;
         }
-
-        /** Seconds of this thread's processor time. */
-        double processorTime()
-        {
-            timespec time{};
-            clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-            return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-        }
-
-        /** Seconds of processor time that the same plans take in C++, for measuring what Python adds. */
-        std::vector<double> timesInCpp(const ScenarioPointer &scenario, std::size_t runs, const py::kwargs &parameters)
-        {
-            const PlannerParameters wanted = parametersFrom(parameters);
-            std::vector<double> times;
-            const py::gil_scoped_release release;
-            for (std::size_t i = 0; i < runs; ++i)
-            {
-                const double begin = processorTime();
-                const ScenarioPlan plan = scenario->planner().plan(wanted);
-                times.push_back(processorTime() - begin);
-            }
-            return times;
-        }
     }  // namespace
 
     void addPlans(py::module_ &module)
@@ -293,7 +268,6 @@ True if the path reaches a goal exactly. Arrays are created on first use and the
             py::arg("anytime") = false, py::arg("max_expansions") = 0,
             "Plans many scenarios at once and returns their Results in the same order.\n\nthreads : 0 for one per "
             "core; the others as for plan().");
-        module.def("_times_in_cpp", &timesInCpp, py::arg("scenario"), py::arg("runs"));
         module.def("_parameter_table",
                    []
                    {

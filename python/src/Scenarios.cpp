@@ -230,7 +230,9 @@ axle. A scenario does not change; replace() makes another one.)";
 
     ScenarioPointer scenarioFrom(const py::handle &value, const std::string &field)
     {
-        return heldBy<std::shared_ptr<ScenarioHandle>>(value, field, "a Scenario");
+        if (!py::isinstance<ScenarioHandle>(value))
+            failFor(value, field, "a Scenario");
+        return py::cast<std::shared_ptr<ScenarioHandle>>(value);
     }
 
     void addScenarios(py::module_ &module)

@@ -53,23 +53,6 @@ namespace parking::python
         arc. Throws parking::Error for rows that no arc joins. */
     Path pathFrom(const py::handle &value, const Scenario &scenario);
 
-    /** \brief The object that a Python object of the module's own holds. \param right what it must be, "a Scenario" */
-    template <class Held>
-    Held heldBy(const py::handle &value, const std::string &field, const std::string &right)
-    {
-        // None would be cast to a null pointer.
-        if (value.is_none())
-            failFor(value, field, right);
-        try
-        {
-            return value.cast<Held>();
-        }
-        catch (const py::cast_error &)
-        {
-            failFor(value, field, right);
-        }
-    }
-
     /** \brief The tuple x, y, yaw. */
     py::tuple toPython(const Pose &pose);
 

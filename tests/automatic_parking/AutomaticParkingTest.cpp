@@ -3,7 +3,7 @@
 #include "automatic_parking/drawing/DriveAnimation.h"
 #include "parking_geometry/Error.h"
 #include "tests/automatic_parking/ParkingProblems.h"
-#include "tests/parking_geometry/ExpectError.h"
+#include "tests/support/ExpectRefused.h"
 
 #include <algorithm>
 #include <cmath>
@@ -230,27 +230,6 @@ namespace
         EXPECT_NE(result.message.find("from the goal"), std::string::npos) << result.message;
     }
 
-    TEST(AutomaticParkingTest, aFailingSolverIsASafeStop)
-    {
-        AutomaticParking parking;
-        int calls = 0;
-        parking.setSolve(
-            [&calls](const MpcProblem &)
-            {
-                ++calls;
-                MpcSolution solution;
-                solution.message = "out of order";
-                return solution;
-            });
-        const ParkingResult result = parking.park(rowOfSlots());
-        EXPECT_EQ(result.status, ParkingStatus::Stopped);
-        EXPECT_NE(result.message.find("out of order"), std::string::npos) << result.message;
-        EXPECT_GT(result.evaluation.solverFailures, 0u);
-        EXPECT_EQ(result.trajectory.back().v, 0.0);
-        EXPECT_EQ(result.legs.size(), 1u);
-        EXPECT_LT(calls, 10);
-    }
-
     TEST(AutomaticParkingTest, aCarThatHasLostItsPoseStopsWaitsAndGoesOn)
     {
         for (const bool optimized : {true, false})
@@ -425,23 +404,24 @@ namespace
 
     TEST(AutomaticParkingTest, refusesBadParameters)
     {
-        const auto refused = [](const char *field, auto change)
+        using P = ParkingParameters;
+        const double nan = std::nan("");
+        const auto drive = [](auto... members)
         {
-            expectError(
-                [&]
-                {
-                    ParkingParameters parameters;
-                    change(parameters);
-                    AutomaticParking parking(parameters);
-                },
-                {field});
+            return field(&P::drive, &ClosedLoopParameters::tracking, members...);
         };
-        refused("replanCrossTrack", [](auto &p) { p.replanCrossTrack = 0.0; });
-        refused("replanHeadingError", [](auto &p) { p.replanHeadingError = -1.0; });
-        refused("goalTolerance", [](auto &p) { p.goalTolerance = std::nan(""); });
-        refused("goalYawTolerance", [](auto &p) { p.goalYawTolerance = 0.0; });
-        refused("horizon", [](auto &p) { p.drive.tracking.mpc.horizon = 0; });
-        refused("acrossWeight", [](auto &p) { p.drive.tracking.mpc.acrossWeight = -1.0; });
-        refused("timeLimit", [](auto &p) { p.planning.timeLimit = -1.0; });
+        expectRefused<P>({{"keptClearance", field(&P::keptClearance), {-1.0, nan}},
+                          {"leastClearance", field(&P::leastClearance), {-1.0, nan}},
+                          {"motionClearance", field(&P::motionClearance), {-1.0, nan}},
+                          {"clearanceShare", field(&P::clearanceShare), {0.0, 1.0, nan}},
+                          {"stopClearance", field(&P::stopClearance), {-1.0, nan}},
+                          {"lookBack", field(&P::lookBack), {-1.0, nan}},
+                          {"replanCrossTrack", field(&P::replanCrossTrack), {0.0, nan}},
+                          {"replanHeadingError", field(&P::replanHeadingError), {-1.0, nan}},
+                          {"goalTolerance", field(&P::goalTolerance), {0.0, nan}},
+                          {"goalYawTolerance", field(&P::goalYawTolerance), {0.0, nan}},
+                          {"horizon", drive(&TrackingParameters::mpc, &MpcParameters::horizon), {0.0}},
+                          {"timeLimit", field(&P::planning, &PlanningParameters::timeLimit), {-1.0}}},
+                         [](const P &parameters) { AutomaticParking parking(parameters); });
     }
 }  // namespace

@@ -2,18 +2,21 @@
 // everyday disturbances.
 #include "automatic_parking/AutomaticParking.h"
 #include "parking_geometry/io/ScenarioReader.h"
-#include "tests/automatic_parking/ParkingProblems.h"
+#include "tests/support/ProblemFiles.h"
 
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace
 {
     using namespace parking;
+    using parking_test::solvableProblems;
 
     constexpr double DEGREE = PI / 180.0;
     constexpr std::uint64_t SEEDS = 2;
@@ -54,26 +57,20 @@ namespace
     {
     };
 
-    TEST_P(EvaluationTest, bundledProblemsKeepTheFigures)
+    TEST_P(EvaluationTest, everyProblemKeepsTheFigures)
     {
-        evaluate(readScenario(parking_test::bundledFile(GetParam())));
+        evaluate(readScenario(GetParam()));
     }
 
-    INSTANTIATE_TEST_SUITE_P(Problems, EvaluationTest, ::testing::ValuesIn(parking_test::bundledProblems()),
-                             [](const auto &each) { return each.param; });
-
-    class TpcapEvaluationTest : public ::testing::TestWithParam<int>
+    /** Bundled ones, and the cases of TPCAP where they are. */
+    std::vector<std::string> problems()
     {
-    };
-
-    TEST_P(TpcapEvaluationTest, casesKeepTheFigures)
-    {
-        const std::string file = std::string(PARKING_SHARED_DATA) + "/tpcap/Case" + std::to_string(GetParam()) + ".csv";
-        if (!std::filesystem::exists(file))
-            GTEST_SKIP() << file << " is not there";
-        evaluate(readScenario(file));
+        std::vector<std::string> files = solvableProblems(PARKING_SOURCE_DIR "/benchmarks/scenarios", ".yaml");
+        for (std::string &file : solvableProblems(PARKING_SHARED_DATA "/tpcap", ".csv"))
+            files.push_back(std::move(file));
+        return files;
     }
 
-    INSTANTIATE_TEST_SUITE_P(Cases, TpcapEvaluationTest, ::testing::Range(1, 21),
-                             [](const auto &each) { return std::to_string(each.param); });
+    INSTANTIATE_TEST_SUITE_P(Problems, EvaluationTest, ::testing::ValuesIn(problems()),
+                             [](const auto &each) { return std::filesystem::path(each.param).stem().string(); });
 }  // namespace

@@ -45,13 +45,6 @@ namespace parking_test
         return {{minX, minY}, {maxX, minY}, {maxX, maxY}, {minX, maxY}};
     }
 
-    /** The problems that come with the project, but for the one that has no solution. */
-    inline std::vector<std::string> bundledProblems()
-    {
-        return {"angled45", "dead_end_aisle",   "multi_storey",  "narrow_parallel", "narrow_perpendicular",
-                "parallel", "perceived_street", "perpendicular", "tight_parallel",  "underground_garage"};
-    }
-
     inline std::string bundledFile(const std::string &name)
     {
         return std::string(PARKING_SOURCE_DIR) + "/benchmarks/scenarios/" + name + ".yaml";

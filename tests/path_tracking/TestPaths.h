@@ -3,6 +3,7 @@
 #include "benchmarks/worlds/Random.h"
 #include "parking_geometry/Vehicle.h"
 #include "parking_geometry/curves/Path.h"
+#include "path_tracking/trajectory/TimedMotion.h"
 
 #include <cmath>
 #include <cstdint>
@@ -139,5 +140,35 @@ namespace parking::test
                 path.append(PathPiece::turnOnTheSpot(turns[i]));
         }
         return path;
+    }
+
+    /** Chords along the lines of a grid of half a metre and its diagonals, with corners of an eighth of a turn now and
+        then: after one chord in \e straight. */
+    inline Path randomGridPath(std::uint64_t seed, const Pose &start, int count, int straight)
+    {
+        Random random(seed);
+        std::vector<double> lengths, turns;
+        for (int i = 0; i < count; ++i)
+        {
+            lengths.push_back(random.below(2) == 0 ? 0.5 : std::sqrt(0.5));
+            turns.push_back(random.below(straight) == 0 ? (random.below(2) == 0 ? 1 : -1) * PI / 4 : 0.0);
+        }
+        turns.pop_back();
+        return chords(start, lengths, turns);
+    }
+
+    /** Rolls while its wheels turn, stands, comes back, and turns its wheels straight at the end. */
+    inline TimedMotion exampleMotion()
+    {
+        return {{1.0, 2.0, 3.0},
+                {{0.0, 0.0, 0.0},
+                 {0.5, 0.0, 0.2},
+                 {2.0, 1.5, 0.7},
+                 {4.0, 1.0, -0.2},
+                 {5.0, 0.0, -0.1},
+                 {5.5, 0.0, 0.1},
+                 {7.0, -1.0, 0.5},
+                 {8.5, 0.0, 0.4},
+                 {9.3, 0.0, 0.0}}};
     }
 }  // namespace parking::test

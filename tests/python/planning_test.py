@@ -335,18 +335,15 @@ def test_ctrl_c_ends_it_within_10_ms(call):
 
 
 def test_python_adds_little():
-    """Processor time between a plan in C++ and the same from Python, in one process and by turns."""
+    """Time round planning: arguments read, locks given and taken back, a result made."""
     problem = behind_the_wall()
     ia.plan(problem)
-    inside, outside = [], []
+    added = []
     for _ in range(300):
-        inside += ia._core._times_in_cpp(problem, 1)
-        begin = time.thread_time()
-        ia.plan(problem)
-        outside.append(time.thread_time() - begin)
-    added = 1e6 * (statistics.median(outside) - statistics.median(inside))
-    print(f'C++ {1e6 * statistics.median(inside):.1f} us, from Python {added:.1f} us more')
-    assert added < 250.0  # 50 are promised; the machine may be shared
+        begin = time.perf_counter()
+        result = ia.plan(problem)
+        added.append(1e6 * (time.perf_counter() - begin - result.statistics['planning_time']))
+    assert statistics.median(added) < 250.0  # 50 are promised; the machine may be shared
 
 
 def test_the_same_question_gets_the_same_answer():

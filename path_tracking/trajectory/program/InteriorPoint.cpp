@@ -22,6 +22,8 @@ namespace parking
         /** Metres and radians that a joint may gape in what is not optimal, and all of them together: a motion misses
             its goal by their sum. */
         constexpr double FEASIBLE_GAP = 1e-5, FEASIBLE_SUM = 5e-4;
+        /** The same in what is optimal, and by how much inequalities may be missed. */
+        constexpr double OPTIMAL_GAP = 1e-6, LIMIT_TOLERANCE = 1e-7;
         /** Attempts to make the system positive definite. */
         constexpr int MOST_SHIFTS = 40;
 
@@ -68,7 +70,6 @@ namespace parking
             InteriorPointResult run(const std::function<bool()> &interrupted)
             {
                 InteriorPointResult result;
-                result.status = InteriorPointStatus::Infeasible;
                 std::size_t stuck = 0;
                 for (; result.iterations < options_.mostIterations; ++result.iterations)
                 {
@@ -91,10 +92,8 @@ namespace parking
                 }
                 result.nodes = nodes_;
                 result.cost = cost_;
-                result.gap = gap();
-                result.violation = violation();
-                if (result.status == InteriorPointStatus::Infeasible && result.gap <= feasibleGap() &&
-                    result.violation <= options_.limitTolerance)
+                if (result.status == InteriorPointStatus::Infeasible && gap() <= feasibleGap() &&
+                    violation() <= LIMIT_TOLERANCE)
                     result.status = InteriorPointStatus::Feasible;
                 return result;
             }
@@ -156,8 +155,7 @@ namespace parking
                 {
                     if (barrier_ <= options_.lastBarrier)
                     {
-                        if (gap() <= (settled ? feasibleGap() : options_.jointTolerance) &&
-                            violation() <= options_.limitTolerance)
+                        if (gap() <= (settled ? feasibleGap() : OPTIMAL_GAP) && violation() <= LIMIT_TOLERANCE)
                             return true;
                         break;
                     }

@@ -14,8 +14,6 @@ namespace parking
         double firstBarrier{5e-3};        ///< seconds; a large one forgets where the search began
         double lastBarrier{2e-5};         ///< seconds
         std::size_t mostIterations{150};  ///< steps, after which the search ends as it is
-        double jointTolerance{1e-6};      ///< metres and radians that joints may gape at the end; tenfold if it crawls
-        double limitTolerance{1e-7};      ///< by which inequalities may be missed at the end
     };
 
     /** \brief How a search ended. */
@@ -34,8 +32,6 @@ namespace parking
         std::vector<NodeVector> nodes;                                ///< where the search ended
         std::size_t iterations{0};                                    ///< steps taken
         double cost{0.0};                                             ///< of the motion, as MotionWeights say
-        double gap{0.0};                                              ///< metres or radians, the widest at a joint
-        double violation{0.0};  ///< of the inequality that holds least; 0 when all hold
     };
 
     /** \brief Solves a motion program from its nodes by a primal-dual interior point method.

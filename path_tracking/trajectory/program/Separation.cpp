@@ -17,6 +17,10 @@ namespace parking
         /** Metres beyond what a checkpoint needs that its neighbours may use, too. */
         constexpr double PART = 3.0;
         constexpr int MOST_REFINEMENTS = 5;
+        /** Metres within which pieces matter that are known to be in the way. */
+        constexpr double KNOWN_RANGE = 15.0;
+        /** Metres of overlap that a change of lines may ask for before poses are put between. */
+        constexpr double WORST_SWITCH = 0.01;
         /** Share of the largest gap with which a side of the body that is watched anyway serves a piece. */
         constexpr double SERVES = 0.8;
         /** Tangent of the angle by which a body never turns between what is guessed and what is found. */
@@ -32,6 +36,20 @@ namespace parking
         {
             return std::all_of(piece.corners.begin(), piece.corners.end(),
                                [&](const Eigen::Vector2d &corner) { return normal.dot(corner) <= offset + 1e-9; });
+        }
+
+        /** Calls \e visit with the choices at two neighbouring places for each piece whose line changes between. */
+        template <class Choices, class Visit>
+        void visitChanges(const Choices &atA, const Choices &atB, const Visit &visit)
+        {
+            auto left = atA.begin();
+            for (const auto &choice : atB)
+            {
+                while (left != atA.end() && left->piece < choice.piece)
+                    ++left;
+                if (left != atA.end() && left->piece == choice.piece && !(left->line == choice.line))
+                    visit(*left, choice);
+            }
         }
     }  // namespace
 
@@ -86,11 +104,6 @@ namespace parking
     {
         isComplete_ = isComplete_ && !(interrupted && interrupted());
         return isComplete_;
-    }
-
-    double SeparationPlan::marginOf(std::size_t piece) const
-    {
-        return margins_[piece];
     }
 
     double SeparationPlan::gap(const Place &place, const Separator &line, std::size_t piece) const
@@ -157,7 +170,7 @@ namespace parking
         {
             const Box &box = pieces_[i].box;
             const Eigen::Vector2d off = (box.min - middle).cwiseMax(middle - box.max).cwiseMax(0.0);
-            const double range = isKnown_[i] != 0 ? options_.knownRange : options_.range;
+            const double range = isKnown_[i] != 0 ? KNOWN_RANGE : options_.range;
             if (off.squaredNorm() > (range + reach_) * (range + reach_))
                 continue;
             Choice choice = best(place, i);
@@ -213,13 +226,6 @@ namespace parking
         }
     }
 
-    double SeparationPlan::switchGap(const Place &a, const Place &b, const Choice &atA, const Choice &atB) const
-    {
-        const double there = a.point.fixed ? -INF : gap(a, atB.line, atB.piece);
-        const double here = b.point.fixed ? -INF : gap(b, atA.line, atA.piece);
-        return std::max(there, here);
-    }
-
     bool SeparationPlan::refine(const std::function<Pose(std::size_t, double)> &poseAt,
                                 const std::function<bool()> &interrupted)
     {
@@ -233,15 +239,13 @@ namespace parking
             if (i > 0)
             {
                 const Place &a = places_[i - 1];
-                auto left = a.choices.begin();
-                for (const Choice &choice : b.choices)
-                {
-                    while (left != a.choices.end() && left->piece < choice.piece)
-                        ++left;
-                    if (left == a.choices.end() || left->piece != choice.piece || left->line == choice.line)
-                        continue;
-                    between = between || switchGap(a, b, *left, choice) < -options_.worstSwitch;
-                }
+                visitChanges(a.choices, b.choices,
+                             [&](const Choice &atA, const Choice &atB)
+                             {
+                                 const double there = a.point.fixed ? -INF : gap(a, atB.line, atB.piece);
+                                 const double here = b.point.fixed ? -INF : gap(b, atA.line, atA.piece);
+                                 between = between || std::max(there, here) < -WORST_SWITCH;
+                             });
             }
             const double from =
                 i > 0 && places_[i - 1].point.interval == b.point.interval ? places_[i - 1].point.fraction : 0.0;
@@ -263,22 +267,19 @@ namespace parking
         for (std::size_t i = 1; i < places_.size(); ++i)
         {
             Place &a = places_[i - 1], &b = places_[i];
-            auto left = a.choices.begin();
-            for (const Choice &choice : b.choices)
-            {
-                while (left != a.choices.end() && left->piece < choice.piece)
-                    ++left;
-                if (left == a.choices.end() || left->piece != choice.piece || left->line == choice.line)
-                    continue;
-                const double there = gap(a, choice.line, choice.piece), here = gap(b, left->line, choice.piece);
-                const double margin = marginOf(choice.piece);
-                if ((a.point.fixed && there >= margin) || (b.point.fixed && here >= margin))
-                    continue;
-                if (b.point.fixed || (!a.point.fixed && there >= here))
-                    a.extra.push_back({choice.piece, choice.line, there});
-                else
-                    b.extra.push_back({choice.piece, left->line, here});
-            }
+            visitChanges(a.choices, b.choices,
+                         [&](const Choice &atA, const Choice &atB)
+                         {
+                             const std::size_t piece = atA.piece;
+                             const double there = gap(a, atB.line, piece), here = gap(b, atA.line, piece);
+                             const double margin = margins_[piece];
+                             if ((a.point.fixed && there >= margin) || (b.point.fixed && here >= margin))
+                                 return;
+                             if (b.point.fixed || (!a.point.fixed && there >= here))
+                                 a.extra.push_back({piece, atB.line, there});
+                             else
+                                 b.extra.push_back({piece, atA.line, here});
+                         });
         }
     }
 
@@ -302,7 +303,7 @@ namespace parking
             {
                 const Eigen::Vector2d off = corner - Eigen::Vector2d(pose.x, pose.y);
                 corners.push_back(
-                    {out.x() * off.y() - out.y() * off.x(), out.dot(off) - marginOf(piece), corner, marginOf(piece)});
+                    {out.x() * off.y() - out.y() * off.x(), out.dot(off) - margins_[piece], corner, margins_[piece]});
             }
         std::sort(corners.begin(), corners.end(),
                   [](const Corner &a, const Corner &b)
@@ -370,7 +371,7 @@ namespace parking
             {
                 BodyRow &row = candidates[k];
                 row.normal = pieces_[line.piece].normals[line.side];
-                row.offset = pieces_[line.piece].offsets[line.side] + marginOf(line.piece);
+                row.offset = pieces_[line.piece].offsets[line.side] + margins_[line.piece];
                 row.point = {k < 2 ? front_ : -rear_, k == 0 || k == 3 ? half_ : -half_};
                 values[k] = row.value(pose.x, pose.y, place.cosine, place.sine);
             }

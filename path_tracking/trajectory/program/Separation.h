@@ -38,12 +38,9 @@ namespace parking
     /** \brief What SeparationPlan needs to know. */
     struct SeparationOptions
     {
-        double margin{0.002};  ///< metres between body and obstacles
-        double range{1.0};     ///< metres within which pieces matter
-        double worstSwitch{
-            0.01};  ///< metres of overlap that a change of lines may ask for before poses are put between
-        std::vector<std::size_t> known;  ///< pieces that are known to be in the way
-        double knownRange{15.0};         ///< metres within which those matter
+        double margin{0.002};            ///< metres between body and obstacles
+        double range{1.0};               ///< metres within which pieces matter
+        std::vector<std::size_t> known;  ///< pieces that are known to be in the way: they matter within 15 m
     };
 
     /** \brief Chooses lines that keep a moving body apart from obstacles.
@@ -51,7 +48,7 @@ namespace parking
         At every checkpoint each piece nearby gets the line with the largest gap, of the sides of piece and body
         (separating axes). A piece that lies wholly behind the line of another needs none of its own. Where the line for
         a piece changes from one checkpoint to the next, one of the two has to satisfy both: else a corner can slip
-        through in between. Where that would ask for more overlap than worstSwitch, checkpoints are put between. */
+        through in between. Where that would ask for more than a centimetre of overlap, checkpoints are put between. */
     class SeparationPlan
     {
     public:
@@ -95,11 +92,9 @@ namespace parking
         Place makePlace(const GuessedCheckpoint &point, const Place *before) const;
         Choice best(const Place &place, std::size_t piece) const;
         double gap(const Place &place, const Separator &line, std::size_t piece) const;
-        double marginOf(std::size_t piece) const;
         bool refine(const std::function<Pose(std::size_t, double)> &poseAt, const std::function<bool()> &interrupted);
         bool goesOn(const std::function<bool()> &interrupted);
         void joinNeighbours();
-        double switchGap(const Place &a, const Place &b, const Choice &atA, const Choice &atB) const;
         void addRows(const Place &place, std::vector<BodyRow> &rows) const;
         void addBodySide(const Place &place, std::size_t side, const std::vector<std::size_t> &pieces,
                          std::vector<BodyRow> &rows) const;

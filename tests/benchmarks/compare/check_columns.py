@@ -20,8 +20,8 @@ def row(column):
 
 
 def main(root, program, update):
-    document, report = os.path.join(root, 'docs', 'benchmark-reference.md'), os.path.join(
-        root, 'benchmarks', 'report', 'columns.json')
+    document, report = os.path.join(root, 'docs', 'benchmark-reference.md'), os.path.join(root, 'benchmarks', 'report',
+                                                                                 'columns.json')
     columns = json.loads(subprocess.run([program], capture_output=True, text=True, check=True).stdout)
     with open(document, encoding='utf-8') as stream:
         text = stream.read()

@@ -38,7 +38,7 @@ class ReproducePaperTest(unittest.TestCase):
                      '| Manhattan distance |'):
             self.assertIn(part, pages[0].replace('perpendicular: ', ''))
         with open(os.path.join(results, 'images', 'paper.svg'), encoding='utf-8') as stream:
-            self.assertIn('improved_astar', stream.read())
+            self.assertIn('perpendicular, improved', stream.read())
 
     def test_says_what_is_wrong(self):
         for arguments, programs, part in ((['--maps', '0'], PROGRAMS, 'at least 1'), ([], '/nowhere', 'is not a program')):

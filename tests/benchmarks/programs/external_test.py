@@ -29,14 +29,15 @@ class External(ProgramTest):
         self.assertEqual(result['status'], 'invalid_path')
         self.assertEqual(result['recheck']['fault'], 'collision')
 
-    def test_the_pages_name_the_outcomes(self):
-        with open(os.path.join(SOURCE, 'docs', 'benchmarking.md')) as stream:
-            page = stream.read()
-        example = page[page.index('--planner external'):]
+    def test_the_page_says_how_its_example_ends(self):
+        def page(name):
+            with open(os.path.join(SOURCE, 'docs', name), encoding='utf-8') as stream:
+                return stream.read()
+        guide = page('benchmarking.md')
+        example = guide[guide.index('--planner external'):]
         self.assertEqual(self.outcome('python3 ' + STRAIGHT, bundled('parallel'), status=4)['status'], 'invalid_path')
         self.assertIn('`NOT VALID` and exit status 4', example[:1000])
-        with open(os.path.join(SOURCE, 'docs', 'benchmark-reference.md')) as stream:
-            row = next(line for line in stream if line.startswith('| `status` |'))
+        row = next(line for line in page('benchmark-reference.md').splitlines() if line.startswith('| `status` |'))
         for command in ('true', 'exit 3', 'echo 1 2'):
             self.assertIn('`%s`' % self.outcome(command, status=4)['status'], row)
 

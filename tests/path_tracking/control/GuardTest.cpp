@@ -73,7 +73,7 @@ namespace parking::test
             {
                 const TrackingStep step = controller.step(plant.measure());
                 slowed += step.event.rfind("slowing down", 0) == 0 ? 1 : 0;
-                blocked = blocked || step.blocked;
+                blocked = blocked || !step.interruption.empty();
                 plant.drive(step.command, 0.1, {});
                 ASSERT_LT(plant.state().pose.x, 6.0);
             }

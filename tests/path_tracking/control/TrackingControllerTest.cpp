@@ -31,11 +31,12 @@ namespace parking::test
         /** Lets a controller drive a car, \e spoil changing what the controller measures at a time. Every command is
             checked against the limits of the car. */
         Drive driveWith(TrackingController &controller, const Path &path,
-                        const std::function<void(double, Measurement &)> &spoil = {})
+                        const std::function<void(double, Measurement &)> &spoil = {},
+                        const Disturbances &disturbances = {})
         {
             const Vehicle vehicle;
             const double period = controller.parameters().mpc.step;
-            Plant plant(vehicle, {}, path.start, 0.0, 0.005);
+            Plant plant(vehicle, disturbances, path.start, 0.0, 0.005);
             Drive drive;
             double steering = 0.0;
             int standing = 0;
@@ -173,6 +174,30 @@ namespace parking::test
                 EXPECT_LT(drive.fastest, 2.8);
                 EXPECT_LT(drive.farthest, 4.5);  // the braking distance from full speed included
             }
+        }
+
+        TEST(TrackingController, KeepsToTheSpeedLimitWhateverTheSolverSays)
+        {
+            for (const double direction : {1.0, -1.0})
+                for (const double lag : {0.0, 0.2})
+                {
+                    const auto onwards = [direction](const MpcProblem &problem)
+                    {
+                        MpcSolution solution;
+                        solution.usable = true;
+                        solution.controls.assign(problem.reference.size(), {direction, 0.0});
+                        return solution;
+                    };
+                    Disturbances disturbances;
+                    disturbances.accelerationLag = lag;
+                    TrackingParameters parameters;
+                    parameters.response.driveLag = lag;
+                    const Path path = arcs({}, {{0.0, direction * 40.0}});
+                    TrackingController controller(path, Vehicle(), parameters, 0.0, onwards);
+                    const Drive drive = driveWith(controller, path, {}, disturbances);
+                    EXPECT_GT(drive.fastest, 0.95 * Vehicle().maxSpeed);
+                    EXPECT_LE(drive.fastest, 1.002 * Vehicle().maxSpeed);
+                }
         }
 
         TEST(TrackingController, BridgesLostMeasurementsAndStopsWhenTheyStayAway)

@@ -236,24 +236,9 @@ namespace parking::test
             EXPECT_NEAR(reference.project(0, {1.2, 0.3, 0.0}, 0.0, 9.0).beyond, 0.0, 1e-9);
         }
 
-        /** Rolls while its wheels turn, stands, comes back, and turns its wheels straight at the end. */
-        TimedMotion example()
-        {
-            return {{1.0, 2.0, 3.0},
-                    {{0.0, 0.0, 0.0},
-                     {0.5, 0.0, 0.2},
-                     {2.0, 1.5, 0.7},
-                     {4.0, 1.0, -0.2},
-                     {5.0, 0.0, -0.1},
-                     {5.5, 0.0, 0.1},
-                     {7.0, -1.0, 0.5},
-                     {8.5, 0.0, 0.4},
-                     {9.3, 0.0, 0.0}}};
-        }
-
         TEST(TimedReference, HasALegBetweenStandstillsOfAMotion)
         {
-            const TimedReference reference(example(), Vehicle());
+            const TimedReference reference(exampleMotion(), Vehicle());
             ASSERT_EQ(reference.legs().size(), 2u);
             EXPECT_DOUBLE_EQ(reference.duration(), 9.3);
             EXPECT_DOUBLE_EQ(reference.legs()[0].standstill, 0.5);
@@ -273,7 +258,7 @@ namespace parking::test
             for (std::uint64_t seed = 0; seed < 10; ++seed)
             {
                 const TimedMotion motion =
-                    seed == 0 ? example() : stopAndSteer(randomSmooth(seed, 20.0), car, 0.0, 0.0);
+                    seed == 0 ? exampleMotion() : stopAndSteer(randomSmooth(seed, 20.0), car, 0.0, 0.0);
                 const TimedReference reference(motion, car);
                 EXPECT_NEAR(reference.duration(), motion.duration(), 1e-9);
                 double begin = reference.legs()[0].standstill;
@@ -283,13 +268,13 @@ namespace parking::test
                            {
                                if (part.from.v == 0.0 && part.to.v == 0.0)
                                    return true;
-                               while (part.begin >= begin + reference.legs()[leg].duration - 1e-9)
+                               while (part.from.t >= begin + reference.legs()[leg].duration - 1e-9)
                                {
                                    begin += reference.legs()[leg].duration;
                                    begin += reference.legs()[++leg].standstill;
                                }
-                               const TimedState at = reference.at(leg, part.begin - begin);
-                               EXPECT_TRUE(isSamePose(at.pose, part.before, 2e-5)) << part.begin;
+                               const TimedState at = reference.at(leg, part.from.t - begin);
+                               EXPECT_TRUE(isSamePose(at.pose, part.before, 2e-5)) << part.from.t;
                                EXPECT_NEAR(at.speed, std::abs(part.from.v), 1e-6);
                                EXPECT_NEAR(at.steering, part.from.steering, 1e-6);
                                EXPECT_NEAR(reference.steering(leg, at.s), at.steering, 0.02);

@@ -1,42 +1,18 @@
 #include "tests/path_tracking/trajectory/TrajectoryReferee.h"
 
-#include <algorithm>
+#include "benchmarks/worlds/PolygonOracle.h"
+
 #include <cmath>
+#include <limits>
 
 namespace parking::test
 {
     namespace
     {
-        using Point = Eigen::Vector2d;
+        constexpr double FAR = std::numeric_limits<double>::infinity();
+        const Box EVERYWHERE{{-FAR, -FAR}, {FAR, FAR}};
 
-        double cross(const Point &o, const Point &a, const Point &b)
-        {
-            return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-        }
-
-        bool sidesCross(const Point &a, const Point &b, const Point &c, const Point &d)
-        {
-            return (cross(a, b, c) > 0.0) != (cross(a, b, d) > 0.0) && (cross(c, d, a) > 0.0) != (cross(c, d, b) > 0.0);
-        }
-
-        bool inside(const std::vector<Point> &polygon, const Point &p)
-        {
-            bool odd = false;
-            for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-                if ((polygon[i].y() > p.y()) != (polygon[j].y() > p.y()) &&
-                    p.x() < (polygon[j].x() - polygon[i].x()) * (p.y() - polygon[i].y()) /
-                                    (polygon[j].y() - polygon[i].y()) +
-                                polygon[i].x())
-                    odd = !odd;
-            return odd;
-        }
-
-        struct Drive
-        {
-            double x, y, yaw;
-        };
-
-        void step(Drive &car, double v, double steering, double h, double wheelbase)
+        void step(Pose &car, double v, double steering, double h, double wheelbase)
         {
             // The midpoint rule, whose error of third order is nothing at these steps.
             const double rate = v * std::tan(steering) / wheelbase, middle = car.yaw + 0.5 * h * rate;
@@ -67,22 +43,7 @@ namespace parking::test
 
     bool touches(const Pose &pose, const Vehicle &vehicle, const std::vector<Polygon> &obstacles)
     {
-        const double c = std::cos(pose.yaw), s = std::sin(pose.yaw), half = 0.5 * vehicle.width;
-        const double front = vehicle.wheelbase + vehicle.frontOverhang, rear = -vehicle.rearOverhang;
-        std::vector<Point> body;
-        for (const Point &p : {Point(rear, -half), Point(front, -half), Point(front, half), Point(rear, half)})
-            body.emplace_back(pose.x + c * p.x() - s * p.y(), pose.y + s * p.x() + c * p.y());
-        for (const Polygon &obstacle : obstacles)
-        {
-            const std::vector<Point> corners(obstacle.begin(), obstacle.end());
-            if (inside(corners, body[0]) || inside(body, corners[0]))
-                return true;
-            for (std::size_t i = 0; i < corners.size(); ++i)
-                for (std::size_t k = 0; k < 4; ++k)
-                    if (sidesCross(corners[i], corners[(i + 1) % corners.size()], body[k], body[(k + 1) % 4]))
-                        return true;
-        }
-        return false;
+        return !parking_test::PolygonOracle(obstacles, EVERYWHERE).isFree(pose, vehicle);
     }
 
     Verdict judge(const Trajectory &trajectory, const Vehicle &vehicle, const std::vector<Polygon> &obstacles)
@@ -92,7 +53,8 @@ namespace parking::test
             return {"no trajectory", {}, 0.0};
         if (std::abs(trajectory.front().v) > 1e-9 || std::abs(trajectory.back().v) > 1e-9)
             return {"not at rest at its ends", {}, 0.0};
-        Drive car{trajectory.front().x, trajectory.front().y, trajectory.front().yaw};
+        const parking_test::PolygonOracle oracle(obstacles, EVERYWHERE);
+        Pose car{trajectory.front().x, trajectory.front().y, trajectory.front().yaw};
         for (std::size_t i = 1; i < trajectory.size(); ++i)
         {
             const TrajectoryPoint &p = trajectory[i - 1], &q = trajectory[i];
@@ -102,7 +64,7 @@ namespace parking::test
             {
                 step(car, p.v + k / parts * (q.v - p.v), p.steering + k / parts * (q.steering - p.steering), h / parts,
                      vehicle.wheelbase);
-                if (touches({car.x, car.y, car.yaw}, vehicle, obstacles))
+                if (!oracle.isFree(car, vehicle))
                     verdict.fault = "touches an obstacle at " + std::to_string(p.t) + " s";
             }
             if (verdict.fault.empty() && (std::hypot(car.x - q.x, car.y - q.y) > 1e-3 ||
@@ -111,7 +73,7 @@ namespace parking::test
             if (!verdict.fault.empty())
                 return verdict;
         }
-        verdict.end = {car.x, car.y, car.yaw};
+        verdict.end = car;
         verdict.duration = trajectory.back().t - trajectory.front().t;
         return verdict;
     }

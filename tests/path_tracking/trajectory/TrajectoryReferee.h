@@ -20,8 +20,8 @@ namespace parking::test
     /** \brief Can a car drive these samples from rest to rest, and does it touch nothing?
 
         Between two samples speed and steering angle are linear; a car is driven accordingly in steps of 2 ms. Limits,
-        poses and, at every step, the body against the polygons: sides that cross, and corners inside. Nothing here is
-        shared with the code that makes or checks trajectories. */
+        poses and, at every step, the body against the polygons. Nothing here is shared with the code that makes or
+        checks trajectories. */
     Verdict judge(const Trajectory &trajectory, const Vehicle &vehicle, const std::vector<Polygon> &obstacles);
 
     /** \brief Does the body touch a polygon at this pose? */
