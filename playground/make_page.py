@@ -13,7 +13,7 @@ SCENES = ['perpendicular', 'parallel', 'angled45', 'narrow_parallel', 'tight_par
           'dead_end_aisle', 'multi_storey', 'underground_garage', 'perceived_street', 'unreachable']
 
 
-# What the page is made of, apart from the compiler.
+# Sources of the page, apart from the compiler.
 FOLDERS = ['automatic_parking', 'ompl_improved_astar', 'parking_geometry', 'path_tracking', 'state_validity', 'playground',
            os.path.join('benchmarks', 'scenarios')]
 

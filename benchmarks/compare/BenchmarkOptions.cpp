@@ -20,25 +20,23 @@ namespace parking
             po::options_description options("Options");
             auto add = options.add_options();
             add("output", oneValue("DIR"), "folder for all results (default: the configuration's, or results-NAME)");
-            add("time", oneValue("S"), "seconds for each run");
+            add("time", oneValue("S"), "limit in seconds for each run");
             add("runs", oneValue("N"), "runs of each planner on each problem");
-            add("seed", oneValue("N"), "of all random numbers");
-            add("scenarios", manyValues("FILE|DIR"),
-                "scenarios instead of the configuration's; may be given several times");
-            add("planner", manyValues("NAME"),
-                "run only this planner of the configuration; may be given several times");
-            add("plugin", manyValues("LIB.so"), "load planners from a library; may be given several times");
-            add("shard", oneValue("I/N"), "do part I of N (1/N to N/N) and leave its runs to be merged");
-            add("merge", "run nothing: put the runs in the output folder together, or those of --from");
-            add("from", manyValues("FILE|DIR"), "with --merge: where the runs are; may be given several times");
+            add("seed", oneValue("N"), "seed of all random numbers");
+            add("scenarios", manyValues("FILE|DIR"), "use this scenario instead of the configuration's; repeatable");
+            add("planner", manyValues("NAME"), "run only this planner of the configuration; repeatable");
+            add("plugin", manyValues("LIB.so"), "load planners from a library; repeatable");
+            add("shard", oneValue("I/N"), "execute part I of N (1/N to N/N), to be merged later");
+            add("merge", "execute no runs: merge the runs in the output folder, or those of --from");
+            add("from", manyValues("FILE|DIR"), "with --merge: file or folder of runs; repeatable");
             add("isolate",
-                "each run in a process of its own, which may crash, hang or run out of memory without harm to "
-                "the others (runs of plug-ins always are)");
-            add("no-isolate", "no processes of their own for plug-ins, either; then only exceptions do no harm");
-            add("fresh", "start over, whatever is finished");
+                "execute each run in its own process, which contains crashes, hangs and exhausted memory (always "
+                "for plug-ins)");
+            add("no-isolate", "execute plug-ins in this process, too: only exceptions are contained");
+            add("fresh", "repeat all runs, including finished ones");
             add("no-report", "leave out the HTML report");
-            add("quiet", "tell no progress");
-            add("help", "this text");
+            add("quiet", "print no progress");
+            add("help", "print this text");
             return options;
         }
 
@@ -64,7 +62,7 @@ namespace parking
         result.plugins = line.texts("plugin");
         result.help = line.given("help");
         if (result.help)
-            return result;  // with the plug-ins, whose planners it names
+            return result;  // with the plug-ins, whose planners --help lists
         if (!line.given("config"))
             throw Error("no configuration given (see --help)");
         result.config = *line.text("config");
@@ -88,9 +86,9 @@ namespace parking
         if (line.given("isolate") || line.given("no-isolate"))
             result.isolation = line.given("isolate") ? Isolation::All : Isolation::None;
         if (!result.inputs.empty() && !result.merge)
-            throw Error("--from goes with --merge only");
+            throw Error("--from requires --merge");
         if (result.merge && (line.given("shard") || result.fresh))
-            throw Error("--merge goes with neither --shard nor --fresh");
+            throw Error("--merge is not compatible with --shard and --fresh");
         return result;
     }
 
@@ -98,14 +96,16 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_benchmark CONFIG.cfg [options]\n\n"
-                "Compares planners on parking problems as CONFIG.cfg says. docs/benchmark-reference.md describes such "
-                "files.\n"
-                "Scenarios are those that parking_plan reads.\n"
-                "Interrupted, it goes on where it was when started again.\n\n"
+                "Compares planners on parking problems and writes database, tables, pictures and an HTML report.\n"
+                "CONFIG.cfg lists planners and scenarios (docs/benchmark-reference.md).\n"
+                "Rerun the command to resume an interrupted comparison.\n\n"
+                "Examples, run at the root of the project:\n"
+                "  parking_benchmark benchmarks/bundled.cfg --runs 1\n"
+                "  parking_benchmark benchmarks/bundled.cfg --scenarios benchmarks/scenarios/parallel.yaml --fresh\n\n"
              << describe() << "\nPlanners:";
         for (const std::string &each : registry.names())
             text << ' ' << each;
-        text << "\n\nStatus: 0 done, 1 runs or the report are missing, 2 bad input or usage, 130 interrupted\n";
+        text << "\n\nStatus: 0 done, 1 runs or the report are missing, 2 invalid input or usage, 130 interrupted\n";
         return text.str();
     }
 }  // namespace parking

@@ -41,12 +41,12 @@ namespace parking
             std::error_code error;
             fs::create_directories(folder, error);
             if (!fs::is_directory(folder))
-                throw Error(folder + ": is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
+                throw Error(folder + ": is not a folder and cannot be created" + (error ? ": " + error.message() : ""));
             if (access(folder.c_str(), W_OK) != 0)
                 throw Error(folder + ": cannot be written: " + std::strerror(errno));
         }
 
-        /** Files that somebody was killed over while writing them. */
+        /** Removes temporary files of processes that were killed while writing them. */
         void removeRemains(const fs::path &folder)
         {
             std::vector<fs::path> remains;
@@ -116,7 +116,7 @@ namespace parking
         protectInputs();
         step.reset();
         if (!left.empty())
-            std::cerr << "parking_benchmark: " << config_.file << ": not run, as 'only' names none of the scenarios of "
+            std::cerr << "parking_benchmark: " << config_.file << ": not run: 'only' names none of the scenarios of "
                       << "--scenarios: " << left << std::endl;
     }
 
@@ -134,15 +134,15 @@ namespace parking
             inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
         }
         requireNoInput(outputs, inputs);
-        // There are too many paths, for each run one, to look at them one by one.
+        // There may be one path per run, too many to inspect individually.
         std::error_code ignored;
         for (const std::string &input : inputs)
             if (config_.savePaths != SavePaths::None &&
                 fs::equivalent(fs::absolute(input).parent_path(), folder / "paths", ignored))
-                throw Error(inQuotes(input) + " is an input where the paths are to be written; name another --output");
+                throw Error(inQuotes(input) + " is an input in the folder for paths; choose another --output");
     }
 
-    void Comparison::tellUnsolvable(UnitRunner &runner) const
+    void Comparison::reportUnsolvable(UnitRunner &runner) const
     {
         for (std::size_t i = 0; i < experiments_.size(); ++i)
         {
@@ -195,7 +195,7 @@ namespace parking
                 std::string &print = result[{experiment.name, planner.name}];
                 print = fingerprint(config_, experiment, planner);
                 if (options_.merge)
-                    continue;  // machines may have programs of their own
+                    continue;  // Machines may have different builds of the program.
                 const std::string &library = registry_.find(planner.planner).library;
                 if (!library.empty() && libraries.count(library) == 0)
                     libraries[library] = "+" + fileDigest(library);
@@ -234,7 +234,7 @@ namespace parking
     {
         UnitRunner runner(config_, experiments_, registry_, options_.isolation, stop);
         runner.checkSettings();
-        tellUnsolvable(runner);
+        reportUnsolvable(runner);
         makeFolder(folder_);
         store_ = std::make_unique<RunStore>(database());
         if (options_.fresh)
@@ -252,9 +252,9 @@ namespace parking
                 names.push_back(config_.planners[unit.planner].name);
             }
         if (!options_.quiet && left.empty())
-            std::cerr << "All " << units.size() << " runs are already finished; --fresh does them again" << std::endl;
+            std::cerr << "All " << units.size() << " runs are already finished; --fresh repeats them" << std::endl;
         else if (!options_.quiet && left.size() < units.size())
-            std::cerr << "Going on: " << units.size() - left.size() << " of " << units.size()
+            std::cerr << "Resuming: " << units.size() - left.size() << " of " << units.size()
                       << " runs are already finished" << std::endl;
         Progress progress(names, config_.timeLimit, options_.quiet);
         for (const Unit &unit : left)
@@ -292,7 +292,7 @@ namespace parking
             if (!fs::is_directory(input, ignored))
                 files.push_back(input);
             else if (addFolder(input, "benchmark*.db"); files.empty())
-                throw Error(input + ": holds no runs to merge (benchmark*.db)");
+                throw Error(input + ": contains no runs to merge (benchmark*.db)");
         std::sort(files.begin(), files.end());
         return files;
     }
@@ -301,7 +301,7 @@ namespace parking
     {
         const std::vector<std::string> files = parts();
         if (files.empty() && !fs::exists(database()))
-            throw Error(folder_ + ": holds no runs to merge (benchmark*.db)");
+            throw Error(folder_ + ": contains no runs to merge (benchmark*.db)");
         const Fingerprints prints = fingerprints();
         const auto require = [&](const std::string &file, const std::vector<RunRecord> &records)
         {
@@ -311,7 +311,7 @@ namespace parking
                 return print != prints.end() && record.fingerprint.find(print->second + "+") == 0;
             };
             if (!records.empty() && std::none_of(records.begin(), records.end(), isWanted))
-                throw Error(file + ": holds the runs of another comparison than " + config_.file +
+                throw Error(file + ": contains the runs of another comparison than " + config_.file +
                             " with these options (configuration, scenarios, limits or seed differ)");
         };
         std::vector<StoredRuns> all;
@@ -319,7 +319,7 @@ namespace parking
             require(file, all.emplace_back(RunStore::readFile(file)).records);
         if (files.empty())
             require(database(), RunStore::readFile(database()).records);
-        makeFolder(folder_);  // now that there is something to put into it
+        makeFolder(folder_);  // Created only when the first record is available.
         store_ = std::make_unique<RunStore>(database());
         select(prints);
         for (const StoredRuns &part : all)
@@ -372,7 +372,7 @@ namespace parking
         std::vector<RunRecord> failed;
         for (const Experiment &experiment : experiments_)
         {
-            // One after the other, as there may be very many runs.
+            // One at a time, since there may be very many runs.
             const std::vector<RunRecord> records = store_->read(experiment.name);
             const std::size_t expected = experiment.planners.size() * config_.runCount;
             result.missing += expected - std::min(expected, records.size());
@@ -395,7 +395,7 @@ namespace parking
         result.text = summaryText(summaryRows) + failures + "\nResults:\n    " + database() +
                       " (Planner Arena opens it)\n    " + nameOf("summary.md") + "\n    " + nameOf("summary.csv") +
                       "\n    " + nameOf("*.log") + " (of OMPL)\n    " + nameOf("pictures") + "\n";
-        // Last, and whatever happens to it does not harm the results.
+        // Last, so that a failure does not affect the results.
         try
         {
             if (const std::string report = options_.report ? makeReport(folder_) : ""; !report.empty())

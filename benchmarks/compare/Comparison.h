@@ -16,12 +16,12 @@
 
 namespace parking
 {
-    /** \brief What is to be said of a comparison. */
+    /** \brief Outcome of a comparison. */
     struct ComparisonResult
     {
-        std::string text;         ///< the table for the terminal, and the files that were written
-        std::string reportError;  ///< why there is no report although there should be
-        std::size_t missing{0};   ///< runs that are not there
+        std::string text;         ///< text for the terminal: the table and the files written
+        std::string reportError;  ///< reason why the requested report is missing; empty otherwise
+        std::size_t missing{0};   ///< number of missing runs
     };
 
     /** \brief A comparison from beginning to end: configuration, runs, results. */
@@ -31,40 +31,45 @@ namespace parking
         /** \brief Reads the configuration and all scenarios. Throws parking::Error. */
         Comparison(const BenchmarkOptions &options, const PlannerRegistry &registry);
 
-        /** \brief Does all runs of this shard that are not finished; those of an earlier start with the same
-            configuration count, also when other planners have changed since. Makes the output folder, once all settings
-            are found to be right. From then on until the end no other process can write the database.
+        /** \brief Executes all unfinished runs of this shard.
 
-            \param stop once true, ends before the next run
-            \return whether all are done. Throws parking::Error. */
+            Runs of an earlier start with the same configuration count as finished, also when other planners have
+            changed. Creates the output folder after all settings were found valid, and locks the database until the
+            end.
+
+            \param stop set to true to end before the next run
+            \return whether all runs are finished. Throws parking::Error. */
         bool run(const std::atomic<bool> &stop);
 
-        /** \brief Makes of the finished runs, those of other parts merged where the options say so, logs, tables,
-            pictures and report. Each replaces what was there once it is whole, so that it can be done again at any
-            time; what killed processes have left unfinished goes away. Throws parking::Error, also while another
-            process does the same in the folder. */
+        /** \brief Writes logs, tables, pictures and report from the finished runs, after merging other parts if the
+            options require it.
+
+            Each file is replaced when its successor is complete, so that a call can be repeated at any time. Temporary
+            files of killed processes are removed. Throws parking::Error, also while another process writes in the
+            folder. */
         ComparisonResult write();
 
         /** \brief The database of this shard's runs. */
         std::string database() const;
 
     private:
-        /** Throws when something that is read would be written over. */
+        /** Throws when an output would overwrite an input. */
         void protectInputs() const;
-        /** Says which experiments nobody can solve, and why. */
-        void tellUnsolvable(UnitRunner &runner) const;
-        /** Rows of the table `experiments`: what the configuration says of each. */
+        /** Reports experiments without a possible solution, with the reason. */
+        void reportUnsolvable(UnitRunner &runner) const;
+        /** Rows of the table `experiments` with the settings of the configuration. */
         std::vector<Row> experimentRows() const;
-        /** The same with machine and date. */
+        /** Rows of the table `experiments` with the settings, the machine and the date. */
         std::vector<Row> experimentsOf(UnitRunner &runner) const;
         using Fingerprints = std::map<std::pair<std::string, std::string>, std::string>;
-        /** By experiment and planner: of everything that its runs depend on; the program included, but for merging. */
+        /** By experiment and planner: a digest of everything that affects the runs, including the program unless
+            merging. */
         Fingerprints fingerprints() const;
         void select(const Fingerprints &fingerprints);
         /** Databases of other parts, to be merged. */
         std::vector<std::string> parts() const;
         void mergeParts();
-        /** Log, paths and picture. */
+        /** Writes log, paths and picture of an experiment. */
         void writeExperiment(const Experiment &experiment, const std::vector<RunRecord> &records) const;
 
         BenchmarkOptions options_;

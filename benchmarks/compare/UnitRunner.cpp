@@ -28,13 +28,13 @@ namespace parking
     namespace
     {
         constexpr double PROGRESS_INTERVAL = 0.05;  // seconds
-        constexpr double LATE = 0.05;               // seconds after the time limit, which a busy machine may take
-        constexpr double SIMPLIFY_SHARE = 1.0;      // of the time limit, at most
+        constexpr double LATE = 0.05;               // seconds after the time limit that a busy machine may need
+        constexpr double SIMPLIFY_SHARE = 1.0;      // ratio to the time limit, maximum
         constexpr double DEGREES = 180.0 / PI;
-        // In a process of its own, a planner that has not come back after this is killed. Some of OMPL's come 2 s late.
-        constexpr double BUSY = 50.0;  // times as long as processor time the wall clock may take
-        constexpr double SOLVE_SHARE = 3.0, SOLVE_GRACE = 2.0;  // of the time limit; seconds more
-        // The same for all that is done with its path: simplification and drive take long.
+        // Multiple of the time limit after which an isolated planner is killed. Some planners of OMPL end 2 s late.
+        constexpr double BUSY = 50.0;                           // maximum ratio of wall-clock time to processor time
+        constexpr double SOLVE_SHARE = 3.0, SOLVE_GRACE = 2.0;  // ratio to the time limit; seconds in addition
+        // The same limit for processing the path: simplification and drive take long.
         constexpr double MEASURE_SHARE = 10.0, MEASURE_GRACE = 60.0;
 
         RunRecord failedRun(RunRecord record, PlanStatus outcome, const std::string &reason)
@@ -47,10 +47,10 @@ namespace parking
             return record;
         }
 
-        /** A figure as OMPL writes it; nothing when it cannot be read. */
+        /** A figure as formatted by OMPL; empty when it cannot be read. */
         std::optional<FigureValue> figureFrom(const std::string &text, const std::string &type)
         {
-            constexpr double LARGEST = 9007199254740992.0;  // beyond it a double does not hold every whole number
+            constexpr double LARGEST = 9007199254740992.0;  // A double does not represent all larger whole numbers.
             double number = 0.0;
             if (!parseNumber(text, number))
                 return type == "REAL" && text == "inf"
@@ -64,7 +64,7 @@ namespace parking
                                               : std::nullopt;
         }
 
-        /** What the path is like. \param prefix of the columns' names */
+        /** Length, clearance and validity of a path. \param prefix of the columns' names */
         void putPath(RunRecord &record, const std::string &prefix, const PlannedPath &path)
         {
             record.set(prefix + "path length", path.length);
@@ -74,10 +74,10 @@ namespace parking
             record.set(prefix + "dense collisions", path.recheck.collisions);
         }
 
-        /** What the path is like: its shape, what is around it, and how long a car takes along it. */
+        /** All metrics of the path: shape, clearance, and the time of a car along it. */
         void putMetrics(RunRecord &record, const Problem &problem, const PlannedPath &planned)
         {
-            // What is no path at all, or ends a planet away, has no shape.
+            // An invalid answer, or one that ends thousands of kilometres away, has no shape.
             if (planned.recheck.fault == Fault::NotFinite || planned.recheck.fault == Fault::NoPath ||
                 !(planned.length < Referee::MAX_DISTANCE))
                 return;
@@ -104,11 +104,11 @@ namespace parking
             }
             catch (const Error &)
             {
-                // No car drives it.
+                // A car cannot drive it.
             }
         }
 
-        /** What a drive is like, or a trajectory. \param prefix of the columns' names */
+        /** Metrics of a drive or trajectory. \param prefix of the columns' names */
         void putDrive(RunRecord &record, const std::string &prefix, const DriveFigures &frames)
         {
             record.set(prefix + "attains goal", frames.attainsGoal);
@@ -117,7 +117,7 @@ namespace parking
             record.set(prefix + "jerk", frames.meanJerk);
         }
 
-        /** OMPL's simplification, on the solution in the problem definition. */
+        /** OMPL's simplification, applied to the solution in the problem definition. */
         void simplify(RunRecord &record, const Problem &problem, const PreparedPlanner &prepared, double timeLimit)
         {
             const auto begin = std::chrono::steady_clock::now();
@@ -129,7 +129,7 @@ namespace parking
             putPath(record, "simplified ", readPath(problem, *solution, record.exact));
         }
 
-        /** The paper's figures of the drive. */
+        /** The paper's metrics of the drive. */
         void track(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
             record.set("driven to the end", false);
@@ -152,18 +152,19 @@ namespace parking
             }
             catch (const Error &)
             {
-                // A path that cannot be driven is a result, too.
+                // A path that cannot be driven is a valid result, too.
             }
         }
 
-        /** The quickest trajectory near the path. */
+        /** The fastest trajectory near the path. */
         void optimize(RunRecord &record, const Problem &problem, const PlannedPath &path)
         {
             const double begin = processorTime();
             try
             {
                 QuickestTrajectoryOptions options;
-                options.alternatives = false;  // they would be this planner's, whoever is compared
+                // Alternatives would show this project's planner instead of the compared one.
+                options.alternatives = false;
                 const OptimizedTrajectory found =
                     quickestTrajectory(problem.footprint(), problem.scenario().bounds, path.path, options).trajectory;
                 const TpcapCost cost = tpcapCost(found.motion);
@@ -179,15 +180,15 @@ namespace parking
             }
             catch (const Error &)
             {
-                // A path that cannot be driven has none.
+                // A path that cannot be driven has no trajectory.
             }
         }
 
-        /** How the run ended and what it took. */
+        /** Outcome and effort of the run. */
         void putOutcome(RunRecord &record, const Problem &problem, const PlanRun &run, double timeLimit)
         {
             record.exact = run.status == PlanStatus::Exact;
-            // AIT* and LazyPRM* look at the clock too seldom: what they find after the limit is worth nothing.
+            // AIT* and LazyPRM* check the clock too seldom: solutions after the limit do not count.
             const bool late = record.exact && run.firstSolutionTime > timeLimit + LATE;
             record.set("late", late);
             record.set("outcome", run.status);
@@ -201,7 +202,7 @@ namespace parking
             record.set("motions generated", run.search.generated);
             record.set("open list operations", run.search.openListOperations);
             record.set("open list comparisons", run.search.openListComparisons);
-            if (run.search.stateChecks > 0)  // nobody counts the checks of a disc
+            if (run.search.stateChecks > 0)  // The checks of a disc are not counted.
             {
                 record.set("states checked", run.search.stateChecks);
                 record.set("exact checks", run.search.exactChecks);
@@ -222,7 +223,7 @@ namespace parking
             const RunColumn *column = findRunColumn(name);
             const std::optional<FigureValue> value = figureFrom(text, type);
             if (value && (column == nullptr || type == toString(column->type)))
-                record.figures.emplace(name, *value);  // what was measured here is kept over OMPL's
+                record.figures.emplace(name, *value);  // Values measured here take precedence over OMPL's.
         }
     }
 
@@ -251,14 +252,14 @@ namespace parking
                (isolation_ == Isolation::Plugins && !registry_.find(config_.planners[planner].planner).library.empty());
     }
 
-    double UnitRunner::patience() const
+    double UnitRunner::wallTimeLimit() const
     {
         return config_.processorTime ? BUSY * config_.timeLimit : config_.timeLimit;
     }
 
     IsolationLimits UnitRunner::limits() const
     {
-        return {SOLVE_SHARE * patience() + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
+        return {SOLVE_SHARE * wallTimeLimit() + SOLVE_GRACE, MEASURE_SHARE * config_.timeLimit + MEASURE_GRACE,
                 config_.memoryLimit};
     }
 
@@ -291,7 +292,7 @@ namespace parking
             refuse({}, error.what());
         }
         const Problem &world = problem(experiment);
-        std::string refusal;  // the setting, empty when nobody knows which, a line end, and why
+        std::string refusal;  // the setting (empty when unknown), a line end, and the reason
         const auto prepare = [&](const std::function<void()> & /*halfDone*/) -> std::string
         {
             try
@@ -318,7 +319,7 @@ namespace parking
         }
         catch (const std::exception &)
         {
-            // Whatever else happens in there is an outcome of the runs.
+            // All other failures in the process are outcomes of the runs.
         }
         if (!refusal.empty())
             refuse({refusal.substr(0, refusal.find('\n'))}, refusal.substr(refusal.find('\n') + 1));
@@ -350,7 +351,7 @@ namespace parking
 
     RunRecord UnitRunner::run(const Unit &unit)
     {
-        problem(unit.experiment);  // loaded here, as another process could not keep it
+        problem(unit.experiment);  // Loaded here, since another process could not keep it.
         return isIsolated(unit.planner) ? runApart(unit) : runHere(unit, [] {});
     }
 
@@ -384,7 +385,8 @@ namespace parking
                 }
                 catch (const std::exception &)
                 {
-                    return failedRun(recordOf(unit), PlanStatus::Nonsense, "it wrote where only its answer belongs");
+                    return failedRun(recordOf(unit), PlanStatus::InvalidAnswer,
+                                     "it wrote into the channel of its answer");
                 }
             case IsolatedResult::End::TimeUp:
                 return failedRun(recordOf(unit), PlanStatus::Hang, result.text);
@@ -412,8 +414,8 @@ namespace parking
 
         ompl::tools::Benchmark benchmark(*prepared.setup, record.experiment);
         benchmark.addPlanner(prepared.planner);
-        // clear() has thrown samplers away; those that solve() makes shall not depend on how many were made before. And
-        // describing the space, OMPL has checked a thousand states.
+        // clear() has discarded samplers; those created by solve() must not depend on how many existed. The description
+        // of the space checked a thousand states.
         PeakMemory memory;
         benchmark.setPreRunEvent(
             [&](const ob::PlannerPtr &)
@@ -435,18 +437,18 @@ namespace parking
                 }
                 catch (...)
                 {
-                    failure = std::current_exception();  // OMPL would keep it to itself
+                    failure = std::current_exception();  // Not reported by OMPL
                 }
             });
-        ompl::tools::Benchmark::Request request(patience(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false, false,
-                                                false);
+        ompl::tools::Benchmark::Request request(wallTimeLimit(), config_.memoryLimit, 1, PROGRESS_INTERVAL, false,
+                                                false, false);
         benchmark.benchmark(request);
 
         if (failure)
             std::rethrow_exception(failure);
         const auto &experiment = benchmark.getRecordedExperimentData();
         if (!record.outcome() || experiment.planners.empty())
-            throw Error("an exception, of which OMPL's benchmark tells no more");
+            throw Error("an exception, of which OMPL's benchmark reports no details");
         record.parameters = experiment.planners.front().common;
     }
 
@@ -457,7 +459,7 @@ namespace parking
                                 : ob::PlannerStatus::UNKNOWN;
         const PlanRun run = evaluateRun(world, prepared, status);
         putOutcome(record, world, run, config_.timeLimit);
-        // Without the millisecond that OMPL's own clock takes to notice the end.
+        // Without the millisecond in which OMPL's clock detects the end.
         record.set("time", run.planningTime + run.mapLoadingTime);
         record.set("cpu time", run.cpuTime);
         record.progress = prepared.planner->record()->improvements();

@@ -13,52 +13,53 @@
 
 namespace parking
 {
-    /** \brief Which runs have a process of their own. */
+    /** \brief Selects the runs that execute in their own process. */
     enum class Isolation
     {
-        None,     ///< only exceptions of a planner do no harm then
-        Plugins,  ///< those of planners from elsewhere
+        None,     ///< no run; only exceptions are contained
+        Plugins,  ///< runs of planners from plug-ins
         All       ///< every run
     };
 
-    /** \brief Takes over what OMPL's benchmark has measured, by typed names ("time REAL"): figures that the record does
-        not have yet. */
+    /** \brief Adds measurements of OMPL's benchmark to a record, by typed names such as "time REAL". Existing figures
+        are kept. */
     void takeOmplProperties(RunRecord &record, const std::map<std::string, std::string> &properties);
 
-    /** \brief Does single runs of a comparison, each through ompl::tools::Benchmark.
+    /** \brief Executes single runs of a comparison, each through ompl::tools::Benchmark.
 
-        Every run has a planner, a problem definition, a goal and samplers of its own, made anew from the run's own
-        seed: so it comes out the same whatever was run before it, as far as planners are deterministic (PRM and its kin
-        are not: they use two threads). Problems are loaded when first needed, and kept. */
+        Every run creates its own planner, problem definition, goal and samplers from its own seed. Its result thus does
+        not depend on other runs if the planner is deterministic (PRM and its variants use two threads and are not).
+        Problems are loaded lazily and kept. */
     class UnitRunner
     {
     public:
-        /** \brief \param stop once true, the run under way ends early and must not be kept */
+        /** \brief \param stop set to true to end the current run early; its record must be discarded */
         UnitRunner(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                    const PlannerRegistry &registry, Isolation isolation, const std::atomic<bool> &stop);
 
-        /** \brief Makes every planner on every experiment once, so that bad settings are found before hours of work.
+        /** \brief Creates every planner on every experiment once, so that invalid settings are found before hours of
+            work.
             Throws parking::Error naming the line of the configuration, the planner and the experiment. */
         void checkSettings();
 
-        /** \brief What the planner finds, or that it does not, or what happens to it, is in the record: an exception,
-           and in a process of its own a crash, too much memory (more than the limit of the configuration), or that
-           solve() does not come back within three times the time limit and two seconds. */
+        /** \brief Executes a run. The record stores the outcome in any case.
+
+           Outcomes include exceptions; in an isolated run also crashes, exceeding the memory limit of the
+           configuration, and a solve() that exceeds three times the time limit plus two seconds. */
         RunRecord run(const Unit &unit);
 
-        /** \brief The world of an experiment; read when first asked for. Throws parking::Error as Experiment::load()
-            does. */
+        /** \brief The world of an experiment, loaded lazily. Throws parking::Error as Experiment::load() does. */
         const Problem &problem(std::size_t experiment);
 
-        /** \brief The setup of an experiment in OMPL's words, for the log. */
+        /** \brief OMPL's description of an experiment's setup, for the log. */
         std::string setupText(std::size_t experiment);
 
     private:
         bool isIsolated(std::size_t planner) const;
-        double patience() const;
+        double wallTimeLimit() const;
         IsolationLimits limits() const;
         void checkSettings(std::size_t experiment, std::size_t planner);
-        /** Without what comes of the run. */
+        /** Record of a run without results. */
         RunRecord recordOf(const Unit &unit) const;
         RunRecord runHere(const Unit &unit, const std::function<void()> &solved);
         RunRecord runApart(const Unit &unit);

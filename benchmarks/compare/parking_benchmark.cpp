@@ -1,4 +1,4 @@
-// parking_benchmark: compares planners on parking problems. docs/benchmark-reference.md says how.
+// parking_benchmark: compares planners on parking problems. See docs/benchmark-reference.md.
 
 #include "benchmarks/compare/BenchmarkOptions.h"
 #include "benchmarks/compare/Comparison.h"
@@ -20,27 +20,27 @@
 namespace
 {
     constexpr int DONE = 0, INCOMPLETE = 1, INTERRUPTED = 130;
-    constexpr unsigned int PATIENCE = 3;  // seconds that a run may take to end after a signal
+    constexpr unsigned int STOP_LIMIT = 3;  // seconds that a run may take to end after a signal
 
     std::atomic<bool> interrupted{false};
 
     extern "C" void interrupt(int signal)
     {
         interrupted = true;
-        // A second time means it.
+        // A second signal ends the program at once.
         std::signal(signal, SIG_DFL);
-        alarm(PATIENCE);
+        alarm(STOP_LIMIT);
     }
 
-    /** What is finished is safe at any time, so that a planner that does not listen is no reason to stay. */
+    /** Ends the program although a planner ignores the signal. Finished runs are already stored. */
     extern "C" void endNow(int /*signal*/)
     {
         constexpr std::string_view TEXT =
-            "Interrupted in the middle of something that did not end. What is finished is kept; "
-            "the same command goes on from there.\n";
+            "Interrupted during a run that did not end. Finished runs are stored; rerun the command to "
+            "resume.\n";
         if (write(STDERR_FILENO, TEXT.data(), TEXT.size()) < 0)
         {
-        }  // nobody is listening
+        }  // no reader is left
         _exit(INTERRUPTED);
     }
 
@@ -61,17 +61,17 @@ namespace
             std::signal(SIGINT, interrupt);
             std::signal(SIGTERM, interrupt);
             std::signal(SIGALRM, endNow);
-            std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
+            std::signal(SIGXFSZ, SIG_IGN);  // Report an exceeded file size limit like a full disk.
             if (!comparison.run(interrupted))
             {
-                std::cerr << "Interrupted. What is finished is kept in " << comparison.database()
-                          << "; the same command goes on from there." << std::endl;
+                std::cerr << "Interrupted. Finished runs are stored in " << comparison.database()
+                          << "; rerun the command to resume." << std::endl;
                 return INTERRUPTED;
             }
             if (options.shards > 1)
             {
                 std::cout << "Part " << options.shard + 1 << " of " << options.shards
-                          << " is done: " << comparison.database() << "\nWhen all are, --merge puts them together.\n";
+                          << " is done: " << comparison.database() << "\nAfter all parts, run --merge.\n";
                 return DONE;
             }
         }
@@ -82,15 +82,15 @@ namespace
         if (!result.reportError.empty())
             std::cerr << "parking_benchmark: " << result.reportError << std::endl;
         if (result.missing > 0)
-            std::cerr << "parking_benchmark: " << result.missing << " runs are missing; the results hold what there is"
-                      << std::endl;
+            std::cerr << "parking_benchmark: " << result.missing
+                      << " runs are missing; the results contain only the finished ones" << std::endl;
         return result.missing > 0 || !result.reportError.empty() ? INCOMPLETE : DONE;
     }
 }  // namespace
 
 int main(int argc, char **argv)
 {
-    // What planners have to tell is in the log.
+    // The log contains all messages of planners.
     ompl::msg::noOutputHandler();
     return parking::runProgram("parking_benchmark", argc, argv, compare);
 }

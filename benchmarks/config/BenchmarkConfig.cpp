@@ -32,12 +32,12 @@ namespace parking
         struct ConfigLine
         {
             std::string section;  ///< that it is in, without brackets
-            std::string key;      ///< before the first equals sign
-            std::string value;    ///< behind it
-            std::string where;    ///< "FILE:LINE: ", with which messages begin
+            std::string key;      ///< text before the first equals sign
+            std::string value;    ///< text after the first equals sign
+            std::string where;    ///< "FILE:LINE: ", the beginning of messages
 
-            /** Notes in \e known that \e name is set here. Throws parking::Error naming both lines when it is there
-                already: of two values one would be ignored. */
+            /** Records in \e known that \e name is set here. Throws parking::Error naming both lines when it is set
+                already: one of the two values would be ignored. */
             void noteOnce(std::map<std::string, std::string> &known, const std::string &name) const
             {
                 const auto [first, isNew] = known.emplace(name, where);
@@ -133,15 +133,15 @@ namespace parking
             return name;
         }
 
-        /** What a comparison reads once for each experiment and again for the pictures cannot come through a pipe. */
+        /** A comparison reads an input once per experiment and again for the pictures: not possible for a pipe. */
         void refusePipe(const std::string &file)
         {
             std::error_code ignored;
             if (fs::is_fifo(file, ignored) || fs::is_socket(file, ignored))
-                throw Error(file + ": is a pipe; a comparison reads it more than once, so that it must be a file");
+                throw Error(file + ": is a pipe, which can be read only once; use a file");
         }
 
-        /** A vehicle that is known, so that one that is not is found where its line is. */
+        /** Reads a vehicle early, so that an unknown vehicle is reported at its line. */
         std::string knownVehicle(const std::string &name)
         {
             refusePipe(name);
@@ -163,11 +163,11 @@ namespace parking
 
         using Text = const std::string &;
 
-        /** What a key sets of the options. */
+        /** Effect of a key on the options. */
         template <class Options>
         using Setter = std::function<void(Options &, Text key, Text value)>;
 
-        /** Sets a member to what \e read makes of key and value. */
+        /** Sets a member to the result of \e read for key and value. */
         template <class Options, class Member, class Read>
         Setter<Options> into(Member Options::*member, Read read)
         {
@@ -197,7 +197,7 @@ namespace parking
             };
         }
 
-        /** Of a reader that names no key. */
+        /** The same for a reader that does not report the key. */
         template <class Read>
         auto ofValue(Read read)
         {
@@ -207,19 +207,19 @@ namespace parking
             };
         }
 
-        auto positive(double most = std::numeric_limits<double>::infinity())
+        auto positive(double max = std::numeric_limits<double>::infinity())
         {
-            return [most](Text key, Text value)
+            return [max](Text key, Text value)
             {
-                return positiveNumber(key, value, most);
+                return positiveNumber(key, value, max);
             };
         }
 
-        auto whole(std::size_t most)
+        auto whole(std::size_t max)
         {
-            return [most](Text key, Text value)
+            return [max](Text key, Text value)
             {
-                return wholeNumber(key, value, 1, most);
+                return wholeNumber(key, value, 1, max);
             };
         }
 
@@ -237,7 +237,7 @@ namespace parking
         using Problems = ProblemOptions;
         using Settings = ProblemSettings;
         const Keys<Problems> PROBLEM_KEYS{
-            {"scenario", {}},  // for messages: readBenchmarkConfig() reads it
+            {"scenario", {}},  // for messages: set by readBenchmarkConfig()
             {"name", into(&Problems::name, ofValue(checkedName))},
             {"vehicle", into(&Problems::vehicle, ofValue(knownVehicle))},
             {"space", intoSettings(&Settings::space, ofValue(spaceByName))},
@@ -274,7 +274,7 @@ namespace parking
             {"trajectory", into(&Config::trajectory, switchNamed)},
             {"clock", into(&Config::processorTime, isProcessorClock)}};
 
-        /** \param section for the message that there is no such key in it */
+        /** \param section name used in the message about an unknown key */
         template <class Options>
         void setByKey(const Keys<Options> &keys, const std::string &section, Options &options, Text key, Text value)
         {
@@ -302,7 +302,7 @@ namespace parking
             }
         }
 
-        /** One line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the latest one. */
+        /** Reads one line of [planner]: `rrt=` adds an instance, `rrt.range=1` sets a parameter of the last one. */
         void setPlannerOption(BenchmarkConfig &config, const ProblemOptions &base, const PlannerRegistry &registry,
                               const ConfigLine &line)
         {
@@ -312,8 +312,8 @@ namespace parking
             if (dot == std::string::npos)
             {
                 if (!value.empty())
-                    throw Error("nothing may follow '" + key + "=', which adds a planner; a parameter is set by '" +
-                                key + ".parameter=value'");
+                    throw Error("no value may follow '" + key + "=', which adds a planner; set a parameter by '" + key +
+                                ".parameter=value'");
                 config.planners.push_back({entry.name, entry.name, {}, base, {}, {{"", where}}});
                 config.planners.back().name = uniqueName(config, entry.name, config.planners.size() - 1);
                 return;
@@ -323,27 +323,28 @@ namespace parking
                 throw Error("'" + key + "' sets a parameter of a planner that is not the last one added; put '" +
                             key.substr(0, dot) + "=' before it");
             if (parameter.empty())
-                throw Error("'" + key + "' names no parameter; one is set by '" + entry.name + ".parameter=value'");
+                throw Error("'" + key + "' has no parameter name; set a parameter by '" + entry.name +
+                            ".parameter=value'");
             PlannerSpec &spec = config.planners.back();
             line.noteOnce(spec.lines, parameter);
             if (parameter == "name")
             {
                 spec.name = checkedName(value);
                 if (uniqueName(config, value, config.planners.size() - 1) != value)
-                    throw Error("there is already a planner called " + inQuotes(value));
+                    throw Error("another planner already has the name " + inQuotes(value));
             }
             else if (parameter == "only")
                 spec.only = patternsNamed(key, value);
             else if (parameter == "problem.scenario" || parameter == "problem.name")
-                throw Error("the scenario cannot be changed for one planner only; '" + key.substr(0, dot) +
-                            ".only' says on which of them it is run");
+                throw Error("one planner cannot have its own scenario; select scenarios by '" + key.substr(0, dot) +
+                            ".only'");
             else if (parameter.compare(0, 8, "problem.") == 0)
                 setByKey(PROBLEM_KEYS, "[problem]", spec.problem, parameter.substr(8), value);
             else
                 spec.settings.emplace_back(parameter, value);
         }
 
-        /** Maps and vehicles are YAML files too: a scenario is one that has a start. */
+        /** Whether a file is a scenario: one with a start, unlike the YAML files of maps and vehicles. */
         bool isScenario(const fs::path &file)
         {
             if (file.extension() == ".csv")
@@ -378,7 +379,7 @@ namespace parking
                 const std::string name = isStart ? "start" : "goal", key = "problem." + name;
                 const char *missing = !std::isfinite(pose->x) ? ".x" : !std::isfinite(pose->y) ? ".y" : ".theta";
                 throw Error(config.lineOf(spec, {key + ".x", key + ".y", key + ".theta"}) + name +
-                            " must be given with all of x, y and theta, and " + name + missing + " is missing");
+                            " requires x, y and theta; " + name + missing + " is missing");
             }
         }
 
@@ -386,19 +387,19 @@ namespace parking
         {
             const ProblemOptions &p = spec.problem;
             const auto require =
-                [&](const char *axis, const std::optional<double> &least, const std::optional<double> &most)
+                [&](const char *axis, const std::optional<double> &min, const std::optional<double> &max)
             {
                 const std::string low = std::string("volume.min.") + axis, high = std::string("volume.max.") + axis;
-                if (least && most && !(*least < *most))
+                if (min && max && !(*min < *max))
                     throw Error(config.lineOf(spec, {"problem." + high, "problem." + low}) + high +
-                                " must be greater than " + low + ", " + formatNumber(*least) + ", not " +
-                                formatNumber(*most));
+                                " must be greater than " + low + ", " + formatNumber(*min) + ", not " +
+                                formatNumber(*max));
             };
             require("x", p.minX, p.maxX);
             require("y", p.minY, p.maxY);
         }
 
-        /** A radius that no circle has would be ignored. */
+        /** A radius without a circular footprint would be ignored. */
         void requireCircles(const BenchmarkConfig &config)
         {
             const std::string key = "problem.circle_radius";
@@ -408,9 +409,7 @@ namespace parking
             };
             const auto refuse = [](const std::string &line)
             {
-                throw Error(line +
-                            "circle_radius is the circle's, and the footprint is a rectangle; set footprint = "
-                            "circle, too");
+                throw Error(line + "circle_radius requires footprint = circle; the footprint is a rectangle");
             };
             for (const PlannerSpec &spec : config.planners)
                 if (spec.lines.count(key) > 0 && !isCircle(spec))
@@ -421,8 +420,8 @@ namespace parking
                 refuse(common->second);
         }
 
-        /** What single keys do not show: does all that is said of the problem, to all planners and to each, go
-            together? */
+        /** Checks combinations of keys: whether the settings of the problem fit together, for all planners and for
+            each. */
         void requireFittingSettings(const BenchmarkConfig &config)
         {
             requireCircles(config);
@@ -470,7 +469,7 @@ namespace parking
                 files.push_back(each);
         if (files.empty())
             throw Error(inQuotes(path.string()) + ": no scenario there (.yaml files with a start, or .csv files)");
-        // case2 before case10
+        // natural order: case2 before case10
         std::sort(files.begin(), files.end(),
                   [](const std::string &a, const std::string &b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
         return files;
@@ -499,7 +498,7 @@ namespace parking
         ProblemOptions base;
         std::map<std::string, std::string> benchmarkLines;
         const std::string folder = fs::path(file).parent_path().string();
-        // Planners last, whatever the order of the sections: they start from the problem of all.
+        // Planners last in any order of the sections: they start from the common problem.
         for (const bool planners : {false, true})
             for (const ConfigLine &line : lines)
             {

@@ -123,7 +123,7 @@ namespace parking
             }
         }
 
-        /** What experiments with this scenario are called, and `only` calls it. */
+        /** Name of experiments with this scenario, also matched by `only`. */
         std::string nameOf(const BenchmarkConfig &config, const std::string &file)
         {
             const ProblemOptions &common = config.planners.front().problem;
@@ -150,8 +150,8 @@ namespace parking
                     const std::string name(1, "xy"[axis]);
                     const Box &world = problem.scenario().bounds;
                     throw SettingError({"problem.volume.min." + name, "problem.volume.max." + name},
-                                       "the volume leaves nothing of the scenario's world, in which " + name +
-                                           " is between " + formatNumber(world.min[axis] + offset[axis]) + " and " +
+                                       "the volume does not overlap the scenario's world, whose " + name +
+                                           " ranges between " + formatNumber(world.min[axis] + offset[axis]) + " and " +
                                            formatNumber(world.max[axis] + offset[axis]));
                 }
             space->setBounds(bounds);
@@ -177,7 +177,7 @@ namespace parking
             return fnmatch(pattern.c_str(), scenario.c_str(), 0) == 0;
         }
 
-        /** Is the planner run on the scenario of this name? Notes which of its patterns were of use. */
+        /** Whether the planner runs on the scenario of this name. Records the patterns that matched. */
         bool isWanted(const PlannerSpec &spec, const std::string &scenario, std::set<std::string> &used)
         {
             bool wanted = spec.only.empty();
@@ -190,7 +190,7 @@ namespace parking
             return wanted;
         }
 
-        /** What tells a setting from the common one, as part of a name. */
+        /** Part of a name that distinguishes a setting from the common one. */
         std::string suffixOf(const ProblemOptions &options, const ProblemOptions &common)
         {
             std::string suffix;
@@ -238,7 +238,7 @@ namespace parking
             return !spec.only.empty();
         };
         if (std::none_of(config.planners.begin(), config.planners.end(), isBound))
-            return {};  // and no file has to be read for its name
+            return {};  // no file needs to be read for its name
         std::vector<std::string> before, now;
         for (const std::string &file : replaced)
             try
@@ -247,7 +247,7 @@ namespace parking
             }
             catch (const Error &)
             {
-                before.push_back(word(std::filesystem::path(file).stem().string()));  // gone, but no matter
+                before.push_back(word(std::filesystem::path(file).stem().string()));  // unreadable files do not matter
             }
         for (const std::string &file : config.scenarios)
             now.push_back(nameOf(config, file));
@@ -271,7 +271,7 @@ namespace parking
                 kept.push_back(std::move(spec));
         }
         if (kept.empty())
-            return {};  // nobody is left: planExperiments() says what is wrong
+            return {};  // No planner is left: planExperiments() reports the reason.
         config.planners = std::move(kept);
         return out;
     }
@@ -288,7 +288,7 @@ namespace parking
             const ProblemOptions &common = config.planners.front().problem;
             if (!common.name.empty() && config.scenarios.size() > 1)
                 throw Error(config.lineOf(config.planners.front(), {"problem.name"}) +
-                            "'name' in [problem] is for a single scenario, and there are " +
+                            "'name' in [problem] requires a single scenario, but there are " +
                             std::to_string(config.scenarios.size()));
             const std::string base = nameOf(config, file);
             scenarios.push_back(base);
@@ -377,7 +377,7 @@ namespace parking
             }
         if (shards == 1)
             return units;
-        // Dealt out like cards after shuffling, so that every shard gets its part of slow planners and problems.
+        // Shuffled, then dealt out in turn, so that every shard gets its share of slow planners and problems.
         std::vector<std::size_t> order(units.size());
         std::iota(order.begin(), order.end(), std::size_t(0));
         const auto key = [&](std::size_t index)

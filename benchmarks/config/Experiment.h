@@ -9,20 +9,20 @@
 
 namespace parking
 {
-    /** \brief One scenario in one setting, and the planners that are compared on it. One OMPL log comes of it. */
+    /** \brief One scenario in one setting, and the planners compared on it. Each experiment yields one OMPL log. */
     struct Experiment
     {
         std::string name;                   ///< unique; a single word that can be part of a file name
         std::string scenarioFile;           ///< path of the scenario's file
-        ProblemOptions options;             ///< what is changed of the scenario, and how it is put
+        ProblemOptions options;             ///< changes to the scenario and its settings
         std::vector<std::size_t> planners;  ///< indices into BenchmarkConfig::planners
-        std::string digest;                 ///< of everything that the scenario's files say
-        std::vector<std::string> files;     ///< all that the scenario is read from
+        std::string digest;                 ///< digest of the contents of all files of the scenario
+        std::vector<std::string> files;     ///< all files that the scenario is read from
 
-        /** \brief Reads the scenario, with what the options change of it. Throws parking::Error naming the file. */
+        /** \brief Reads the scenario and applies the options. Throws parking::Error naming the file. */
         Scenario scenario() const;
 
-        /** \brief The same, with its world built. */
+        /** \brief Reads the scenario, applies the options and builds its world. */
         std::unique_ptr<Problem> load() const;
     };
 
@@ -34,42 +34,43 @@ namespace parking
         std::size_t run{0};         ///< number of the run, from 0
     };
 
-    /** \brief For a configuration whose scenarios were replaced by others: leaves out the planners whose `only` names
-        \e replaced scenarios and none of those that there are now, and what names such in the `only` of others. What
-        names neither stays, for planExperiments() to refuse; so does all when nobody would be left.
+    /** \brief Adapts `only` after the scenarios of a configuration were replaced.
+        Removes planners whose `only` names \e replaced scenarios and none of the current ones, and removes such names
+        from the `only` of others. Names that match neither remain, for planExperiments() to reject. Nothing is removed
+        when no planner would remain.
 
-        \return the names of those left out. Throws parking::Error for a scenario that cannot be read. */
+        \return the names of the removed planners. Throws parking::Error for a scenario that cannot be read. */
     std::vector<std::string> leaveOutPlannersOf(const std::vector<std::string> &replaced, BenchmarkConfig &config);
 
-    /** \brief The experiments of a comparison. Planners whose problem differs from others' (overrides in the .cfg) meet
-        in experiments of their own, named after scenario and setting.
-
+    /** \brief The experiments of a comparison. Planners with different problems (overrides in the .cfg) get separate
+        experiments, named after scenario and setting.
         Reads every scenario, so that a bad one is found before hours of work. Throws parking::Error. */
     std::vector<Experiment> planExperiments(const BenchmarkConfig &config);
 
-    /** \brief All runs in the order in which they are done: every planner once on every experiment, then again.
+    /** \brief All runs in the order of execution: every planner once on every experiment, then again.
+        A drift of the machine thus affects all planners alike. Within a round the planners of an experiment alternate
+        in an order that changes from round to round.
 
-        A drift of the machine thus meets all planners alike. Within a round the planners of an experiment take turns in
-        an order that changes from round to round.
-
-        \param shard, shards of N shards, which together have every unit once, the one of index \e shard (from 0): a
-        fixed, evenly mixed selection */
+        \param shard index of the part to return, from 0
+        \param shards number of parts, which together contain every unit once; each is a fixed, evenly mixed
+        selection */
     std::vector<Unit> planUnits(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                                 std::size_t shard = 0, std::size_t shards = 1);
 
-    /** \brief Tells comparisons apart whose runs have nothing in common: depends on limits, seed and what is done with
-        each path. */
+    /** \brief Identifies comparisons whose runs can be merged: depends on limits, seed and the processing of each
+        path. */
     std::string fingerprint(const BenchmarkConfig &config);
 
-    /** \brief Tells runs of the same name apart: depends on the above, the scenario and how it is put, the planner and
-        its parameters, but not on the other planners or the number of runs, so that more can be added to what there
-        is. */
+    /** \brief Identifies runs that can be reused: depends on the comparison, the scenario and its settings, the planner
+        and its parameters.
+        Other planners and the number of runs do not matter, so that both can be extended. */
     std::string fingerprint(const BenchmarkConfig &config, const Experiment &experiment, const PlannerSpec &planner);
 
     /** \brief A digest of a file's bytes; empty when it cannot be read. */
     std::string fileDigest(const std::string &file);
 
     /** \brief The seed of a run: depends on the comparison's seed, the names of experiment and planner, and the run's
-        number only, and so neither on the order of the runs nor on the machine. */
+        number.
+        It depends neither on the order of the runs nor on the machine. */
     std::uint32_t seedOf(const BenchmarkConfig &config, const std::vector<Experiment> &experiments, const Unit &unit);
 }  // namespace parking

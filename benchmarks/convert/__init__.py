@@ -1,1 +1,1 @@
-"""parking_convert: problems and results from one format into another. docs/scenarios.md describes the formats."""
+"""parking_convert: converts problems and results between formats, which docs/scenarios.md describes."""

@@ -1,9 +1,8 @@
-"""Scenes of Bench-MR (github.com/robot-motion/bench-mr, bin/polygon_mazes): SVG of Inkscape, a user unit for a metre.
+"""Scenes of Bench-MR (github.com/robot-motion/bench-mr, bin/polygon_mazes): SVG of Inkscape, one user unit per metre.
 
-As Bench-MR reads them: the translation of the latest group applies, y points up, and an obstacle is the convex hull of
-its corners. Its poses are of the middle of the body, round which the car turns; that is a car whose rear axle is there.
-Start and goal are not in the scenes: they are options, or attributes data-start and data-goal of the project's own.
-"""
+As in Bench-MR's reader, the translation of the last group applies, y points up, and an obstacle is the convex hull of
+its corners. Its poses refer to the middle of the body, round which the car turns: a car with its rear axle there. Start
+and goal are not in the scenes: they are options, or the project's own attributes data-start and data-goal."""
 import math
 import re
 from xml.etree import ElementTree
@@ -31,7 +30,7 @@ def read(file, content, vehicle, start, goal):
     try:
         root = ElementTree.fromstring(content)
     except ElementTree.ParseError as error:
-        raise Error(f'{file}: is no whole SVG: {error}') from None
+        raise Error(f'{file}: is not a complete SVG: {error}') from None
     shift, polygons = np.zeros(2), []
     try:
         for element in root.iter():
@@ -45,11 +44,11 @@ def read(file, content, vehicle, start, goal):
     except Error as error:
         raise Error(f'{file}: {error}') from None
     if not polygons:
-        raise Error(f'{file}: holds no path, so no obstacle')
+        raise Error(f'{file}: contains no path and thus no obstacle')
     if not start or not goal:
         missing = 'no goal' if start else 'no start' if goal else 'neither start nor goal'
         options = ' and '.join(f'--{name} X,Y,YAW' for name, pose in (('start', start), ('goal', goal)) if not pose)
-        raise Error(f'{file}: a scene of Bench-MR holds {missing}; give {options} '
+        raise Error(f'{file}: a scene of Bench-MR has {missing}; give {options} '
                     f'(of the middle of the {"rear axle" if vehicle else "body"})')
     return scenario_of_polygons(file, polygons, start, goal, vehicle or bench_mr_car())
 
@@ -62,7 +61,7 @@ def translation(text):
 
 
 def attribute_pose(element, attribute):
-    """The pose that an attribute holds; None without the attribute."""
+    """The pose in an attribute; None without the attribute."""
     text = element.get(attribute)
     pose = None if text is None else pose_of(text)
     if text is not None and pose is None:
@@ -71,7 +70,7 @@ def attribute_pose(element, attribute):
 
 
 def corners_of(text):
-    """The corners of a path of straight lines, as the commands of its attribute d make them."""
+    """The corners of a path of straight lines, from the commands of its attribute d."""
     tokens = [token.group(1) for token in TOKEN.finditer(text)]
     corners, at, command, place = [], np.zeros(2), None, 0
 
@@ -96,7 +95,7 @@ def corners_of(text):
         for axis in {'h': [0], 'v': [1]}.get(command.lower(), [0, 1]):
             at[axis] = take_number() + (at[axis] if command.islower() else 0.0)
         corners.append(at.copy())
-        command = {'m': 'l', 'M': 'L'}.get(command, command)  # pairs after a move are lines
+        command = {'m': 'l', 'M': 'L'}.get(command, command)  # further pairs after a move are lines
     return np.array(corners).reshape(-1, 2)
 
 
@@ -110,7 +109,7 @@ def convex_hull(corners, what):
 
 
 def svg_text(scenario, _file):
-    """An attribute a line, as Bench-MR's reader takes them."""
+    """One attribute per line, as Bench-MR's reader requires."""
     polygons = obstacle_polygons(scenario)
     low = high = np.zeros(2)
     if polygons:

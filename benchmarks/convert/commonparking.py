@@ -1,12 +1,11 @@
 """Cases and results of CommonParking (github.com/libai1943/CommonParking).
 
 Cases (LoadCase.m and CheckCase.m): a MATLAB struct caseData with task {x0, y0, theta0, xf, yf, thetaf} and obstacle
-{num_obs, obs{j}: x, y (closed), num_grids, kind, area}. Poses are of the rear axle's middle; the car is TPCAP's, which
-steers up to 0.7 rad there (BenchmarkConfig.m).
+{num_obs, obs{j}: x, y (closed), num_grids, kind, area}. Poses are of the rear axle's middle; the car is TPCAP's with a
+steering angle of up to 0.7 rad (BenchmarkConfig.m).
 
-Results (docs/RESULT_FORMAT.md and evaluation/+cpe/ValidateResult.m): a MATLAB struct result with either a path, equally
-spaced within each run of a gear and no more than 5 cm apart, or a trajectory.
-"""
+Results (docs/RESULT_FORMAT.md and evaluation/+cpe/ValidateResult.m): a MATLAB struct result with either a path or a
+trajectory. Samples of a path are equally spaced within each run of a gear, at most 5 cm apart."""
 import re
 from pathlib import Path
 
@@ -18,8 +17,8 @@ from . import matlab
 from .scenarios import obstacle_polygons, scenario_of_polygons
 from .text import number
 
-SAME_CORNER = 1e-10   # metres: first and last of a closed outline
-SPACING = 0.05        # metres between the samples of a path, at most
+SAME_CORNER = 1e-10   # maximum distance in metres of first and last corner of a closed outline
+SPACING = 0.05        # maximum distance in metres between the samples of a path
 LONGEST = 1000.0      # metres of a path
 LONGEST_TIME = 600.0  # seconds of a trajectory
 MOST_SAMPLES = 2000000
@@ -47,7 +46,7 @@ def read_case(file, content, vehicle, start, goal):
 
 
 class MatlabField:
-    """A value of a MATLAB file, and what messages call it."""
+    """A value of a MATLAB file and its name in messages."""
 
     def __init__(self, file, name, value):
         self.file, self.name, self.value = file, name, value
@@ -67,7 +66,7 @@ class MatlabField:
             raise Error(f'{self.file}: {self.name} must be a vector of numbers')
         vector = self.value.ravel()
         if not np.isfinite(vector).all():
-            raise Error(f'{self.file}: {self.name} holds {number(vector[~np.isfinite(vector)][0])}')
+            raise Error(f'{self.file}: {self.name} contains {number(vector[~np.isfinite(vector)][0])}')
         return vector
 
     def number(self):
@@ -80,7 +79,7 @@ class MatlabField:
 def case_content(scenario, file):
     obstacles = []
     for polygon in obstacle_polygons(scenario):
-        corners = polygon.tolist()  # of few corners Python's own numbers are quicker than NumPy
+        corners = polygon.tolist()  # for few corners Python's own numbers are faster than NumPy
         area = 0.5 * sum(x * next_y - next_x * y
                          for (x, y), (next_x, next_y) in zip(corners, corners[1:] + corners[:1]))
         counter_clockwise = polygon if area >= 0.0 else polygon[::-1]
@@ -95,7 +94,7 @@ def case_content(scenario, file):
 
 
 def path_content(result):
-    """The path in samples of even distance within each run of a gear, and the arcs themselves."""
+    """The path in equally spaced samples within each run of a gear, and its arcs."""
     x, y, yaw = result.path.start
     s, poses, curvatures, gears, cusps = [np.zeros(1)], [np.array([[x, y, yaw]])], [], [], [1.0]
     for run in result.path.runs():
@@ -106,7 +105,7 @@ def path_content(result):
         piece = np.minimum(np.searchsorted(ends, places), len(ends) - 1)
         within = np.minimum(places - (ends - driven)[piece], driven[piece])
         poses.append(run.advanced(piece, within))
-        # A sample has the curvature of what follows; the run's first one was the last of the run before.
+        # A sample has the curvature of the following piece; the run's first one was the last of the previous run.
         curvatures.append(run.curvatures[np.concatenate([[0], piece[:-1]])])
         s.append(s[-1][-1] + places)
         gears.append(np.full(count, run.direction))
@@ -144,7 +143,7 @@ def result_content(result, kind, solution):
 
 
 def result_fault(_result, file, content):
-    """What is wrong with a written file by the rules of CommonParking's ValidateResult; None when nothing is."""
+    """The violated rule of CommonParking's ValidateResult for a written file; None if it is valid."""
     written = matlab.read(file, content, 'result')
     if written['kind'] == 'path':
         return path_fault(written['path'])
@@ -157,7 +156,7 @@ def columns_fault(solution, names):
         return f'it has {count} samples'
     for name in names:
         if solution[name].shape != (count - 1 if name == 'gear' else count, 1):
-            return f'{name} is no column of the right length'
+            return f'{name} is not a column of the right length'
         if not np.isfinite(solution[name]).all():
             return f'{name} is not finite'
     return None

@@ -1,11 +1,10 @@
 """Random parking problems like those of HOPE (M. Jiang and others, arXiv 2405.20579); equal seeds give equal problems.
 
-Drawn by code of the project's own with the numbers that HOPE publishes (src/configs.py of github.com/jiamiya/HOPE): the
-room round the car in its slot, the width of the aisle, the number of obstacles beyond it, where cars start. normal and
-complex have bays and parallel slots, extreme parallel slots only. HOPE's fourth level plays recordings of the Dragon
-Lake lot, which are not the project's to give: dlp here is a lot of that size (140 m by 80 m, about 400 bays), filled at
-random, with a start in an aisle up to 30 m away.
-"""
+The code is the project's own and uses the numbers that HOPE publishes (src/configs.py of github.com/jiamiya/HOPE). They
+are the clearance round the car in its slot, the width of the aisle, the number of obstacles beyond it, and the start
+poses. normal and complex have bays and parallel slots, extreme only parallel slots. HOPE's fourth level uses recordings
+of the Dragon Lake lot, which this project may not distribute. dlp is a lot of that size (140 m by 80 m, about 400
+bays), filled at random. The start is in an aisle up to 30 m away."""
 import math
 from dataclasses import dataclass
 
@@ -17,19 +16,19 @@ from .mersenne import Random
 from .scenarios import scenario_of_polygons
 
 LEAST_GAP = 0.1                                # metres: MIN_DIST_TO_OBST
-TILT, MOST_TILT = math.pi / 36, math.pi / 12   # radians: headings of parked cars, their standard deviation and the most
-CAR_CHANCE = 0.7                               # of each further place beside the slot
-WALL_CHANCE = 0.2                              # that a wall is all there is across the aisle
+TILT, MOST_TILT = math.pi / 36, math.pi / 12   # radians: standard deviation and maximum of the headings of parked cars
+CAR_CHANCE = 0.7                               # probability of a car at each further place beside the slot
+WALL_CHANCE = 0.2                              # probability that only a wall bounds the aisle
 SPREAD = 0.5                                   # metres by which corners of loose obstacles are moved
 TRIALS = 100000
 CAR = Vehicle('tpcap', name='hope', rear_overhang=0.93, width=1.94)
-CENTRE = 0.5 * CAR.length - CAR.rear_overhang  # metres from the rear axle ahead to the middle of the body
+CENTRE = 0.5 * CAR.length - CAR.rear_overhang  # metres from the rear axle forwards to the middle of the body
 
 
 @dataclass(frozen=True)
 class Level:
-    """What a level is made of, in metres."""
-    room: tuple       # along a parallel slot, beyond the car's length, least and most
+    """Sizes of a level in metres."""
+    room: tuple       # along a parallel slot, beyond the car's length, minimum and maximum
     side: tuple       # across a bay, beyond its width; None: no bays
     aisles: tuple     # beside parallel slots, and bays
     obstacles: int
@@ -57,7 +56,7 @@ def scene(level, seed):
 
 
 class SlotScene:
-    """A slot on y = 0 and what is beside it, before anything is known of its room."""
+    """A slot on y = 0 and its neighbours, before its size is known."""
 
     def __init__(self, level, is_bay, random):
         self.level, self.is_bay, self.random = level, is_bay, random
@@ -67,7 +66,7 @@ class SlotScene:
         self.goal = None
 
     def draw(self):
-        """Obstacles, start and goal of one trial; None where HOPE would draw again."""
+        """Obstacles, start and goal of one trial; None if HOPE would draw again."""
         self.goal = self.standing(0.0)
         left, right = self.fill(-1.0), self.fill(1.0)
         gaps = [surroundings(side[:1])(self.goal) for side in (left, right)]
@@ -80,7 +79,7 @@ class SlotScene:
         if surroundings(obstacles)(self.goal) <= 0.0:
             return None
         start = self.start_in(obstacles, edge, aisle)
-        # Parallel: the car does not have to turn round.
+        # Parallel: the car need not turn round.
         turned = not self.is_bay and math.cos(start[2]) < 0.0
         return obstacles, start, turned_round(self.goal) if turned else self.goal
 
@@ -91,14 +90,14 @@ class SlotScene:
         return x, self.random.normal(0.5, 0.2, LEAST_GAP, 0.9) - low, yaw
 
     def fill(self, side):
-        """What stands on one side: a row of cars, or a block."""
+        """The neighbours on one side: a row of cars, or a block."""
         random = self.random
         nearest = random.between(0.2 * self.least, 0.8 * self.most)
         if random.chance(0.5):
             body = CAR.footprint(self.goal)
             end = max(0.0, (side * body[:, 0]).max())
             depth = body[:, 1].max() + random.between(-0.3, 0.3)
-            # Its front leans by up to 15 degrees either way.
+            # Its front leans by up to 15 degrees to either side.
             lean = math.tan(random.normal(0.0, TILT, -MOST_TILT, MOST_TILT)) * depth
             x0, x1 = side * (end + nearest), side * (end + nearest + abs(lean))
             low, high = (x0, x1) if lean > 0.0 else (x1, x0)
@@ -112,7 +111,7 @@ class SlotScene:
         return cars
 
     def far_side(self, y):
-        """What is across the aisle, which ends there: a wall, or loose obstacles."""
+        """The objects across the aisle, at its end: a wall, or loose obstacles."""
         random = self.random
         if random.chance(WALL_CHANCE):
             return [block(-self.half, y + LEAST_GAP, self.half, y + LEAST_GAP + 0.1)]
@@ -135,11 +134,11 @@ class SlotScene:
                     (math.pi if random.chance(0.5) else 0.0))
             if gap(pose) > 0.0:
                 return pose
-        raise Error('HOPE: no room for a start was found')
+        raise Error('HOPE: no free start was found')
 
 
 def parking_lot(random):
-    """Four double rows of fifty bays a side, between aisles of 7 m: obstacles, start, goal."""
+    """Four double rows of fifty bays per side, between aisles of 7 m: obstacles, start, goal."""
     width, depth, aisle, bays, rows = 2.8, 6.5, 7.0, 50, 8
 
     def standing(row, bay):
@@ -166,7 +165,7 @@ def parking_lot(random):
                  random.normal(0.0, 0.1, -0.3, 0.3) + (math.pi if random.chance(0.5) else 0.0))
         if abs(start[1] - parked[1]) <= 30.0 and gap(start) > 0.3:
             return obstacles, start, goal
-    raise Error('HOPE: no room for a start was found')
+    raise Error('HOPE: no free start was found')
 
 
 def block(min_x, min_y, max_x, max_y):
@@ -174,13 +173,14 @@ def block(min_x, min_y, max_x, max_y):
 
 
 def turned_round(pose):
-    """The pose at which the car faces the other way over the same ground."""
+    """The pose of the car in the opposite direction on the same ground."""
     x, y, yaw = pose
     return x + 2.0 * CENTRE * math.cos(yaw), y + 2.0 * CENTRE * math.sin(yaw), yaw + math.pi
 
 
 def surroundings(obstacles, left=-20.0, right=20.0):
-    """The function that returns the metres between the car at a pose and these obstacles; 0 where they touch. Poses are
-    between left and right."""
+    """The function that returns the distance in metres between the car at a pose and these obstacles; 0 in contact.
+
+    Poses are between left and right."""
     world = Scenario.from_polygons(obstacles, (left, 0.0, 0.0), (right, 0.0, 0.0), vehicle=CAR)
     return lambda pose: world.clearance_at([pose])[0]

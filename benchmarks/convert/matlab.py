@@ -1,7 +1,6 @@
 """Variables of MATLAB files: structs are dictionaries, cells are lists, texts str, numbers arrays of two axes.
 
-SciPy is not used: damaged files crash its reader, and its writer takes six times as long for many obstacles.
-"""
+SciPy is not used: damaged files crash its reader, and its writer takes six times as long for many obstacles."""
 import struct
 import zlib
 
@@ -9,9 +8,9 @@ import numpy as np
 
 from improved_astar import Error
 
-LARGEST = 64 << 20     # bytes of a file, and of what is compressed in it: a world of a million corners takes less
-MOST_VALUES = 1000000  # of an array: each takes more memory than it need take in a file
-DEEPEST = 32           # values within values
+LARGEST = 64 << 20     # maximum bytes of a file and of its compressed content: a world of a million corners takes less
+MOST_VALUES = 1000000  # maximum bytes of an array, which may take more memory than in a file
+DEEPEST = 32           # maximum depth of nested values
 HEADER = 128           # bytes
 # Types of elements, by MATLAB's "MAT-File Format", level 5.
 INT8, UINT8, INT32, UINT32, DOUBLES, MATRIX, COMPRESSED, UTF8, UTF16 = 1, 2, 5, 6, 9, 14, 15, 16, 17
@@ -19,7 +18,7 @@ NUMBERS = {1: 'i1', 2: 'u1', 3: 'i2', 4: 'u2', 5: 'i4', 6: 'u4', 7: 'f4', 9: 'f8
            17: 'u2', 18: 'u4'}
 # Classes of arrays; those between the last two are numbers.
 CELL, STRUCT, CHARACTERS, DOUBLE, BYTES, UINT64 = 1, 2, 4, 6, 9, 15
-LOGICAL, COMPLEX = 0x200, 0x800  # bits beside the class
+LOGICAL, COMPLEX = 0x200, 0x800  # flags beside the class
 NAME_WIDTH = 32                  # bytes of the name of a field
 
 
@@ -28,15 +27,15 @@ def is_matlab(content):
 
 
 def read(file, content, name):
-    """The variable of this name. Raises Error for what is damaged and what a case cannot hold."""
+    """The variable of this name. Raises Error for damaged files and for content that a case cannot have."""
     version = content[124:HEADER]
     if version in (b'\0\2IM', b'\2\0MI'):
         raise Error(f"{file}: a file of MATLAB 7.3 (HDF5); save it with save(..., '-v7')")
     if version not in (b'\0\1IM', b'\1\0MI'):
-        raise Error(f"{file}: no MATLAB 5 file (what save(..., '-v7') or '-v6' writes)")
+        raise Error(f"{file}: not a MATLAB 5 file (as written by save(..., '-v7') or '-v6')")
     try:
         found, left, order = None, LARGEST, '<' if version.endswith(b'IM') else '>'
-        for kind, data in elements(content[HEADER:], order):  # to the end: the file must be whole
+        for kind, data in elements(content[HEADER:], order):  # to the end: the file must be complete
             if kind == COMPRESSED:
                 data = inflated(data, left)
                 left -= len(data)
@@ -50,12 +49,12 @@ def read(file, content, name):
         return found
     except Error as error:
         raise Error(f'{file}: {name} cannot be read: {error}') from None
-    except Exception as error:  # parts that are missing, or do not fit each other
+    except Exception as error:  # parts that are missing or inconsistent
         raise Error(f'{file}: {name} cannot be read: the file is damaged: {error}') from None
 
 
 def elements(data, order):
-    """The elements one after another: type and bytes of each."""
+    """The elements in order: type and bytes of each."""
     found, place = [], 0
     while place < len(data):
         if len(data) - place < 8:
@@ -78,18 +77,18 @@ def inflated(data, most):
     content = stream.decompress(data, most)
     if len(content) == most:
         raise Error(f'more than {LARGEST} bytes are compressed in the file')
-    # The end is reached only when zlib's own sum over all that was compressed is right.
+    # The end is reached only if zlib's checksum of all compressed data is right.
     if not stream.eof or stream.unused_data:
-        raise Error('what is compressed is damaged')
+        raise Error('the compressed data is damaged')
     return content
 
 
 def value_of(data, order, depth=0):
-    if not data:  # nothing, as in the fields of a struct
+    if not data:  # empty, like the fields of a struct
         return np.empty((0, 0))
     parts = elements(data, order)
     if depth > DEEPEST or len(parts) > MOST_VALUES:
-        raise Error('it nests values deeper than any case does, or holds more than a million')
+        raise Error('it nests values deeper than a case, or contains more than a million')
     flags = int(np.frombuffer(parts[0][1], f'{order}u4')[0])
     rows, columns = map(int, np.frombuffer(parts[1][1], f'{order}i4'))
     kind = flags & 0xff
@@ -101,14 +100,14 @@ def value_of(data, order, depth=0):
         width, = np.frombuffer(parts[3][1], f'{order}i4')
         names = [name.tobytes().rstrip(b'\0').decode('ascii', 'replace')
                  for name in np.frombuffer(parts[4][1], 'u1').reshape(-1, width)]
-        return dict(zip(names, require_count(values, rows * columns * len(names))))  # of an array of them the first
+        return dict(zip(names, require_count(values, rows * columns * len(names))))  # the first of an array
     if flags & COMPLEX:
-        raise Error('it holds complex numbers')
+        raise Error('it contains complex numbers')
     numbers = np.frombuffer(parts[3][1], order + NUMBERS[parts[3][0]])
     if kind == CHARACTERS:
         return parts[3][1].decode('utf-8') if parts[3][0] == UTF8 else ''.join(map(chr, numbers))
     if not DOUBLE <= kind <= UINT64:
-        raise Error(f'it holds a value of class {kind}, which no case has')
+        raise Error(f'it contains a value of class {kind}, which is not part of a case')
     return require_count(numbers, rows * columns).astype(float).reshape(rows, columns, order='F')
 
 
@@ -129,7 +128,7 @@ def element(kind, data):
 
 
 def matrix(value, name=''):
-    """The element of a value: of a dictionary, a list (a row of cells), a text, a truth, or numbers."""
+    """The element of a value: a dictionary, a list (a row of cells), a text, a truth value, or numbers."""
     if isinstance(value, dict):
         flags, shape = STRUCT, (1, 1)
         names = b''.join(each.encode().ljust(NAME_WIDTH, b'\0') for each in value)

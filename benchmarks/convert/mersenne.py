@@ -1,5 +1,5 @@
 """The random numbers of the project's programs: the 64-bit Mersenne Twister (Matsumoto and Nishimura), which neither
-the standard library nor NumPy has."""
+the standard library nor NumPy provides."""
 
 SIZE, MIDDLE = 312, 156
 MASK = (1 << 64) - 1
@@ -8,7 +8,7 @@ TWIST = 0xB5026F5AA96619E9
 
 
 class Random:
-    """The same seed gives the same numbers."""
+    """A generator; the same seed gives the same numbers."""
 
     def __init__(self, seed):
         state = [seed & MASK]
@@ -35,18 +35,18 @@ class Random:
         self.place = 0
 
     def between(self, low, high):
-        """Evenly distributed from low on, below high."""
+        """A number evenly distributed from low (included) to high (excluded)."""
         return low + (high - low) * ((self.bits() >> 11) * 2.0 ** -53)
 
     def below(self, count):
-        """0 to count - 1."""
+        """An index from 0 to count - 1."""
         return self.bits() % count
 
     def chance(self, probability):
-        """True in this share of all calls."""
+        """True with this probability."""
         return self.between(0.0, 1.0) < probability
 
     def normal(self, mean, deviation, low, high):
-        """Normally distributed (the sum of twelve even ones), cut off."""
+        """A normally distributed number (the sum of twelve even ones), cut off."""
         sum_of_even = sum((self.between(0.0, 1.0) for _ in range(12)), -6.0)
         return min(max(mean + deviation * sum_of_even, low), high)

@@ -1,4 +1,4 @@
-"""What the whole project reads: YAML scenarios and TPCAP cases. The library reads both."""
+"""The formats of the whole project: YAML scenarios and TPCAP cases. The library reads both."""
 from improved_astar import Scenario
 
 from .scenarios import errors_name, obstacle_polygons

@@ -19,79 +19,81 @@ from .scenarios import obstacle_polygons
 from .text import counted, number, numbers, one_line, pose_of, quoted
 
 DONE, FAULTY, BAD_INPUT = 0, 1, 2
-LARGEST = 256 << 20  # bytes of a file
-SAME = 1e-6          # metres and radians between what was read and what was written
+LARGEST = 256 << 20  # maximum bytes of a file
+SAME = 1e-6          # maximum difference in metres and radians between input and output
 MEBIBYTE = 1 << 20
 
 
 @dataclass(frozen=True)
 class ProblemFormat:
-    """A kind of file that holds a parking problem."""
+    """A format of files with a parking problem."""
     name: str                            # one word, for --to
-    extension: str                       # of files that are written
+    extension: str                       # extension of written files
     text: str                            # one line for --help
-    largest: int                         # bytes of a file
-    recognizes: Callable[[bytes], bool]  # is this the content of such a file?
+    largest: int                         # maximum bytes of a file
+    recognizes: Callable[[bytes], bool]  # (content): whether it has this format
     read: Callable[..., Any]             # (file, content, vehicle, start, goal): the Scenario
     write: Callable[..., Any]            # (scenario, file): the content of the file, as text or bytes
 
 
 @dataclass(frozen=True)
 class ResultFormat:
-    """A kind of file in which results are handed in."""
+    """A format of submitted results."""
     name: str                  # one word, for --to
-    extension: str             # of files that are written
+    extension: str             # extension of written files
     text: str                  # one line for --help
-    is_trajectory: bool        # is it for results with a trajectory only?
+    is_trajectory: bool        # whether it requires a trajectory
     write: Callable[..., Any]  # (result): the content of the file
-    fault: Callable[..., Any]  # (result, file, content): what is wrong with a written file, or None
+    fault: Callable[..., Any]  # (result, file, content): the fault of a written file, or None
 
 
-# The last one is what a file is taken for that none recognizes.
+# The last format applies to files that none recognizes.
 PROBLEM_FORMATS = [
     ProblemFormat('commonparking', '.mat', 'cases of CommonParking; the car steers up to 0.7 rad', matlab.LARGEST,
                   matlab.is_matlab, commonparking.read_case, commonparking.case_content),
     ProblemFormat('benchmr', '.svg', 'polygon scenes of Bench-MR; obstacles are convex', 16 * MEBIBYTE,
                   lambda content: content.removeprefix(b'\xef\xbb\xbf').lstrip().startswith(b'<'),
                   bench_mr.read, bench_mr.svg_text),
-    ProblemFormat('tpcap', '.csv', 'cases of TPCAP; the car is not in them: TPCAP\'s, unless --vehicle says otherwise',
+    ProblemFormat('tpcap', '.csv', 'cases of TPCAP, without a car; default: TPCAP\'s car',
                   16 * MEBIBYTE, lambda content: False, own.read, own.tpcap_text),
-    ProblemFormat('yaml', '.yaml', 'scenarios of this project, maps and voxels as they name them', 16 * MEBIBYTE,
+    ProblemFormat('yaml', '.yaml', 'scenarios of this project, with the maps and voxels that they name', 16 * MEBIBYTE,
                   lambda content: True, own.read, own.yaml_text),
 ]
 RESULT_FORMATS = [
     ResultFormat('commonparking-path', '.mat', 'path for CommonParking\'s EvaluateResult, with its exact arcs', False,
                  commonparking.path_content, commonparking.result_fault),
-    ResultFormat('commonparking-trajectory', '.mat', 'trajectory for the same', True,
+    ResultFormat('commonparking-trajectory', '.mat', 'trajectory for CommonParking\'s EvaluateResult', True,
                  commonparking.trajectory_content, commonparking.result_fault),
     ResultFormat('tpcap-trajectory', '.csv', 'trajectory as t, x, y, yaw, v, a, steering, steering_rate', True,
                  results.csv_text, results.csv_fault),
 ]
-OPTIONS = (  # name, what stands for its value (nothing: it has none), help
-    ('--to', 'FORMAT', 'of OUTPUT (default: as its name ends; with --hope yaml)'),
-    ('--check', None, 'check INPUT, and OUTPUT once it is written; status 1 when something is wrong'),
+OPTIONS = (  # name, placeholder of its value (empty: none), help
+    ('--to', 'FORMAT', 'format of OUTPUT (default: by its extension; yaml with --hope)'),
+    ('--check', None, 'check INPUT, and OUTPUT after writing; status 1 when a check fails'),
     ('--vehicle', 'NAME|FILE', "the car (default: the file's, or the format's)"),
-    ('--start', 'X,Y,YAW', "instead of the file's, or where the format has none"),
-    ('--goal', 'X,Y,YAW', 'likewise'),
+    ('--start', 'X,Y,YAW', "replace the file's, or add it if the format has none"),
+    ('--goal', 'X,Y,YAW', "replace the file's goal, or add it if the format has none"),
     ('--hope', 'LEVEL', 'generate problems of this level of HOPE; OUTPUT is a folder'),
-    ('--count', 'N', 'how many (default 10)'),
-    ('--seed', 'N', 'of the first of them; the others follow (default 1)'),
-    ('--help', None, 'this text'),
+    ('--count', 'N', 'number of problems (default 10)'),
+    ('--seed', 'N', 'seed of the first problem; each further one has the next number (default 1)'),
+    ('--help', None, 'print this text'),
 )
 USAGE = '''parking_convert INPUT OUTPUT [options]
        parking_convert INPUT --check
        parking_convert --hope LEVEL OUTPUT [--count N] [--seed N] [--to FORMAT]'''
 ABOUT = '''Converts parking problems between formats, and results of parking_plan --json into those of others.
 The format of INPUT is detected by its content.'''
-EXAMPLES = '''Examples:
-  parking_convert Case7.csv Case7.yaml --check
-  parking_convert Case07.mat case07.yaml
-  parking_convert parking1.svg parking1.yaml --start 3,-7.2,0 --goal 4.05,-2.6,1.5708 --check
+EXAMPLES = '''Examples, run at the root of the project:
+  parking_convert benchmarks/scenarios/parallel.yaml parallel.svg
   parking_convert --hope complex hope --count 100 --seed 1
+
+More examples:
+  parking_convert Case7.csv Case7.yaml --check
+  parking_convert parking1.svg parking1.yaml --start 3,-7.2,0 --goal 4.05,-2.6,1.5708 --check
   parking_plan case07.yaml --trajectory --json case07.json
   parking_convert case07.json Case07.mat --to commonparking-trajectory --check
 
-Status: 0 done, 1 the check has found something, 2 bad input or usage'''
+Status: 0 done, 1 a check failed, 2 invalid input or usage'''
 
 
 def parser():
@@ -110,9 +112,9 @@ def parser():
 
 
 def parse(arguments):
-    """The options that were given. Raises Error with one line."""
+    """The options of the command line. Raises Error with one line."""
     valued = [name for name, value, _ in OPTIONS if value]
-    joined = []  # name and value: of -3,1,0 alone argparse would make an option
+    joined = []  # name and value: argparse would read -3,1,0 alone as an option
     for each in arguments:
         if joined and joined[-1] in valued:
             joined[-1] += '=' + each
@@ -138,21 +140,21 @@ def convert(arguments):
         return DONE
     files = options.files
     if not files:
-        raise Error('--hope takes the name of a folder to write (see --help)' if options.hope is not None else
+        raise Error('--hope requires the name of a folder to write (see --help)' if options.hope is not None else
                     'no INPUT given (see --help)')
     if len(files) > (1 if options.hope is not None else 2):
         raise Error(f'{quoted(files[-1])} is one name too many (see --help)')
     if options.hope is not None:
-        refuse(options, 'changes a file that is read, and --hope reads none', 'start', 'goal', 'vehicle')
+        refuse(options, 'changes an input file, and --hope has none', 'start', 'goal', 'vehicle')
         return generate_hope(files[0], options)
-    refuse(options, 'goes with --hope only', 'count', 'seed')
+    refuse(options, 'requires --hope', 'count', 'seed')
     source, output = files[0], files[1] if len(files) > 1 else None
     if output is None:
         if not options.check:
-            raise Error('no OUTPUT given, and nothing to --check (see --help)')
-        refuse(options, 'is the format of OUTPUT, and there is none', 'to')
+            raise Error('no OUTPUT and no --check given (see --help)')
+        refuse(options, 'is the format of OUTPUT, which is missing', 'to')
     elif output == '-':
-        raise Error("'-' is not standard output here; if a file of that name is meant, name it './-'")
+        raise Error("'-' is not standard output here; for a file of that name write './-'")
     content = read_file(source, LARGEST)  # once: a pipe cannot be read again
     if results.is_result(content):
         return convert_result(source, content, output, options)
@@ -160,7 +162,7 @@ def convert(arguments):
 
 
 def refuse(options, why, *names):
-    """Raises Error for the options among these that were given although they would change nothing."""
+    """Raises Error for given options among these, which would have no effect."""
     for name in names:
         if getattr(options, name) is not None:
             raise Error(f'--{name} {why} (see --help)')
@@ -170,7 +172,7 @@ def refuse_input(output, inputs):
     for each in inputs:
         if os.path.isfile(output) and os.path.isfile(each) and os.path.samefile(output, each):
             other = '' if each == output else f' {quoted(each)}'
-            raise Error(f'{quoted(output)} is the input{other}, which would be lost; name another file to write')
+            raise Error(f'{quoted(output)} is the input{other}, which would be lost; choose another file to write')
 
 
 def pose_option(options, name):
@@ -198,16 +200,16 @@ def format_for(formats, what, name, output):
     if name is not None:
         raise Error(unknown_name(what, name, [each.name for each in formats]))
     known = ', '.join(f'{each.name} ({each.extension})' for each in formats)
-    raise Error(f'{quoted(output)}: the extension names no {what}; name one with --to: {known}')
+    raise Error(f'{quoted(output)}: the extension belongs to no {what}; select one with --to: {known}')
 
 
 def convert_problem(source, content, output, options):
     if options.vehicle == '':
-        raise Error('--vehicle is given no name; without the option the default is taken')
+        raise Error('--vehicle has an empty name; without the option its default applies')
     vehicle = Vehicle(options.vehicle) if options.vehicle else None
     found = next(each for each in PROBLEM_FORMATS if each.recognizes(content))
     if len(content) > found.largest:
-        raise Error(f'{source}: is larger than the {found.largest >> 20} MiB that are read')
+        raise Error(f'{source}: is larger than the limit of {found.largest >> 20} MiB')
     scenario = found.read(source, content, vehicle, pose_option(options, 'start'), pose_option(options, 'goal'))
     if output is not None:
         refuse_input(output, [source, *scenario.files] + ([options.vehicle] if options.vehicle else []))
@@ -221,7 +223,7 @@ def convert_problem(source, content, output, options):
     write(output, format_to.write(scenario, output))
     if not options.check:
         return DONE
-    # The car is not in every format, so it is given again.
+    # The car is not in every format, so it is an argument.
     written = format_to.read(output, read_file(output, LARGEST), vehicle, None, None)
     return max(status, report(output, differences(written, scenario)))
 
@@ -257,7 +259,7 @@ def generate_hope(folder, options):
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise Error(f'{quoted(folder)}: cannot be made: {error.strerror}') from None
+        raise Error(f'{quoted(folder)}: cannot be created: {error.strerror}') from None
     status = DONE
     for each in range(seed, seed + count):
         scenario = hope.scene(options.hope, each)
@@ -290,14 +292,14 @@ def report(file, faults):
 
 
 def faults_of(scenario):
-    """What is wrong with a problem although every reader takes it."""
+    """The fault of a problem that all readers accept; None without one."""
     is_free = scenario.is_free([scenario.start, *scenario.goals])
     return ([] if is_free[0] else ['the start is in collision']) + \
         ([] if is_free[1:].any() else ['the goal is in collision'])
 
 
 def differences(written, wanted):
-    """Where what was written is not what was to be written."""
+    """The difference between written file and input; None without one."""
     tolerance = max(SAME, 1e-14 * (1.0 + abs(wanted.start[0]) + abs(wanted.start[1])))
 
     def same(a, b):
@@ -306,21 +308,21 @@ def differences(written, wanted):
 
     faults = []
     if not same(written.start, wanted.start):
-        faults.append('the start is not that of the input')
+        faults.append('the start differs from the input')
     if not same(written.goals[0], wanted.goals[0]):
-        faults.append('the goal is not that of the input')
+        faults.append('the goal differs from the input')
     ours, theirs = obstacle_polygons(written), obstacle_polygons(wanted)
     if len(ours) != len(theirs):
         return faults + [f'{counted(len(ours), "obstacle")} instead of {len(theirs)}']
     for k, (polygon, other) in enumerate(zip(ours, theirs), 1):
         away = np.hypot(*np.moveaxis(other[:, None] - polygon, 2, 0)).min(axis=1)
         if away.max() > tolerance:
-            faults.append(f'obstacle {k} has lost a corner; is the format for convex ones only?')
+            faults.append(f'obstacle {k} has lost a corner; the format may support convex obstacles only')
     return faults
 
 
 def run(arguments):
-    """Converts, and returns the status of the program. Errors are one line on standard error."""
+    """Converts, and returns the exit status of the program. Errors become one line on standard error."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         status = convert(arguments)
@@ -328,8 +330,8 @@ def run(arguments):
         return status
     except Error as error:
         reason = str(error)
-    except OSError as error:  # all files are read and written by the library, which raises Error
+    except OSError as error:  # the library, which raises Error, reads and writes all files
         reason = f'standard output cannot be written: {error.strerror}'
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python would try again at its end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python would write again at its end
     print(f'parking_convert: {one_line(reason)}', file=sys.stderr)
     return BAD_INPUT

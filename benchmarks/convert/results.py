@@ -1,4 +1,4 @@
-"""What parking_plan --json has written of a run: the fields are checked, and path and trajectory must not jump."""
+"""Runs in files of parking_plan --json. The fields are checked, and path and trajectory must be continuous."""
 import json
 import math
 import re
@@ -11,24 +11,24 @@ from improved_astar import Error, Vehicle
 
 from .text import number, numbers, quoted
 
-FORMAT = 1        # of what parking_plan --json writes
+FORMAT = 1        # format of parking_plan --json
 NO_LENGTH = 1e-9  # metres
 LONGEST = 1e6     # metres
-# Between a state and where the arc to it ends. States rounded to millimetres are not refused; one that was left out or
-# put elsewhere is.
+# Maximum distance between a state and the end of the arc to it: more than the rounding to millimetres, less than the
+# error of a missing or moved state.
 JUMP, YAW_JUMP = 0.01, 0.01  # metres, radians
-LEAP = 0.05                  # metres that the car may have gone besides what its speeds explain
+LEAP = 0.05                  # metres of motion beyond that of the speeds
 
 
 @dataclass
 class ArcPath:
-    """Arcs one after another, in the coordinates of the scenario's file. Lengths are negative in reverse."""
+    """A sequence of arcs in the coordinates of the scenario's file. Lengths are negative in reverse."""
     start: tuple
     curvatures: np.ndarray
     lengths: np.ndarray
 
     def runs(self):
-        """The path between its changes of gear, a ArcPath for each."""
+        """The path between its changes of gear, one ArcPath each."""
         direction = np.sign(self.lengths)
         runs, start = [], self.start
         for pieces in np.split(np.arange(len(direction)), np.flatnonzero(np.diff(direction)) + 1):
@@ -38,7 +38,7 @@ class ArcPath:
 
     @property
     def direction(self):
-        """1 forwards, -1 in reverse: of a path without a change of gear."""
+        """1 forwards, -1 in reverse: for a path without a change of gear."""
         return np.sign(self.lengths[0])
 
     def begins(self):
@@ -49,13 +49,13 @@ class ArcPath:
         return np.array(poses)
 
     def advanced(self, piece, driven):
-        """The poses that many metres behind the beginning of these pieces."""
+        """The poses at these distances from the beginning of these pieces."""
         begin = self.begins()[piece]
         return np.column_stack(advance(begin.T, self.curvatures[piece], np.sign(self.lengths[piece]) * driven))
 
 
 def advance(pose, curvature, length):
-    """The pose at the end of an arc; of arrays one for each."""
+    """The pose at the end of an arc, or one per element of arrays."""
     x, y, yaw = pose
     half = 0.5 * curvature * length
     chord = length * np.sinc(half / np.pi)
@@ -66,15 +66,15 @@ def advance(pose, curvature, length):
 class StoredResult:
     planner: str
     status: str
-    planning_time: float  # seconds, of the first run
-    case_id: int          # for formats that number their problems
+    planning_time: float  # planning time of the first run in seconds
+    case_id: int          # number of the problem, for formats that have one
     wheelbase: float
     path: ArcPath
     trajectory: np.ndarray  # rows t, x, y, yaw, v, acceleration, steering, steering rate; empty without one
 
 
 class JsonField:
-    """A value in the file, and where it is, for messages: path[3].x."""
+    """A value in the file and its position for messages, such as path[3].x."""
 
     def __init__(self, value, name=''):
         self.value, self.name = value, name
@@ -123,23 +123,23 @@ def is_result(content):
 
 
 def parse(file, content):
-    """The result that a file holds. Raises Error with one line naming the file and the field."""
+    """The result in a file. Raises Error with one line naming the file and the field."""
 
     def refuse(constant):
-        raise ValueError(f'{constant} is no number')
+        raise ValueError(f'{constant} is not a number')
 
     try:
         whole = JsonField(json.loads(content, parse_constant=refuse))
     except (ValueError, RecursionError) as error:
-        raise Error(f'{file}: no result of parking_plan --json: {error}') from None
+        raise Error(f'{file}: not a result of parking_plan --json: {error}') from None
     try:
         version = whole.member('format')
         if version.value != FORMAT or isinstance(version.value, bool):
             version.fail(str(FORMAT))
     except Error as error:
-        raise Error(f'{file}: no result of parking_plan --json: {error}') from None
+        raise Error(f'{file}: not a result of parking_plan --json: {error}') from None
     try:
-        with np.errstate(all='ignore'):  # what overflows jumps, and is refused
+        with np.errstate(all='ignore'):  # an overflow is discontinuous and thus rejected
             return result_of(whole)
     except Error as error:
         raise Error(f'{file}: {error}') from None
@@ -179,7 +179,7 @@ def vehicle_of(field):
 
 
 def path_of(states):
-    """Between two states is an arc of the curvature with which the second is reached."""
+    """Adds the arc between two states, with the curvature of the second one."""
     start = before = states[0].numbers('x', 'y', 'yaw')
     curvatures, lengths = [], []
     for state in states[1:]:
@@ -195,14 +195,14 @@ def path_of(states):
             lengths.append(length)
     whole = sum(map(abs, lengths))
     if not lengths:
-        raise Error('its path goes nowhere')
+        raise Error('its path has no length')
     if not whole <= LONGEST:
-        raise Error(f'its path is {number(whole)} m long; at most {number(LONGEST)} m are taken')
+        raise Error(f'its path is {number(whole)} m long; the limit is {number(LONGEST)} m')
     return ArcPath(start, np.array(curvatures), np.array(lengths))
 
 
 def arc_between(before, pose, state):
-    """Curvature and signed length of the arc to a state. Raises Error when it ends elsewhere."""
+    """Curvature and signed length of the arc to a state. Raises Error if it ends elsewhere."""
     curvature, direction = state.numbers('curvature', 'direction')
     if abs(direction) != 1.0:
         state.member('direction').fail('1 or -1')
@@ -213,7 +213,7 @@ def arc_between(before, pose, state):
     off = math.hypot(x - pose[0], y - pose[1])
     turned = abs((yaw - pose[2] + math.pi) % math.tau - math.pi)
     if abs(length) <= NO_LENGTH and turned > 1e-6:
-        raise Error(f'{state.name} turns on the spot, which no car can')
+        raise Error(f'{state.name} turns on the spot, which a car cannot do')
     if not (off <= JUMP and turned <= YAW_JUMP):
         raise Error(f'{state.name} does not follow from the state before: an arc of its curvature, '
                     f'{number(curvature)} 1/m, ends {off:.3f} m and {turned:.3f} rad away')
@@ -233,7 +233,7 @@ def trajectory_of(samples):
             way = math.hypot(x - last_x, y - last_y)
             if not way <= LEAP + 1.1 * (t - last_t) * max(abs(v), abs(last_v)):
                 raise Error(f"{sample.name} lies {way:.3f} m from the one before, in {t - last_t:.3f} s at {v:.3f} m/s; "
-                            "it must be where the car can have got to")
+                            "the car cannot reach it")
         rows.append(row)
     return np.array(rows)
 
@@ -245,8 +245,8 @@ def csv_text(result):
 
 
 def csv_fault(result, _file, content):
-    """What is wrong with a written table; None when nothing is."""
+    """The fault of a written table; None without one."""
     rows = [line.split(b',') for line in content.splitlines()[1:]]
     if not np.array_equal(np.array(rows, dtype=float), result.trajectory):
-        return 'the file is not what was written'
+        return 'the file differs from the written content'
     return None

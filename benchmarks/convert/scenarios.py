@@ -1,4 +1,4 @@
-"""What the formats of problems share: scenarios of polygons, and maps as polygons."""
+"""Common parts of the formats of problems: scenarios of polygons, and maps as polygons."""
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -11,7 +11,7 @@ WALL = 1.0  # metres
 
 @contextmanager
 def errors_name(file):
-    """Errors about a scenario that is made within name the file that it comes from."""
+    """Adds the name of the source file to errors about a scenario."""
     try:
         yield
     except Error as error:
@@ -24,7 +24,7 @@ def scenario_of_polygons(file, polygons, start, goal, vehicle):
 
 
 def obstacle_polygons(scenario):
-    """The obstacles as arrays of corners: cells of a map merged into rectangles, and a wall round it."""
+    """The obstacles as arrays of corners: cells of a map merged into rectangles, with a wall round it."""
     if scenario.grid is None:
         return scenario.polygons
     occupied = scenario.grid == 1
@@ -48,9 +48,8 @@ def obstacle_polygons(scenario):
 def merged_cells(occupied):
     """Occupied cells as few rectangles: runs along each row, joined with the equal run of the row below.
 
-    Each is (first column, first row, column behind the last, row behind the last).
-    """
-    rectangles, open_runs = [], {}  # (first column, column behind the last): first row
+    Each is (first column, first row, column after the last, row after the last)."""
+    rectangles, open_runs = [], {}  # (first column, column after the last): first row
     for row, cells in enumerate(occupied):
         edges = np.flatnonzero(np.diff(cells, prepend=False, append=False)).reshape(-1, 2)
         runs = {tuple(map(int, run)): row for run in edges}

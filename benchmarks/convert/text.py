@@ -1,11 +1,11 @@
-"""Numbers and names as the project's other programs read and write them."""
+"""Numbers and names in the formats of the project's other programs."""
 import re
 
 NUMBER = re.compile(r'[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?', re.ASCII)
 
 
 def pose_of(text):
-    """x, y and yaw, with commas or blanks between them; None for anything else."""
+    """x, y and yaw, separated by commas or blanks; None for other text."""
     words = text.replace(',', ' ').split()
     if len(words) != 3 or not all(map(NUMBER.fullmatch, words)):
         return None
@@ -13,7 +13,7 @@ def pose_of(text):
 
 
 def number(value):
-    """The shortest text that reads as the same number; whole numbers without a point."""
+    """The shortest text of the same number; whole numbers without a point."""
     return repr(float(value)).removesuffix('.0')
 
 
@@ -22,7 +22,7 @@ def numbers(values, separator=', '):
 
 
 def one_line(text):
-    """What is not printable ASCII becomes a question mark."""
+    """Replaces all but printable ASCII by question marks."""
     return ''.join(each if ' ' <= each <= '~' else '?' for each in text)
 
 

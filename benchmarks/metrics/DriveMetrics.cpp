@@ -12,12 +12,12 @@ namespace parking
         constexpr double STANDING = 1e-3;       // m/s
         constexpr double GOAL_DISTANCE = 0.01;  // metres
         constexpr double GOAL_ANGLE = PI / 180.0;
-        constexpr double ENOUGH = 2.0;     // metres of clearance, beyond which it need not be known
+        constexpr double ENOUGH = 2.0;     // metres; a larger clearance need not be exact
         constexpr double NO_TIME = 1e-9;   // seconds
         constexpr double ROUNDING = 1e-6;  // metres
 
-        /** Counts the frames at which the body meets an obstacle. Where the distance to the nearest one is more than
-           the body moves, the frames up to there are known to be free. */
+        /** Counts the frames in which the body meets an obstacle. If the distance to the nearest obstacle exceeds the
+           motion of the body, the frames in between are free. */
         class Frames
         {
         public:

@@ -10,34 +10,34 @@
 
 namespace parking
 {
-    /** \brief What a drive in time is like, by the terms of TPCAP and CommonParking; docs/benchmark-reference.md
-     * defines each. */
+    /** \brief Metrics of a drive in time, by the definitions of TPCAP and CommonParking (see
+        docs/benchmark-reference.md). */
     struct DriveFigures
     {
         double duration{0.0};      ///< seconds
-        double standingTime{0.0};  ///< seconds at less than a millimetre a second
-        double meanJerk{0.0};      ///< m/s^3, mean over time of the absolute value
-        bool attainsGoal{false};   ///< see attainsGoal(); where it ends
-        std::size_t frames{0};     ///< one a millisecond, and the end
-        std::size_t colliding{0};  ///< of them
+        double standingTime{0.0};  ///< seconds at a speed below one millimetre per second
+        double meanJerk{0.0};      ///< mean over time of the absolute jerk in m/s^3
+        bool attainsGoal{false};   ///< whether its end attains a goal, see attainsGoal()
+        std::size_t frames{0};     ///< number of frames, one per millisecond plus the end
+        std::size_t colliding{0};  ///< number of frames in collision
 
-        /** \brief Of the frames; 0 without any. */
+        /** \brief Share of frames in collision; 0 without frames. */
         double collidingShare() const
         {
             return frames > 0 ? static_cast<double>(colliding) / static_cast<double>(frames) : 0.0;
         }
     };
 
-    /** \brief Is \e pose within 1 cm of a goal, in x and in y, and within 1 degree of its heading? */
+    /** \brief Whether \e pose is within 1 cm of a goal in x and in y, and within 1 degree of its heading. */
     bool attainsGoal(const Pose &pose, const std::vector<Pose> &goals);
 
-    /** \brief The figures of a drive that is given by samples; poses between two samples lie evenly between them.
+    /** \brief Metrics of a sampled drive; poses between two samples are interpolated linearly.
 
         \param trajectory in the coordinates of \e goals and \e checker */
     DriveFigures driveFigures(const Trajectory &trajectory, const std::vector<Pose> &goals,
                               const FootprintChecker &checker);
 
-    /** \brief The figures of a motion, integrated and sampled every 5 ms for that. */
+    /** \brief Metrics of a motion, sampled every 5 ms to integrate. */
     DriveFigures driveFigures(const TimedMotion &motion, const std::vector<Pose> &goals,
                               const FootprintChecker &checker);
 }  // namespace parking

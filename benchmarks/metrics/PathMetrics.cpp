@@ -14,20 +14,20 @@ namespace parking
         constexpr double SMOOTHNESS_STEP = 0.1;   // metres
         constexpr double CLEARANCE_STEP = 0.1;    // metres
         constexpr double MOST_CLEARANCES = 1000;  // poses
-        constexpr double CLOTHOID_STEP = 0.01;    // metres, of the integrals
+        constexpr double CLOTHOID_STEP = 0.01;    // step of the integrals in metres
         constexpr double SAME_STEERING = 1e-6;    // radians
 
-        /** Radians that the heading turns along a piece, as absolute values: its curvature may change sign. */
+        /** Absolute change of heading along a piece in radians: its curvature may change sign. */
         double turned(const PathPiece &piece)
         {
             const double begin = piece.curvature, end = piece.endCurvature(), length = piece.driven();
             if (begin * end >= 0.0)
                 return 0.5 * std::abs(begin + end) * length + std::abs(piece.turn);
-            const double share = begin / (begin - end);  // of the length, until the sign changes
+            const double share = begin / (begin - end);  // length until the sign changes
             return 0.5 * length * (std::abs(begin) * share + std::abs(end) * (1.0 - share));
         }
 
-        /** Positions at most \e step apart, evenly within each stretch. */
+        /** Positions at most \e step apart, evenly spaced within each stretch. */
         std::vector<Pose> evenPoses(const Path &path, double step)
         {
             std::vector<Pose> poses{path.start};
@@ -37,7 +37,7 @@ namespace parking
             {
                 const double length = path.part(stretch.first, stretch.last).length();
                 const double parts = std::max(1.0, std::ceil(length / step));
-                double before = 0.0;  // metres of the stretch before the piece
+                double before = 0.0;  // metres of the stretch in front of the piece
                 double part = 1.0;
                 for (; next < stretch.last; ++next)
                 {
@@ -52,13 +52,13 @@ namespace parking
                     before += piece.driven();
                     pose = advance(pose, piece);
                 }
-                if (part <= parts)  // rounding has left out the last one
+                if (part <= parts)  // rounding has left out the last position
                     poses.push_back(pose);
             }
             return poses;
         }
 
-        /** OMPL's PathGeometric::smoothness(), on positions: the squared turns over the lengths that they take. */
+        /** OMPL's PathGeometric::smoothness() on positions: the squared turning angles over the adjacent lengths. */
         double smoothnessOf(const std::vector<Pose> &poses)
         {
             double sum = 0.0;
@@ -76,7 +76,7 @@ namespace parking
             return sum;
         }
 
-        /** From rest to rest along a length in the least time. */
+        /** The fastest profile from rest to rest along a length. */
         class RestToRest
         {
         public:
@@ -92,7 +92,7 @@ namespace parking
                 return peak_ > 0.0 ? peak_ / acceleration_ + length_ / peak_ : 0.0;
             }
 
-            /** Of the squared acceleration. */
+            /** Integral of the squared acceleration. */
             double effort() const
             {
                 return 2.0 * acceleration_ * peak_;
@@ -118,7 +118,7 @@ namespace parking
             double length_, acceleration_, peak_;
         };
 
-        /** Adds what the wheels do along a piece that begins \e place metres into its stretch. */
+        /** Adds the steering along a piece that begins \e place metres into its stretch. */
         void addSteering(CuspToCusp &figures, const PathPiece &piece, double place, const RestToRest &profile,
                          const Vehicle &vehicle)
         {
@@ -157,7 +157,7 @@ namespace parking
                 finite = finite && std::isfinite(piece.curvature) && std::isfinite(piece.length) &&
                          std::isfinite(piece.sharpness) && std::isfinite(piece.turn);
                 if (piece.turn != 0.0)
-                    throw Error("speed profile: the path turns on the spot, which no car can");
+                    throw Error("speed profile: the path turns on the spot, which a car cannot do");
             }
             if (!finite)
                 throw Error("speed profile: the path is not finite");
@@ -210,7 +210,7 @@ namespace parking
         CuspToCusp figures;
         figures.cost.gearChanges = stretches.size() - 1;
         const PathPiece *before = nullptr;
-        double changes = 0.0;  // of the acceleration, signed as the speed is
+        double changes = 0.0;  // direction of the acceleration, signed like the speed
         double acceleration = 0.0;
         const auto changeTo = [&](double next)
         {

@@ -8,7 +8,7 @@ namespace parking
 {
     namespace
     {
-        /** A line of /proc/self/status in bytes; negative where there is none. */
+        /** A line of /proc/self/status in bytes; negative without one. */
         double statusBytes(const std::string &key)
         {
             std::ifstream file("/proc/self/status");
@@ -21,7 +21,7 @@ namespace parking
             return -1.0;
         }
 
-        /** Lets the system forget the peak. */
+        /** Resets the peak of the system's count. */
         bool resetPeak()
         {
             std::ofstream file("/proc/self/clear_refs");

@@ -4,18 +4,18 @@
 
 namespace parking
 {
-    /** \brief How much memory this process takes at most while something runs, beyond what it had before.
+    /** \brief Maximum memory of this process during an operation, beyond its memory at the begin.
 
-        As the system counts it (resident pages). What an earlier run has left in the heap is used again and does not
-        show, so the figure is a run's own only where each run has a process of its own. */
+        The system counts resident pages. The heap reuses pages of earlier runs, so that the figure is exact only if
+        each run has its own process. */
     class PeakMemory
     {
     public:
-        /** \brief From now on. */
+        /** \brief Starts the measurement. */
         void begin();
 
-        /** \brief Megabytes (10^6 bytes) by which the peak since begin() is above what there was then; nothing where
-            the system does not tell. */
+        /** \brief Megabytes (10^6 bytes) between the memory at begin() and the peak since then; empty if the system
+            does not report them. */
         std::optional<double> megabytes() const;
 
     private:

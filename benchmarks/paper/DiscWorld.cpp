@@ -22,7 +22,7 @@ namespace parking
         if (!(radius > 0.0) || !std::isfinite(radius))
             throw Error("the radius of the disc must be a positive number of metres, not " + formatNumber(radius));
         if (scan && obstacles.cellSize() == 0.0)
-            throw Error("a world of polygons has no cells that could be scanned; the lookup must be field");
+            throw Error("a world of polygons has no cells to scan; the lookup must be field");
         if (!scan)
             field_ = std::make_unique<const CircleChecker>(obstacles, radius);
     }
@@ -34,7 +34,7 @@ namespace parking
         const double size = obstacles_.cellSize();
         const auto columns = static_cast<std::ptrdiff_t>(obstacles_.columns());
         const auto rows = static_cast<std::ptrdiff_t>(obstacles_.rows());
-        // A cell that is only touched counts, too.
+        // A cell that is only touched is occupied, too.
         const auto first = [&](double at)
         {
             return static_cast<std::ptrdiff_t>(std::ceil((at - radius_) / size)) - 1;

@@ -11,19 +11,19 @@
 
 namespace parking
 {
-    /** \brief The paper's car as its search sees it (section "Introducing Vehicle Volume"): a disc that must be free at
-        the ends of each step.
+    /** \brief The paper's model of the car in the search (section "Introducing Vehicle Volume"): a disc that must be
+        free at the ends of each step.
 
-        A disc is free when no cell of the map that it touches is occupied. Either every cell is looked at, as in the
-        paper, or a CircleChecker answers; both give the same answers up to rounding, at different cost. */
+        A disc is free when it touches no occupied cell of the map. Either every cell is scanned, as in the paper, or a
+        CircleChecker decides; both agree up to rounding, at different cost. */
     class DiscWorld final : public search::MotionEnvironment
     {
     public:
         /** \brief Number of lookups. */
         struct Counts
         {
-            std::uint64_t positions{0};  ///< of the disc
-            std::uint64_t cells{0};      ///< of the map, when every cell is looked at
+            std::uint64_t positions{0};  ///< number of discs checked
+            std::uint64_t cells{0};      ///< number of cells of the map scanned, without a distance field
             /** Processor time in seconds at the first query for a motion, when eager loading is complete. Not set
                 without such a query. */
             std::optional<double> firstMotionAt;
@@ -38,7 +38,7 @@ namespace parking
         DiscWorld(const ObstacleSet &obstacles, const Box &bounds, double radius, double ahead, bool scan);
 
         bool isFree(const Pose &pose) override;
-        /** The ends of a step were checked; the paper checks no more. */
+        /** Always true: the paper checks only the ends of a step. */
         bool isMotionFree(const Pose &from, const Pose &to) override;
         /** Not implemented, 0: the paper's models drive no arcs. */
         void freeLengths(const Pose &from, const Arc *arcs, std::size_t count, double clearance,

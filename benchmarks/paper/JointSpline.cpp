@@ -77,7 +77,7 @@ namespace parking
         return length;
     }
 
-    double turningOf(const Points &points, double most)
+    double turningOf(const Points &points, double max)
     {
         double turning = 0.0, before = 0.0;
         bool isFirst = true;
@@ -87,7 +87,7 @@ namespace parking
             if (step.norm() < SAME_PLACE)
                 continue;
             const double heading = std::atan2(step.y(), step.x()), turn = std::abs(wrapAngle(heading - before));
-            if (!isFirst && turn <= most)
+            if (!isFirst && turn <= max)
                 turning += turn;
             before = heading;
             isFirst = false;

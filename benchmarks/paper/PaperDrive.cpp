@@ -15,8 +15,8 @@ namespace parking
         using Points = std::vector<Eigen::Vector2d>;
 
         constexpr double AT_REST = 0.02;      // m/s
-        constexpr double RESTING_TIME = 1.0;  // seconds below that speed, which end the drive
-        constexpr double WAITING = 20.0;      // seconds for the car to come to rest after the wanted position has
+        constexpr double RESTING_TIME = 1.0;  // seconds below that speed that end the drive
+        constexpr double WAITING = 20.0;      // seconds for the car to stop after the reference has arrived
 
         /** The position on the path after a number of metres. */
         class WantedPosition
@@ -56,7 +56,7 @@ namespace parking
             parameters.farHeadingWeight = 0.0;
             parameters.headingWeight = options.headingWeight;
             parameters.alignDistance = options.alignDistance;
-            parameters.acrossWeight = parameters.alongWeight;  // W3 knows no directions
+            parameters.acrossWeight = parameters.alongWeight;  // W3 has no direction of travel.
             return parameters;
         }
 

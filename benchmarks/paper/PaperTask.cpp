@@ -20,8 +20,8 @@ namespace parking
 
         constexpr double CURVE_STEP = 0.1;  // metres between points of the curve
 
-        /** \e car, or with its poses at the body's middle and the same smallest turning radius: the paper's equations
-            for "the vehicle's center". */
+        /** \e car, or the same with its poses at the body's middle and an equal minimum turning radius: the paper's
+            equations for "the vehicle's center". */
         Vehicle plannedVehicle(const Vehicle &car, DiscPlace place)
         {
             Vehicle vehicle = car;
@@ -46,7 +46,7 @@ namespace parking
             return points;
         }
 
-        /** As far apart as the points of a path over cells, so that one sampling rate means the same on both. */
+        /** The spacing of points of a path over cells, so that one sampling rate has the same effect on both. */
         Points pointsOf(const Path &path, double spacing)
         {
             Points points;
@@ -59,13 +59,14 @@ namespace parking
             return points;
         }
 
-        /** Appends points that begin where \e all ends. */
+        /** Appends points that begin at the end of \e all. */
         void append(Points &all, const Points &more)
         {
             all.insert(all.end(), more.begin() + (all.empty() ? 0 : 1), more.end());
         }
 
-        /** Solved before approximate; then the heading within a right angle and the shortest; then the heading. */
+        /** Orders solved before approximate runs. Solved ones follow by a heading within a right angle, then by length;
+            others by heading. */
         auto rank(const PaperRun &run)
         {
             const bool isTurned = run.arrivalTurn > 0.5 * PI;
@@ -102,8 +103,8 @@ namespace parking
             return body_.clearance(pose);
         };
         slot.entry = SlotEntry::Reverse;  // as in the paper
-        // A sweep out of a parallel slot ends as near to the row of cars as their outlines allow. The disc needs more,
-        // and the cells of a map reach beyond the cars in them.
+        // A path out of a parallel slot ends as close to the row of cars as their outlines allow. The disc requires
+        // more, and occupied cells extend beyond the cars.
         if (slot.kind == SlotKind::Parallel)
             slot.width += 2.0 * (std::max(0.0, variant_.radius - 0.5 * vehicle_.width) + body_.obstacles().cellSize());
         for (ReverseParkingResult &each : ReverseParking(vehicle_).planAll(slot, world))
@@ -169,7 +170,7 @@ namespace parking
             // The path ends with a turn on the spot to the required heading.
             run.arrivalTurn = plan.path.pieces.empty() ? 0.0 : std::abs(plan.path.pieces.back().turn);
         }
-        // A search that loads eagerly asks about motions when it has loaded.
+        // A search that loads eagerly checks motions after loading.
         const bool isEager = parameters.obstacleLoading == "eager";
         const double loaded = isEager ? run.counts.firstMotionAt.value_or(processorTime()) : made;
         run.loadingTime = loaded - begin;

@@ -29,69 +29,70 @@ namespace parking
         RearAxle  ///< the rear axle, whose poses are planned and driven
     };
 
-    /** \brief Choices that the paper leaves open, or where it errs; by default as printed. */
+    /** \brief Choices that the paper leaves open, or in which it errs; by default as printed. */
     struct PaperVariant
     {
-        DiscPlace place{DiscPlace::Middle};  ///< of the disc
-        double radius{1.25};                 ///< metres: half of the car's width, and 35 cm to open the doors
-        bool scan{true};                     ///< every cell in the disc is looked at; false: a distance field
-        std::size_t degree{BSPLINE};         ///< of the curve of algorithms that smooth
-        bool acrossCusps{true};              ///< one curve through the whole; false: one for each stretch
-        std::size_t sampling{3};             ///< one point of this many is a control point
-        PaperDriveOptions drive;             ///< of the controller
+        DiscPlace place{DiscPlace::Middle};  ///< position of the disc
+        double radius{1.25};                 ///< radius in metres: half of the car's width, and 35 cm to open the doors
+        bool scan{true};              ///< whether every cell in the disc is scanned; otherwise a distance field is used
+        std::size_t degree{BSPLINE};  ///< degree of the curve of algorithms that smooth
+        bool acrossCusps{true};       ///< whether one curve covers the whole path instead of each stretch
+        std::size_t sampling{3};      ///< number of points per control point
+        PaperDriveOptions drive;      ///< settings of the controller
     };
 
     /** \brief The result of one algorithm of the paper in one scenario. */
     struct PaperRun
     {
-        /** exact, approximate, infeasible, timeout, invalid_start or invalid_goal, as of parking_plan; or no_manoeuvre.
-         */
+        /** Status of parking_plan (exact, approximate, infeasible, timeout, invalid_start or invalid_goal), or
+         no_manoeuvre. */
         std::string status;
-        std::string reason;                    ///< why not exact; otherwise empty
+        std::string reason;                    ///< reason for any status but exact; otherwise empty
         double loadingTime{0.0};               ///< seconds of processor time before the search began
         double planningTime{0.0};              ///< seconds of processor time of search and spline
-        search::SearchStatistics statistics;   ///< of the search
-        DiscWorld::Counts counts;              ///< of the world of discs
-        std::vector<Eigen::Vector2d> corners;  ///< of A*'s path and of the manoeuvre, joined; empty without a path
+        search::SearchStatistics statistics;   ///< effort of the search
+        DiscWorld::Counts counts;              ///< lookups in the world of discs
+        std::vector<Eigen::Vector2d> corners;  ///< joined path of A* and manoeuvre; empty without a path
         std::vector<Eigen::Vector2d> curve;    ///< the path to be driven; empty without a path
-        double approachLength{0.0};            ///< metres, of A*'s path as it was found
-        double approachError{0.0};             ///< metres between its end and the pose where the manoeuvre begins
-        /** Radians between the heading with which A*'s path arrives and that with which the manoeuvre begins; infinite
-            without a path. */
+        double approachLength{0.0};            ///< length in metres of A*'s path before smoothing
+        double approachError{0.0};  ///< metres between the end of A*'s path and the pose where the manoeuvre begins
+        /** Radians between the final heading of A*'s path and the first one of the manoeuvre; infinite without a
+            path. */
         double arrivalTurn{std::numeric_limits<double>::infinity()};
-        Pose parkingStart;                ///< where the manoeuvre begins
-        Pose goal;                        ///< where the car must stop
-        double approachCollidingShare{};  ///< of A*'s path: where the body, heading along it, stands in an obstacle
-        PaperDriveResult drive;           ///< without states when nothing was driven
+        Pose parkingStart;                ///< first pose of the manoeuvre
+        Pose goal;                        ///< pose where the car must stop
+        double approachCollidingShare{};  ///< share of A*'s path along which the body, aligned with it, is in collision
+        PaperDriveResult drive;           ///< the drive; no states if there was none
     };
 
     /** \brief The paper's run from the start to standstill (sections "Reverse Parking Planning Method", "Summary of
-        Optimizations for Improved A* Algorithm", "Experimental Process"): the manoeuvre out of the slot in reverse, A*
-        to where it begins, one spline through both, and the drive. A scenario without a slot has no manoeuvre: there A*
-        plans to the goal.
+        Optimizations for Improved A* Algorithm", "Experimental Process").
 
-        A* plans to a position and arrives with any heading. Of several manoeuvres (from either side) the one with the
-        shortest path of A* is taken among those whose heading is at most a right angle off, otherwise the one that is
-        least off. */
+        The run consists of the manoeuvre out of the slot in reverse, A* to its beginning, one spline along both, and
+        the drive. Without a slot there is no manoeuvre, and A* plans to the goal.
+
+        A* plans to a position and arrives with any heading. There may be manoeuvres from either side. Those
+        whose heading differs from A*'s by at most a right angle come first, in order of the length of A*'s path. Others
+        follow in order of the difference. */
     class PaperTask
     {
     public:
-        /** \brief Reads obstacles and slot. Throws parking::Error as the parts do. */
+        /** \brief Reads obstacles and slot. Throws parking::Error for an invalid scenario or variant. */
         PaperTask(const Scenario &scenario, const PaperVariant &variant);
 
-        /** \brief Plans, and drives when \e drive says so. Equal arguments give equal results but for times.
+        /** \brief Plans, and drives if \e drive is set. Equal arguments give equal results except for times.
 
             \param parameters of a grid model; others throw parking::Error
-            \param timeLimit seconds of the search */
+            \param timeLimit limit of the search in seconds */
         PaperRun run(const PlannerParameters &parameters, double timeLimit, bool drive) const;
 
-        /** \brief The car as it is planned for: its poses are of the point that the variant says. */
+        /** \brief The planned car: its poses refer to the point selected by the variant. */
         const Vehicle &vehicle() const
         {
             return vehicle_;
         }
 
-        /** \brief The paths from where A* plans to, each into the slot; empty when no manoeuvre fits. */
+        /** \brief The manoeuvres into the slot, each from an end of A*'s path; empty when no manoeuvre fits. */
         const std::vector<Path> &manoeuvres() const
         {
             return manoeuvres_;

@@ -1,5 +1,5 @@
-// paper_run: the paper's run from the start to standstill in the slot, with every choice that the paper leaves open.
-// docs/paper.md explains it.
+// paper_run: the paper's run from the start to standstill in the slot, with options for the choices that the paper
+// leaves open. See docs/paper.md.
 
 #include "benchmarks/paper/PaperTask.h"
 #include "benchmarks/system/CommandLine.h"
@@ -29,7 +29,7 @@ namespace
     constexpr std::size_t MOST_REPEATS = 1000;
     constexpr double DEGREES = 180.0 / PI;
     constexpr double MS = 1e3;
-    constexpr double CUSP = 0.75 * PI;  // radians; sharper turns of a curve are changes of direction
+    constexpr double CUSP = 0.75 * PI;  // radians; larger turns of a curve are changes of direction
 
     const std::vector<std::string> ALGORITHMS{"basic_astar",  "experiment_1", "experiment_2", "experiment_3",
                                               "experiment_4", "experiment_5", "experiment_6", "improved_astar"};
@@ -64,25 +64,27 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("algorithm", manyValues("NAME"), "a parameter set of the paper's; default: all eight of them");
+        add("algorithm", manyValues("NAME"), "a parameter set of the paper; default: all eight");
         add("disc", oneValue("PLACE"),
-            "middle: of the body, which is also the point that is planned and driven, as printed (default); ahead: the "
-            "body's middle, seen from the rear axle that is planned and driven, as corrected; rear_axle");
-        add("radius", oneValue("M"), "of the disc, metres (default 1.25)");
-        add("lookup", oneValue("NAME"), "scan: look at every cell in the disc, as printed (default); field: distances");
+            "middle: of the body, which is also the point that is planned and driven, as printed (default); "
+            "ahead: the body's middle, ahead of the rear axle that is planned and driven, as corrected; "
+            "rear_axle");
+        add("radius", oneValue("M"), "radius of the disc in metres (default 1.25)");
+        add("lookup", oneValue("NAME"), "scan: every cell in the disc, as printed (default); field: a distance field");
         add("spline", oneValue("NAME"), "bspline (default), bezier or none; for algorithms that smooth");
-        add("per-stretch", "a spline for each stretch between cusps, as corrected; else one through all, as printed");
-        add("sampling", oneValue("N"), "every so many points one is a control point (default 3)");
-        add("speed", oneValue("M/S"), "at which the wanted position goes along the way (default 1)");
+        add("per-stretch",
+            "one spline for each stretch between cusps, as corrected; otherwise one in total, as printed");
+        add("sampling", oneValue("N"), "number of points per control point (default 3)");
+        add("speed", oneValue("M/S"), "speed of the reference along the path (default 1)");
         add("heading-weight", oneValue("N"), "W4 of the controller, per square radian (default 300)");
-        add("align-distance", oneValue("M"), "d of the controller, metres (default 2)");
-        add("set", manyValues("KEY=VALUE"), "sets a parameter of the planner, for example heuristic=manhattan");
-        add("time-limit", oneValue("S"), "seconds for each search (default 5)");
-        add("repeats", oneValue("N"), "times are the least of so many runs (default 1)");
+        add("align-distance", oneValue("M"), "d of the controller in metres (default 2)");
+        add("set", manyValues("KEY=VALUE"), "set a parameter of the planner, for example heuristic=manhattan");
+        add("time-limit", oneValue("S"), "limit in seconds for each search (default 5)");
+        add("repeats", oneValue("N"), "report the minimum time of N runs (default 1)");
         add("no-drive", "plan only");
-        add("lines", "with the points of ways and drives");
-        add("json", oneValue("FILE|-"), "where to write the runs (default -, standard output)");
-        add("help", "this text");
+        add("lines", "add the points of paths and drives");
+        add("json", oneValue("FILE|-"), "output file for the runs (default -, standard output)");
+        add("help", "print this text");
         return options;
     }
 
@@ -147,7 +149,7 @@ namespace
         return run;
     }
 
-    /** To a tenth of a millimetre and the like: figures for people and plots. */
+    /** Rounds to a tenth of a millimetre and similar: figures for readers and plots. */
     double rounded(double value)
     {
         return std::round(value * 1e4) / 1e4;
@@ -227,11 +229,15 @@ namespace
         const Options options = readOptions(arguments);
         if (options.help)
         {
-            std::cout << "usage: paper_run SCENARIO... [options]\n\n"
-                         "The paper's run: manoeuvre, A*, one spline through both, and the drive to standstill. Each\n"
-                         "SCENARIO is a YAML file, whose map may be a frame of SurroundOcc. A scenario without a slot\n"
-                         "has no manoeuvre: A* plans to its goal.\n\n"
-                      << describe() << "\nStatus: 0 done, whatever the runs came to; 2 bad input or usage\n";
+            std::cout
+                << "usage: paper_run SCENARIO... [options]\n\n"
+                   "Executes the paper's run: manoeuvre, A*, one spline along both, and the drive to standstill.\n"
+                   "Each SCENARIO is a YAML file, whose map may be a frame of SurroundOcc. Without a slot there is\n"
+                   "no manoeuvre: A* plans to the goal.\n\n"
+                   "Examples, run at the root of the project:\n"
+                   "  paper_run benchmarks/paper/maps/perpendicular.yaml --algorithm improved_astar\n"
+                   "  paper_run benchmarks/scenarios/parallel.yaml --lookup field --disc ahead --json runs.json\n\n"
+                << describe() << "\nStatus: 0 done with any status of the runs; 2 invalid input or usage\n";
             return 0;
         }
         if (options.json != "-")

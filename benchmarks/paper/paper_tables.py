@@ -13,9 +13,9 @@ import picture_style as style  # noqa: E402
 
 ALGORITHMS = ['basic_astar', *(f'experiment_{k}' for k in range(1, 7)), 'improved_astar']
 NAMES = {name: name.replace('_', ' ').capitalize().replace('astar', 'A\\*') for name in ALGORITHMS}
-ERROR = 0.001  # of an interval; of fifty at once that is 5 %
-NEAR = 1.05    # ratios nearer to 1 than by this factor count as equal
-PARKED_DISTANCE, PARKED_ANGLE = 0.25, 5.0  # metres and degrees from the goal within which a car at rest has parked
+ERROR = 0.001  # error probability of an interval; 5 % for fifty intervals together
+NEAR = 1.05    # ratios within this factor of 1 count as equal
+PARKED_DISTANCE, PARKED_ANGLE = 0.25, 5.0  # maximum error of a parked car at rest in metres and degrees
 
 # Runs of paper_run: their arguments. Those in DRIVEN are driven, those in SINGLE run Improved A* only.
 VARIANTS = {
@@ -65,7 +65,7 @@ def shown(value):
 
 
 def median_interval(values):
-    """Of the population's median, by order statistics; None when there are too few values for so small an error."""
+    """Interval of the population's median, by order statistics; None with too few values for the error probability."""
     ordered, count, below = sorted(values), len(values), 0
     best = None
     for k in range(count // 2):
@@ -77,7 +77,7 @@ def median_interval(values):
 
 @dataclasses.dataclass
 class Ratio:
-    """Of two figures, map by map."""
+    """Ratios of two figures, map by map."""
     values: list[float]
 
     @property
@@ -85,7 +85,7 @@ class Ratio:
         return statistics.median(self.values) if self.values else math.nan
 
     def way(self):
-        """more, less or same where that is certain, else empty."""
+        """more, less or same if that is significant, else empty."""
         interval = median_interval(self.values)
         if not interval:
             return ''
@@ -130,7 +130,7 @@ class Results:
         return self.runs[key][algorithm]
 
     def ratio(self, measure, first, second, scenario='perpendicular'):
-        """first, second: an algorithm, or it and a variant."""
+        """first, second: an algorithm, or a pair of algorithm and variant."""
         one, other = (self.of(scenario, *((each,) if isinstance(each, str) else each)) for each in (first, second))
         values = []
         for name, run in one.items():
@@ -141,7 +141,7 @@ class Results:
         return Ratio(values)
 
     def pipeline(self, scenario, name):
-        """This project's pipeline on a map, in the terms of paper_run."""
+        """This project's pipeline on a map, in the format of paper_run."""
         with open(os.path.join(self.folder, 'pipeline', name.replace('.yaml', '.json')), encoding='utf-8') as stream:
             plan = json.load(stream)
         run = {'status': plan['status'], 'length_m': plan['length_m'], 'map_loading_time_ms': plan['map_loading_time_ms'],
@@ -157,7 +157,7 @@ def table(header, rows):
 
 
 def ratio_table(results):
-    """All ratios of the paper's tables beside ours."""
+    """All ratios of the paper's tables, with those of these runs."""
     measures = {'loading': 'map loading', 'planning': 'planning', 'total': 'loading and planning',
                 'acceleration': 'mean acceleration', 'steering': 'mean steering', 'length': 'length', 'travel': 'travel time'}
     pairs = [('perpendicular', name, 'improved_astar') for name in ALGORITHMS[:-1]]
@@ -180,7 +180,7 @@ def ratio_table(results):
     return f'{sum(counts.values())} ratios: {text}.\n\n' + table(['', *measures.values()], rows)
 
 
-# element, file, claim, and how it is checked: (ratio, first, second, scenario, the paper's ratio or bound of it).
+# element, file, claim, and its check: (ratio, first, second, scenario, the paper's ratio or bound).
 SEARCH, GRID = 'ompl_improved_astar/search/', 'ompl_improved_astar/search/models/GridModel.h'
 I, B = 'improved_astar', 'basic_astar'
 CLAIMS = [
@@ -228,7 +228,7 @@ def claim_verdict(ratio, bound):
 
 
 def counted_claims(results, scenarios):
-    """Claims that are checked map by map: element, file, claim, measured, verdict."""
+    """Claims checked map by map: element, file, claim, measured, verdict."""
     def row(element, file, claim, good, count, more=''):
         return [element, file, claim, f'in {good} of {count} maps{more}', 'always' if good == count else 'not always' if good else 'never']
     found, driven, covered, arrivals = [], [], [], []
@@ -246,7 +246,7 @@ def counted_claims(results, scenarios):
     task = 'benchmarks/paper/PaperTask.h'
     return [
         row('manoeuvre: arcs and lines out of the slot', 'parking_geometry/manoeuvres/ReverseParking.h',
-            'a collision-free way into the slot', sum(found), len(found)),
+            'a collision-free path into the slot', sum(found), len(found)),
         row('disc for the car', 'benchmarks/paper/DiscWorld.h', 'sufficient: the body is free along A\\*\'s path', sum(covered),
             len(covered)),
         row('end of A\\* is a position', task, 'the manoeuvre joins', sum(turn < 30.0 for turn in arrivals), len(arrivals),
@@ -305,7 +305,7 @@ def drive_table(results):
 
 
 def choice_table(results):
-    """Nodes and cells where the paper chooses one of several, medians over the perpendicular maps."""
+    """Nodes and cells for alternatives of the paper, medians over the perpendicular maps."""
     rows = []
     for name, words in (('printed', 'Euclidean distance, every cell looked at'), ('octile', 'diagonal distance'),
                         ('manhattan', 'Manhattan distance'), ('field', 'distance field')):

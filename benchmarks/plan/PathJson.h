@@ -6,13 +6,13 @@
 
 namespace parking
 {
-    /** \brief A path as files keep it, exactly: {"start": [x, y, yaw], "pieces": [...]} in metres and radians.
+    /** \brief A path in files, without loss: {"start": [x, y, yaw], "pieces": [...]} in metres and radians.
 
-        A piece is [curvature, length] when it is an arc, [curvature, length, sharpness] when it is a clothoid and
-        [turn] when it is a turn on the spot. */
+        A piece is [curvature, length] for an arc, [curvature, length, sharpness] for a clothoid and [turn] for a turn
+        on the spot. */
     nlohmann::json toJson(const Path &path);
 
-    /** \brief Reads what toJson() has written. Throws parking::Error or an exception of nlohmann's for anything
-        else. */
+    /** \brief Reads the output of toJson(). Throws parking::Error or an exception of nlohmann's library for other
+        input. */
     Path pathFromJson(const nlohmann::json &json);
 }  // namespace parking

@@ -20,28 +20,25 @@ namespace parking
             po::options_description options("Options");
             auto add = options.add_options();
             add("planner", oneValue("NAME"), "planner (default improved_astar)");
-            add("vehicle", oneValue("NAME|FILE"), "car instead of the scenario's: a known name or a YAML file");
-            add("set", manyValues("KEY=VALUE"), "sets a parameter of the planner; may be given several times");
+            add("vehicle", oneValue("NAME|FILE"), "replace the scenario's car: a known name or a YAML file");
+            add("set", manyValues("KEY=VALUE"), "set a parameter of the planner; repeatable");
             add("space", oneValue("NAME"), "reeds_shepp (default), dubins or se2 (default for the grid models)");
             add("footprint", oneValue("NAME"), "rectangle (default) or circle (default for the grid models)");
-            add("circle-radius", oneValue("M"), "metres; default: half of the car's width");
-            add("time-limit", oneValue("S"), "seconds for each run (default 5)");
+            add("circle-radius", oneValue("M"), "radius in metres; default: half of the car's width");
+            add("time-limit", oneValue("S"), "limit in seconds for each run (default 5)");
             add("runs", oneValue("N"),
-                "plan N times with seeds seed, seed + 1, ... "
-                "(default 1); the first run's path is the result");
-            add("seed", oneValue("N"), "of the random numbers (default 1)");
+                "plan N times with seeds seed, seed + 1, ... (default 1); report the path of the first run");
+            add("seed", oneValue("N"), "seed of the random numbers (default 1)");
             add("trajectory", "optimise the path in time: the fastest trajectory near it");
             add("track",
-                "drive it with the model predictive controller: the trajectory, or without --trajectory the path, "
-                "standing "
-                "wherever its curvature jumps");
-            add("json", oneValue("FILE|-"), "write the result, - to standard output");
+                "drive with the model predictive controller: the trajectory, or without --trajectory the path, "
+                "stopping at each jump of its curvature");
+            add("json", oneValue("FILE|-"), "write the result; - for standard output");
             add("svg", oneValue("FILE"), "draw the result");
-            add("csv", oneValue("FILE"),
-                "with --trajectory: write it as a table, t,x,y,yaw,v,a,steering,steering_rate");
-            add("html", oneValue("FILE"), "with --track: a page that shows the drive");
+            add("csv", oneValue("FILE"), "with --trajectory: write it as a table t,x,y,yaw,v,a,steering,steering_rate");
+            add("html", oneValue("FILE"), "with --track: write a page that shows the drive");
             add("plugin", manyValues("LIB.so"), "load planners from a library");
-            add("help", "this text");
+            add("help", "print this text");
             return options;
         }
     }  // namespace
@@ -73,7 +70,7 @@ namespace parking
         result.plugins = line.texts("plugin");
         result.help = line.given("help");
         if (result.help)
-            return result;  // with the plug-ins, whose planners it names
+            return result;  // with the plug-ins, whose planners --help lists
         if (!line.given("scenario"))
             throw Error("no scenario given (see --help)");
         result.scenario = *line.text("scenario");
@@ -96,9 +93,9 @@ namespace parking
         result.html = line.outputFile("html").value_or("");
         result.csv = line.outputFile("csv").value_or("");
         if (line.given("csv") && !result.trajectory)
-            throw Error("--csv writes the trajectory and needs --trajectory");
+            throw Error("--csv writes the trajectory: it requires --trajectory");
         if (line.given("html") && !result.track)
-            throw Error("--html shows the drive and needs --track");
+            throw Error("--html shows the drive: it requires --track");
         return result;
     }
 
@@ -106,8 +103,11 @@ namespace parking
     {
         std::ostringstream text;
         text << "usage: parking_plan SCENARIO [options]\n\n"
-                "Plans one parking problem. SCENARIO is a YAML scenario or a TPCAP case (docs/scenarios.md);\n"
-                "parking_convert makes scenarios of other formats (docs/scenarios.md).\n\n"
+                "Plans a parking path in a YAML scenario or a TPCAP case, checks it again and reports it.\n"
+                "parking_convert converts scenarios of other formats (docs/scenarios.md).\n\n"
+                "Examples, run at the root of the project:\n"
+                "  parking_plan benchmarks/scenarios/narrow_parallel.yaml --svg path.svg\n"
+                "  parking_plan benchmarks/scenarios/parallel.yaml --trajectory --track --html drive.html\n\n"
              << describe() << "\nPlanners:\n";
         for (const PlannerEntry &each : registry.entries())
             text << "  " << each.name << std::string(each.name.size() < 20 ? 22 - each.name.size() : 2, ' ')
@@ -115,8 +115,9 @@ namespace parking
         text << "\nVehicles:";
         for (const std::string &each : vehicleNames())
             text << ' ' << each;
-        text << "\n\nStatus: 0 exact solution, 3 only an approximate one, 4 none found, or nothing to write with\n"
-                "--csv or --html, 2 bad input or usage\n";
+        text << "\n\n"
+                "Status: 0 exact solution, 3 approximate solution only, 4 no solution, or no content for\n"
+                "--csv or --html, 2 invalid input or usage\n";
         return text.str();
     }
 }  // namespace parking

@@ -13,33 +13,32 @@ namespace parking
     /** \brief The command line of parking_plan. */
     struct PlanOptions
     {
-        bool help{false};                        ///< print the text of --help; all else but plugins is left out then
+        bool help{false};                        ///< print the text of --help; only plugins is read, too
         std::string scenario;                    ///< file
-        std::string planner{"improved_astar"};   ///< a name of the registry, or of a plug-in's planner
+        std::string planner{"improved_astar"};   ///< name of a planner in the registry or in a plug-in
         std::string vehicle;                     ///< name or file; empty: the scenario's
         PlannerSettings settings;                ///< parameters of the planner
-        std::optional<SpaceKind> space;          ///< without it: what the planner asks for
-        std::optional<FootprintKind> footprint;  ///< likewise
-        double circleRadius{0.0};                ///< metres; 0: half of the car's width
-        double timeLimit{5.0};                   ///< seconds for each run
-        std::size_t runs{1};                     ///< how often to plan; the first run's path is the result
-        std::uint_fast32_t seed{1};        ///< of the first run's random numbers; every further run has the next one
-        bool trajectory{false};            ///< optimise the path in time
-        bool track{false};                 ///< drive the trajectory, or without one the path
-        std::string json;                  ///< file, "-" for standard output, empty for none
-        std::string svg;                   ///< file, empty for none
-        std::string csv;                   ///< with trajectory only
-        std::string html;                  ///< with track only
-        std::vector<std::string> plugins;  ///< libraries with planners, to be loaded
+        std::optional<SpaceKind> space;          ///< state space; default: the planner's preference
+        std::optional<FootprintKind> footprint;  ///< footprint; default: the planner's preference
+        double circleRadius{0.0};                ///< radius in metres; 0: half of the car's width
+        double timeLimit{5.0};                   ///< limit of each run in seconds
+        std::size_t runs{1};                     ///< number of runs; the first run's path is the result
+        std::uint_fast32_t seed{1};              ///< seed of the first run; each further run has the next number
+        bool trajectory{false};                  ///< whether to optimise the path in time
+        bool track{false};                       ///< whether to drive the trajectory, or the path without one
+        std::string json;                        ///< JSON file; "-": standard output, empty: none
+        std::string svg;                         ///< picture; empty: none
+        std::string csv;                         ///< table of the trajectory, with `trajectory` only; empty: none
+        std::string html;                        ///< page of the drive, with `track` only; empty: none
+        std::vector<std::string> plugins;        ///< libraries whose planners are loaded
 
-        /** \brief The files to write. */
+        /** \brief All files that the options write. */
         std::vector<std::string> outputFiles() const;
-        /** \brief The files to read, as far as the command line names them. */
+        /** \brief All files that the options read. */
         std::vector<std::string> inputFiles() const;
     };
 
-    /** \brief Reads a command line (without the program's name). Throws parking::Error with one line saying what is
-        wrong. */
+    /** \brief Reads a command line without the program's name. Throws parking::Error with a one-line reason. */
     PlanOptions readPlanOptions(const std::vector<std::string> &arguments);
 
     /** \brief The text of --help. */

@@ -24,7 +24,7 @@ namespace parking
         constexpr double TRAJECTORY_STEP = 0.05;  // seconds between samples
         constexpr double DEGREES = 180.0 / PI;    // in a radian
 
-        /** Are the wheels ever turned? */
+        /** Whether the car steers at any time. */
         bool steers(const TimedMotion &motion)
         {
             return std::any_of(motion.knots.begin(), motion.knots.end(),
@@ -64,7 +64,7 @@ namespace parking
             return states;
         }
 
-        /** JSON knows no infinity: what is not finite is null. */
+        /** JSON has no infinity: values that are not finite become null. */
         json number(double value)
         {
             return std::isfinite(value) ? json(value) : json(nullptr);
@@ -98,7 +98,7 @@ namespace parking
                     {"collisions", figures.collisions}};
         }
 
-        /** "1.20 m, 2 changes of direction, least clearance 0.123 m" */
+        /** Text such as "1.20 m, 2 changes of direction, least clearance 0.123 m". */
         std::string pathText(const PlannedPath &path)
         {
             return formatNumber(path.length, 2) + " m, " + counted(path.cusps, "change") +
@@ -148,7 +148,7 @@ namespace parking
                                                  {"gear_changes", cost.gearChanges}}}};
         }
 
-        /** What a planner says of a path that the referee does not accept is worth nothing. */
+        /** Figures of a path that the referee rejects are meaningless. */
         std::string statusOf(const PlanRun &run)
         {
             return run.path && !run.hasValidPath() ? "invalid_path" : toString(run.status);
@@ -165,7 +165,7 @@ namespace parking
             return each;
         }
 
-        /** The optimizer's messages begin with what they are about, which is said anyway where they are shown. */
+        /** Removes the subject that starts the optimizer's messages: the output shows it already. */
         std::string withoutSubject(const std::string &message)
         {
             const std::string subject = "trajectory: ";
@@ -400,7 +400,7 @@ namespace parking
             return;
         if (!result.trajectoryError.empty())
         {
-            // Along the path would be another drive than was asked for, and often one that no car can drive.
+            // The path instead would be another drive than requested, and often one that no car can drive.
             result.driveError = "there is no trajectory to drive: " + result.trajectoryError;
             return;
         }

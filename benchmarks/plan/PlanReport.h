@@ -13,19 +13,19 @@
 
 namespace parking
 {
-    /** \brief All that parking_plan has found out. */
+    /** \brief All results of parking_plan. */
     struct PlanReport
     {
         std::string planner;               ///< name in the registry
-        nlohmann::json parameters;         ///< all of the planner's, see parametersJson()
-        std::vector<PlanRun> runs;         ///< at least one; the first one's path is the result
-        std::optional<DriveResult> drive;  ///< with PlanOptions::track, unless driveError says why not
-        std::string driveError;            ///< why the path cannot be driven; empty otherwise
-        /** With PlanOptions::trajectory, unless trajectoryError says why not. */
+        nlohmann::json parameters;         ///< all parameters of the planner, see parametersJson()
+        std::vector<PlanRun> runs;         ///< at least one run; the path of the first is the result
+        std::optional<DriveResult> drive;  ///< the drive, with PlanOptions::track unless driveError is set
+        std::string driveError;            ///< reason why the path cannot be driven; otherwise empty
+        /** The trajectory, with PlanOptions::trajectory unless trajectoryError is set. */
         std::optional<QuickestTrajectory> trajectory;
-        Trajectory samples;           ///< of the trajectory; empty if there is none
-        std::string trajectoryError;  ///< why there is no trajectory; empty otherwise
-        double trajectoryTime{0.0};   ///< seconds of processor time
+        Trajectory samples;           ///< samples of the trajectory; empty without one
+        std::string trajectoryError;  ///< reason why there is no trajectory; otherwise empty
+        double trajectoryTime{0.0};   ///< processor time of the optimisation in seconds
 
         /** \brief The run whose path is the result. */
         const PlanRun &first() const
@@ -34,40 +34,44 @@ namespace parking
         }
     };
 
-    /** \brief All parameters of a planner, with numbers and switches as such. */
+    /** \brief All parameters of a planner, with numbers and switches in JSON's types. */
     nlohmann::json parametersJson(const ompl::base::Planner &planner);
 
-    /** \brief What parking_plan exits with: 0 for an exact solution, 3 for only an approximate one, 4 for none that the
-        referee accepts, and where not all files could be written that were asked for. */
+    /** \brief Exit status of parking_plan.
+
+        0 for an exact solution, 3 for an approximate one, 4 when the referee accepts no path or a requested file could
+        not be written. */
     int exitStatus(const PlanRun &run, bool isAllWritten = true);
 
-    /** \brief For each file that was asked for and that there is nothing to write into, although a path was found: its
-        name, and why. */
+    /** \brief Requested files that have no content although a path was found, each with the reason. */
     std::vector<std::string> missingFiles(const PlanOptions &options, const PlanReport &result);
 
     /** \brief The result in the format that docs/benchmark-reference.md describes. */
     nlohmann::json resultJson(const Problem &problem, const PlanOptions &options, const PlanReport &result);
 
-    /** \brief The result for a reader in a hurry: a few lines. */
+    /** \brief A summary of the result in a few lines. */
     std::string resultSummary(const Problem &problem, const PlanReport &result);
 
-    /** \brief Map, curvature of the path, and with a trajectory or a drive speed, acceleration and steering angle. The
-        car is drawn along its drive, without one along the trajectory, without that along the path. */
+    /** \brief Picture of the map and of the path's curvature; with a trajectory or drive also speed, acceleration and
+        steering angle.
+
+        The car is drawn along the drive, else along the trajectory, else along the path. */
     std::string resultSvg(const Problem &problem, const PlanReport &result);
 
-    /** \brief Optimises the path of the first run in time. What cannot be driven is told in the result.
+    /** \brief Optimises the path of the first run in time. The result stores the reason of a failure.
 
-        \param isDriven a controller will drive it: then it keeps what nominal errors of tracking come to (2 cm), where
-        the path keeps twice that, and else half of what the path keeps */
+        \param isDriven whether a controller will drive it. Its margin is then the nominal tracking error (2 cm) if the
+        path keeps twice that, and else half of the path's clearance */
     void addTrajectory(const Problem &problem, PlanReport &result, bool isDriven);
 
     /** \brief The optimised trajectory as a table, in the coordinates of the scenario's file. */
     std::string resultCsv(const Problem &problem, const PlanReport &result);
 
-    /** \brief Drives the trajectory of the first run in closed loop, or its path when none was asked for. What cannot
-        be driven is told in the result; so is a trajectory that there should be and is not. */
+    /** \brief Drives the trajectory of the first run in closed loop, or its path when no trajectory was requested.
+
+        The result stores the reason of a failure, such as a missing trajectory. */
     void addDrive(const Problem &problem, PlanReport &result);
 
-    /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error when there is none. */
+    /** \brief A page that shows the drive (see driveAnimation()). Throws parking::Error without a drive. */
     std::string resultHtml(const Problem &problem, const PlanReport &result);
 }  // namespace parking

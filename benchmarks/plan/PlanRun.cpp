@@ -17,7 +17,7 @@ namespace parking
     {
         constexpr double NO_LENGTH = 1e-6;  // metres; AIT* of OMPL 1.5 returns such paths as approximate solutions
 
-        /** What it means that nothing was found: what improved A* says itself; of others, whether they were stopped. */
+        /** The reason for a missing path: improved A* reports its own; of other planners, whether they were stopped. */
         PlanStatus withoutSolution(const PreparedPlanner &prepared)
         {
             const auto *improved = prepared.improved();
@@ -108,7 +108,7 @@ namespace parking
         const bool exact = run.status == PlanStatus::Exact;
         if (!exact && improved != nullptr)
             run.reason = improved->reason();
-        // A planner that comes near to a goal where the car cannot stand knows that it cannot, and not why.
+        // A planner that approaches a goal in collision reports that it cannot reach it, but not why.
         if (const std::string why = run.status == PlanStatus::Approximate ? problem.whyUnsolvable() : ""; !why.empty())
             run.reason += (run.reason.empty() ? "" : ": ") + why;
         if (exact && improved != nullptr && isAtWeightOne(improved->parameters()))

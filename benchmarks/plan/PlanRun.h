@@ -12,47 +12,47 @@
 
 namespace parking
 {
-    /** \brief What a planner did in one run, whatever it is. */
+    /** \brief Effort of a planner in one run. */
     struct SearchFigures
     {
         std::uint64_t expanded{0};     ///< nodes expanded; for OMPL's planners, vertices of their graph
-        std::uint64_t generated{0};    ///< motions tried; for OMPL's planners, edges of their graph
+        std::uint64_t generated{0};    ///< motions attempted; for OMPL's planners, edges of their graph
         std::uint64_t stateChecks{0};  ///< poses checked, those along motions included
-        std::uint64_t exactChecks{0};  ///< of those, decided by FCL
+        std::uint64_t exactChecks{0};  ///< poses decided by FCL, contained in stateChecks
         std::optional<std::uint64_t> openListOperations;   ///< entries pushed and popped; of improved A* only
-        std::optional<std::uint64_t> openListComparisons;  ///< of entries with each other; of improved A* only
+        std::optional<std::uint64_t> openListComparisons;  ///< comparisons of entries; of improved A* only
     };
 
     /** \brief One run of a planner. */
     struct PlanRun
     {
-        PlanStatus status{PlanStatus::Timeout};  ///< what the planner says; isSolved() is what is true
-        std::string reason;             ///< one line on why there is no exact solution, from planners that tell
-        double planningTime{0.0};       ///< seconds of wall clock, map loading not included
-        double cpuTime{0.0};            ///< seconds of processor time of all threads, map loading included
-        double firstSolutionTime{0.0};  ///< seconds; only with an exact solution
-        double mapLoadingTime{0.0};     ///< seconds that the planner itself spent on finding out which cells are free
-        SearchFigures search;           ///< what the search took
-        /** Cost of the solution over a lower bound of it in the discretised problem: of the improved A* with both
-            heuristic weights at 1; infinite otherwise. */
+        PlanStatus status{PlanStatus::Timeout};  ///< status reported by the planner; isSolved() is the checked result
+        std::string reason;             ///< one line on why there is no exact solution, from planners that report it
+        double planningTime{0.0};       ///< wall-clock time in seconds, without map loading
+        double cpuTime{0.0};            ///< processor time of all threads in seconds, with map loading
+        double firstSolutionTime{0.0};  ///< time of the first solution in seconds; only with an exact solution
+        double mapLoadingTime{0.0};     ///< time in seconds in which the planner computed which cells are free
+        SearchFigures search;           ///< effort of the search
+        /** Upper bound of the solution's cost relative to the optimum of the discretised problem. Only improved A* with
+            both heuristic weights at 1 reports it; otherwise infinite. */
         double suboptimalityBound{std::numeric_limits<double>::infinity()};
         std::optional<PlannedPath> path;  ///< with an exact or approximate solution
-        double goalDistance{0.0};         ///< metres that the path ends from the nearest goal
+        double goalDistance{0.0};         ///< distance in metres from the end of the path to the nearest goal
 
-        /** \brief Is there a path that the referee accepts? Planners may be wrong about theirs. */
+        /** \brief Whether the referee accepts the path. Planners may report invalid paths as solutions. */
         bool hasValidPath() const
         {
             return path && path->recheck.valid;
         }
 
-        /** \brief An exact solution that the referee accepts. */
+        /** \brief Whether there is an exact solution that the referee accepts. */
         bool isSolved() const
         {
             return status == PlanStatus::Exact && hasValidPath();
         }
     };
 
-    /** \brief Status, figures and path of a planner that has just been run. */
+    /** \brief Status, figures and path of a planner after solve(). */
     PlanRun evaluateRun(const Problem &problem, const PreparedPlanner &prepared, ompl::base::PlannerStatus status);
 
     /** \brief Runs a new instance of a planner once, from seed \e seed.

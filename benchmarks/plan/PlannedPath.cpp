@@ -17,9 +17,9 @@ namespace parking
     namespace
     {
         constexpr double MOST_ASKEW = 0.03;     // radians between mean heading and direction of travel on smooth curves
-        constexpr double ROUNDING_TURN = 1e-9;  // radians; anything less is rounding of headings
-        constexpr double SHORTEST_PIECE = 1e-7;  // metres; anything shorter is rounding of a curve's formula
-        constexpr double SAME = 1e-6;            // metres and radians between a pose and the goal that it is
+        constexpr double ROUNDING_TURN = 1e-9;  // radians; a smaller difference is rounding of headings
+        constexpr double SHORTEST_PIECE = 1e-7;  // metres; a shorter piece is rounding of a curve's formula
+        constexpr double SAME = 1e-6;            // metres and radians between a pose and the goal that it equals
 
         std::vector<const ompl::base::State *> statesOf(const og::PathGeometric &path)
         {
@@ -45,8 +45,8 @@ namespace parking
             return arcs;
         }
 
-        /** The two arcs in the place of a straight line along which the heading turns, if the car can drive them and
-            they keep to the line as well as arcs can. */
+        /** The two arcs that replace a straight line with a turning heading. Returned only if the car can drive them
+            and they approximate the line as well as arcs can. */
         std::optional<Path> gentleTurn(const Pose &from, const Pose &to, double askew, int direction,
                                        const Vehicle &vehicle)
         {
@@ -60,7 +60,7 @@ namespace parking
             return arcs;
         }
 
-        /** The motions of a plain SE2 space as a car could make them. */
+        /** The motions of a plain SE2 space as arcs and turns of a car. */
         Path linePath(const og::PathGeometric &path, const Vehicle &vehicle)
         {
             const std::vector<const ompl::base::State *> states = statesOf(path);
@@ -134,7 +134,7 @@ namespace parking
         }
         const bool straight = problem.curveSpace().kind() == SpaceKind::SE2;
         result.path = straight ? linePath(path, scenario.vehicle) : curvePath(problem, path);
-        // Before start and end are rounded to what was asked for.
+        // Before start and end are rounded to the requested poses.
         result.recheck = straight ? referee.checkLines(poses, exact) : referee.check(result.path, exact);
         result.path.start = {scenario.start.x, scenario.start.y, wrapAngle(scenario.start.yaw)};
         result.end = result.path.end();
@@ -143,7 +143,7 @@ namespace parking
                 if (isSamePose(goal, result.end, SAME))
                     result.end = {goal.x, goal.y, wrapAngle(goal.yaw)};
         result.cusps = result.path.cusps();
-        // What the planner means, which on a plain SE2 space is not what a car does.
+        // Interpolation of the planner, which on a plain SE2 space is not a motion of a car.
         if (straight)
         {
             for (std::size_t i = 1; i < poses.size(); ++i)

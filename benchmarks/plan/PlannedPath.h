@@ -10,43 +10,43 @@
 
 namespace parking
 {
-    /** \brief A planner's path as a car may drive it, with what was measured along it. Local coordinates of the
-        scenario. */
+    /** \brief A planner's path as a car may drive it, with its measurements, in local coordinates of the scenario. */
     struct PlannedPath
     {
-        Path path;              ///< from the scenario's start; see readPath()
-        Pose end;               ///< of the path; the goal itself when the solution is exact
+        Path path;              ///< path from the scenario's start; see readPath()
+        Pose end;               ///< end of the path; exactly the goal when the solution is exact
         double length{0.0};     ///< metres
         std::size_t cusps{0};   ///< changes of direction
-        double clearance{0.0};  ///< metres between body (or disc) and obstacles, the least; 0 in collision
-        Verdict recheck;        ///< by code of its own, on what the planner returned
+        double clearance{0.0};  ///< minimum distance in metres between body (or disc) and obstacles; 0 in collision
+        Verdict recheck;        ///< result of the referee for the states that the planner returned
 
-        /** \brief States of the path no more than samplingOf(path.length(), recheck.valid) apart, the last one at \e
-         * end. */
+        /** \brief States of the path at most samplingOf(path.length(), recheck.valid) apart; the last one is \e end. */
         SampledPath states() const;
 
         static constexpr double SAMPLING = 0.1;  ///< metres between states, see samplingOf()
     };
 
-    /** \brief How far the states of a path may lie apart, in metres: PlannedPath::SAMPLING; more along one that is very
-       long and not valid. What a plug-in calls a path may be a million metres, of which nobody needs every one. */
+    /** \brief Maximum distance in metres between states of a path: PlannedPath::SAMPLING, or more on long invalid
+       paths.
+
+       A plug-in may return a path of a million metres, for which such detail has no use. */
     double samplingOf(double length, bool valid);
 
     /** \brief Reads and measures a solution of \e problem.
 
-        In a Reeds-Shepp or Dubins space the arcs are those that the space interpolates along; pieces shorter than a
+        In a Reeds-Shepp or Dubins space the arcs are those that the space interpolates along. Pieces shorter than a
         tenth of a micrometre are rounding and left out.
 
-        In a plain SE2 space the planner means straight lines along which the heading turns evenly, whatever the
-        direction of travel. That is what length, clearance and the recheck are about. No car moves like that, so the
-        path is as near to it as the model of a car allows: where the heading keeps to the direction of travel, as on
-        somebody's smooth curve, a motion becomes the two arcs that join its ends exactly; any other becomes a turn on
-        the spot to the direction of the line, the line, and a turn to the heading at its end. For the paper's grid
-        paths, whose headings are those of their lines, this is exactly what was planned.
+        In a plain SE2 space a motion is a straight line along which the heading turns evenly, in any direction of
+        travel. Length, clearance and the recheck refer to these lines. No car moves like that, so the path approximates
+        them by the car model. Where the heading follows the direction of travel, as on smooth curves, a motion becomes
+        the two arcs that join its ends exactly. Any other motion becomes a turn to the direction of the line, the line,
+        and a turn to its final heading. For the paper's grid paths, whose headings are those of their lines, this is
+        exactly the planned path.
 
-        A path whose states are no places in the world (not finite, say) is not read any further than that.
+        A path is read up to its first state outside of the world, for example one that is not finite.
 
-        \param exact the planner says that the path ends at a goal; where it does, but for rounding, the end is set to
-        that goal */
+        \param exact whether the planner reports that the path ends at a goal. If it does up to rounding, the end is set
+        to that goal */
     PlannedPath readPath(const Problem &problem, const ompl::geometric::PathGeometric &path, bool exact);
 }  // namespace parking

@@ -31,7 +31,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double CHECK_SPACING = 0.05;  // metres between states that OMPL's own tools look at
+        constexpr double CHECK_SPACING = 0.05;  // metres between states that OMPL's own tools check
 
         std::shared_ptr<ob::SE2StateSpace> makeSpace(const Scenario &scenario, SpaceKind kind)
         {
@@ -49,17 +49,17 @@ namespace parking
 
         constexpr const char *TURNING_RADIUS = "turning_radius";
 
-        /** Throws SettingError for a turning radius that this project's planner would not look at. */
+        /** Throws SettingError for a turning radius below the car's, which this project's planner would ignore. */
         void requireUsedRadius(const std::string &planner, const PlannerSettings &settings, const Problem &problem)
         {
             const double ofCar = problem.scenario().vehicle.minTurningRadius();
             for (const auto &[name, value] : settings)
             {
-                // The car's own, as results tell it, may be given.
+                // The car's own radius, as printed in results, is allowed.
                 double radius = 0.0;
                 if (name == TURNING_RADIUS && parseNumber(value, radius) && std::abs(radius - ofCar) > 1e-4 * ofCar)
                     throw SettingError({name}, "parameter turning_radius of " + planner +
-                                                   " counts in space se2 only: in space " +
+                                                   " requires space se2: in space " +
                                                    toString(problem.settings().space) + " the car turns within " +
                                                    formatNumber(ofCar, 3) +
                                                    " m, by the wheelbase and max_steering_angle of its vehicle");
@@ -123,11 +123,11 @@ namespace parking
     {
         if (!(std::isfinite(settings.circleRadius) && settings.circleRadius >= 0.0))
             throw Error(
-                "the radius of the circle must be a positive number of metres, or 0 for half of the car's width, "
-                "not " +
+                "the radius of the circle must be a positive number of metres, or 0 for half of the car's "
+                "width, not " +
                 formatNumber(settings.circleRadius));
         if (settings.footprint == FootprintKind::Circle && settings.space != SpaceKind::SE2)
-            throw Error("footprint circle goes with space se2 only, not with " + toString(settings.space) +
+            throw Error("footprint circle requires space se2, not " + toString(settings.space) +
                         ": a disc has no heading that a curve could turn");
     }
 
@@ -172,7 +172,7 @@ namespace parking
         return settings_.circleRadius > 0.0 ? settings_.circleRadius : 0.5 * scenario_.vehicle.width;
     }
 
-    /** What is wrong with a pose, as the end of a sentence; nothing when it is free. */
+    /** The fault of a pose, as the end of a sentence; empty when it is free. */
     std::string Problem::troubleAt(const Pose &pose) const
     {
         ob::ScopedState<> state(si_);
@@ -192,7 +192,7 @@ namespace parking
             if ((point.array() < world.min.array()).any() || (point.array() > world.max.array()).any())
                 return std::string("is outside of the ") + (scenario_.grid ? "map" : "world") +
                        ", in whole or in part,";
-        return si_->satisfiesBounds(state.get()) ? "is in collision" : "is outside of the volume that is planned in";
+        return si_->satisfiesBounds(state.get()) ? "is in collision" : "is outside of the planning volume";
     }
 
     std::string Problem::whyUnsolvable() const
@@ -247,7 +247,8 @@ namespace parking
             prepared.setup->setOptimizationObjective(objective);
         }
         else
-            // Who improves a path without an objective of ours says when (improved_astar with `anytime`).
+            // A planner that improves paths without this objective defines itself when to stop (improved_astar with
+            // `anytime`).
             prepared.problem()->setIntermediateSolutionCallback(
                 [record = prepared.planner->record()](const ob::Planner *, const std::vector<const ob::State *> &,
                                                       ob::Cost cost) { record->note(cost.value()); });

@@ -23,23 +23,23 @@ namespace ompl::geometric
 
 namespace parking
 {
-    /** \brief What is asked to be free of obstacles. */
+    /** \brief Shape that must stay free of obstacles. */
     enum class FootprintKind
     {
         Rectangle,  ///< the car's body
-        Circle      ///< a disc round the rear axle, whatever the heading: the paper's approximation
+        Circle      ///< a disc round the rear axle at any heading: the paper's approximation
     };
 
-    /** \brief In which terms a scenario is put to a planner. */
+    /** \brief State space and footprint in which a planner solves a scenario. */
     struct ProblemSettings
     {
-        SpaceKind space{SpaceKind::ReedsShepp};             ///< by which states are joined
-        FootprintKind footprint{FootprintKind::Rectangle};  ///< what is to stay free of obstacles
-        double circleRadius{0.0};                           ///< metres; 0: half of the car's width
-        double threshold{0.0};  ///< metres; optimising planners stop at a path that is shorter
+        SpaceKind space{SpaceKind::ReedsShepp};             ///< curves that join states
+        FootprintKind footprint{FootprintKind::Rectangle};  ///< shape that must stay free of obstacles
+        double circleRadius{0.0};                           ///< radius in metres; 0: half of the car's width
+        double threshold{0.0};                              ///< metres; optimising planners stop at a shorter path
     };
 
-    /** \brief Names as in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle. The readers throw
+    /** \brief Names in files and on command lines: reeds_shepp, dubins, se2; rectangle, circle. The readers throw
         parking::Error listing the known names for any other. @{ */
     std::string toString(SpaceKind space);
     std::string toString(FootprintKind footprint);           ///< rectangle or circle
@@ -47,35 +47,35 @@ namespace parking
     FootprintKind footprintByName(const std::string &name);  ///< of rectangle or circle
     /** @} */
 
-    /** \brief Throws parking::Error for a radius that is none, and for a circle in a space of curves. */
+    /** \brief Throws parking::Error for a radius that is not positive, and for a circle in a space of curves. */
     void checkSettings(const ProblemSettings &settings);
 
-    /** \brief A planner ready to solve a problem, with everything that it changes being its own. */
+    /** \brief A planner ready to solve a problem, with its own instances of everything that it changes. */
     struct PreparedPlanner
     {
-        std::shared_ptr<ompl::geometric::SimpleSetup> setup;  ///< with a problem definition of its own
-        std::shared_ptr<MeasuredPlanner> planner;             ///< set up, with its settings
+        std::shared_ptr<ompl::geometric::SimpleSetup> setup;  ///< the planner's own problem definition
+        std::shared_ptr<MeasuredPlanner> planner;             ///< the planner, set up with its settings
 
-        /** \brief The planner that is measured, if it is the one of this project; otherwise null. */
+        /** \brief The measured planner, if it is this project's; otherwise null. */
         ompl::geometric::ImprovedAStar *improved() const;
 
-        /** \brief Where the planner leaves its solutions. */
+        /** \brief The definition in which the planner stores its solutions. */
         const ompl::base::ProblemDefinitionPtr &problem() const
         {
             return setup->getProblemDefinition();
         }
     };
 
-    /** \brief A scenario as OMPL's planners see it: space, bounds, validity and motion checks.
+    /** \brief A scenario for OMPL's planners: space, bounds, validity and motion checks.
 
-        Rectangles are checked by FclFootprintChecker and SweptMotionValidator, discs by CircleValidityChecker. States
-        are in the scenario's local coordinates. */
+        FclFootprintChecker and SweptMotionValidator check rectangles, CircleValidityChecker checks discs. States are in
+        the scenario's local coordinates. */
     class Problem
     {
     public:
-        /** \brief Builds obstacles and distance field, and measures that.
+        /** \brief Builds obstacles and distance field, and measures the time.
 
-            Throws parking::Error for settings that are out of range and for a car that does not fit into the world. */
+            Throws parking::Error for settings out of range and for a car that does not fit into the world. */
         Problem(Scenario scenario, const ProblemSettings &settings);
 
         /** \brief The scenario as given. */
@@ -93,7 +93,7 @@ namespace parking
         /** \brief Radius of the disc in metres; 0 for a rectangle. */
         double circleRadius() const;
 
-        /** \brief Are the space's motions ones that the car can drive? */
+        /** \brief Whether the car can drive the space's motions. */
         bool isDrivable() const
         {
             return settings_.space != SpaceKind::SE2;
@@ -111,46 +111,50 @@ namespace parking
             return *curveSpace_;
         }
 
-        /** \brief The checker of the car's rectangle; also there when planning is done for a disc. */
+        /** \brief The checker of the car's rectangle; also available when the footprint is a disc. */
         const FootprintChecker &footprint() const
         {
             return *footprint_;
         }
 
-        /** \brief Who has the last word on paths, for the car or the disc. */
+        /** \brief The independent checker that decides whether a path is valid, for the car or the disc. */
         const Referee &referee() const
         {
             return *referee_;
         }
 
-        /** \brief What drives planned paths with the scenario's car among its obstacles, collisions checked: the same
-            drive follows wherever a path is driven. */
+        /** \brief Drives paths with the scenario's car among its obstacles and checks collisions.
+
+            parking_plan and parking_benchmark use it, so that equal paths give equal drives. */
         ClosedLoop closedLoop() const;
 
-        /** \brief Seconds that obstacles and distance field took to build. */
+        /** \brief Time in seconds to build obstacles and distance field. */
         double loadingTime() const
         {
             return loadingTime_;
         }
 
-        /** \brief Why there can be no exact solution: a start or goal in collision or outside, and where it is; empty
-            when both are free (of the goals: at least one). */
+        /** \brief The reason why an exact solution cannot exist: start or all goals in collision or outside, with the
+            place.
+
+            Empty when the start and at least one goal are free. */
         std::string whyUnsolvable() const;
 
         /** \brief A new instance of a planner with a problem definition and a goal of its own.
 
-            A problem definition is not shared: RRTstar::setup() stores an objective there, with which another planner
-            would use up all of its time. The parameter `turning_radius`, where a planner has it, is set to the car's
-            unless \e settings do; then the entry's and the user's settings are applied and the planner is set up.
+            Problem definitions are not shared: RRTstar::setup() stores an objective there, with which another planner
+            would use up its time limit. The parameter `turning_radius` of planners that have it is set to the car's
+            unless \e settings contain it. Then the settings of the entry and of the user are applied and the planner is
+            set up.
 
             Throws parking::Error for settings that are unknown, out of range or without effect in the space, and for a
-            planner that refuses the space. */
+            planner that does not support the space. */
         PreparedPlanner prepare(const PlannerEntry &entry, const PlannerSettings &settings) const;
 
-        /** \brief States and motions' poses checked since the last call of resetCounts(). */
+        /** \brief States checked since the last call of resetCounts(), poses along motions included. */
         CheckCounts checkCounts() const;
 
-        /** \brief Begins to count anew. */
+        /** \brief Resets the count of checked states. */
         void resetCounts() const;
 
     private:
@@ -166,13 +170,15 @@ namespace parking
         double loadingTime_{0.0};
     };
 
-    /** \brief The settings that a planner asks for: plain SE2 space and circle for the grid models of improved A*,
-        which refuse a space of curves; otherwise the defaults. Throws what applySettings throws. */
+    /** \brief The settings that a planner requires, or the defaults.
+
+        The grid models of improved A* require plain SE2 space and a circle, and reject spaces of curves.
+        Throws the exceptions of applySettings(). */
     ProblemSettings suitableSettings(const PlannerEntry &entry, const PlannerSettings &settings);
 
-    /** \brief Makes all planners and samplers made from now on repeat what they did after the same call before.
+    /** \brief Seeds the random numbers of all planners and samplers created from now on.
 
-        OMPL seeds every generator from one global one. It complains when that is done more than once in a process,
-        since generators that exist already are not affected; here everything random is made anew for each run. */
+        OMPL seeds every generator from a global one. It warns about further calls in one process, since existing
+        generators are not affected; here every run creates new ones. */
     void seedRandomNumbers(std::uint_fast32_t seed);
 }  // namespace parking

@@ -1,4 +1,4 @@
-// parking_plan: plans one scenario. docs/benchmark-reference.md says how.
+// parking_plan: plans one scenario. See docs/benchmark-reference.md.
 
 #include "benchmarks/plan/PlanOptions.h"
 #include "benchmarks/plan/PlanReport.h"
@@ -37,8 +37,7 @@ namespace
         settings.space = options.space.value_or(settings.space);
         settings.footprint = options.footprint.value_or(settings.footprint);
         if (options.circleRadius > 0.0 && settings.footprint != FootprintKind::Circle)
-            throw Error(
-                "--circle-radius is the circle's, and the footprint is a rectangle; give --footprint circle, too");
+            throw Error("--circle-radius requires --footprint circle; the footprint is a rectangle");
         settings.circleRadius = options.circleRadius;
         requireOutputs(options.outputFiles(), options.inputFiles());
 
@@ -104,7 +103,7 @@ namespace
 
 int main(int argc, char **argv)
 {
-    // What planners have to tell is in their results.
+    // The results contain all messages of planners.
     ompl::msg::noOutputHandler();
     return parking::runProgram("parking_plan", argc, argv, plan);
 }

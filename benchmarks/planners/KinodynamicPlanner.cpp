@@ -26,7 +26,7 @@ namespace parking
         constexpr unsigned LONGEST_CONTROL = 10;  // steps
         constexpr unsigned CURVATURE = 0, DIRECTION = 1;
 
-        /** Of curvature -1, 0 and 1 times the largest, and direction -1 and 1. */
+        /** Curvature -1, 0 and 1 times the maximum, and direction -1 and 1. */
         class BangBang : public oc::ControlSampler
         {
         public:
@@ -42,7 +42,8 @@ namespace parking
             }
         };
 
-        /** Reached by whoever can drive on to one of its states along the space's own curve. */
+        /** A goal region that contains every state from which the space's own curve to a goal is free and short
+            enough. */
         class WithinReach : public ob::GoalStates
         {
         public:
@@ -114,7 +115,7 @@ namespace parking
         if (!goal->hasStates())
             return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
         problem->setGoal(goal);
-        // Content with the first solution, where a planner asks.
+        // Satisfied with the first solution, if a planner queries the objective.
         auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(controls_);
         objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::infinity()));
         problem->setOptimizationObjective(objective);
@@ -132,7 +133,7 @@ namespace parking
                                     values[DIRECTION] < 0.0 ? -length : length);
                 ob::State *reached = geometric->cloneState(from);
                 setPose(reached, pose);
-                // A step that touches something on its way ends outside of the world, which nobody takes for valid.
+                // A step in collision ends outside of the bounds, in a state that is invalid for every planner.
                 if (!geometric->satisfiesBounds(reached) || !geometric->checkMotion(from, reached))
                     pose.x = outside;
                 geometric->freeState(reached);
@@ -141,7 +142,8 @@ namespace parking
         controls_->setPropagationStepSize(step_);
         controls_->setMinMaxControlDuration(1, LONGEST_CONTROL);
         controls_->setup();
-        si_->setup();  // the space has other projections since, and its old ones are gone, which settings print
+        si_->setup();  // The space has received other projections, and the old ones, which the settings would print,
+                       // are deleted.
         planner_->setProblemDefinition(problem);
         planner_->clear();
         planner_->setup();
@@ -152,7 +154,7 @@ namespace parking
             return ob::PlannerStatus::TIMEOUT;
         auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
         oc::PathControl steps(*found);
-        steps.interpolate();  // a state for each step: arcs of several could have a shorter curve between their ends
+        steps.interpolate();  // One state per step: several arcs could have a shorter curve between their ends.
         for (const ob::State *state : steps.getStates())
             path->append(state);
         const ob::State *last = path->getStates().back();

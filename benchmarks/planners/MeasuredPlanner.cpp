@@ -19,33 +19,33 @@ namespace parking
     {
         constexpr double FARTHEST = 1e6;  // metres; assertions of OMPL about Reeds-Shepp curves fail far beyond
 
-        /** Is what a planner left as its solution a path at all: states of numbers, within a thousand kilometres?
-            Whether it is a good one is the referee's matter. */
+        /** The fault of a solution that is not a path: a state that is not finite or beyond a thousand kilometres. The
+            referee checks everything else. */
         std::optional<PlannerFailure> failureOfAnswer(const ob::ProblemDefinition &problem, bool exact)
         {
-            const auto nonsense = [](const std::string &text)
+            const auto invalid = [](const std::string &text)
             {
-                return PlannerFailure{PlanStatus::Nonsense, text};
+                return PlannerFailure{PlanStatus::InvalidAnswer, text};
             };
             const ob::PathPtr path = problem.getSolutionPath();
             if (!path && exact)
-                return nonsense("it speaks of an exact solution, but there is no path");
+                return invalid("it reports an exact solution, but there is no path");
             if (!path)
                 return std::nullopt;
             const auto *states = dynamic_cast<const ompl::geometric::PathGeometric *>(path.get());
             if (states == nullptr)
-                return nonsense("its path is of a kind that nobody here knows");
+                return invalid("its path is of an unknown type");
             if (states->getStateCount() == 0)
-                return nonsense("its path has no states");
+                return invalid("its path has no states");
             for (unsigned int i = 0; i < states->getStateCount(); ++i)
             {
                 const ob::State *state = states->getState(i);
                 if (state == nullptr)
-                    return nonsense("state " + std::to_string(i) + " of its path is null");
+                    return invalid("state " + std::to_string(i) + " of its path is null");
                 const Pose pose = poseOf(state);
                 if (!(std::abs(pose.x) <= FARTHEST && std::abs(pose.y) <= FARTHEST && std::abs(pose.yaw) <= FARTHEST))
-                    return nonsense("state " + std::to_string(i) + " of its path is nowhere: " + formatNumber(pose.x) +
-                                    ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw));
+                    return invalid("state " + std::to_string(i) + " of its path is out of range: " +
+                                   formatNumber(pose.x) + ", " + formatNumber(pose.y) + ", " + formatNumber(pose.yaw));
             }
             return std::nullopt;
         }
@@ -54,8 +54,8 @@ namespace parking
     std::string toString(PlanStatus status)
     {
         constexpr std::array<const char *, PLAN_STATUSES> NAMES{
-            "exact",     "approximate", "timeout", "invalid_start", "invalid_goal", "infeasible",
-            "exception", "crash",       "hang",    "memory",        "nonsense"};
+            "exact",     "approximate", "timeout", "invalid_start", "invalid_goal",  "infeasible",
+            "exception", "crash",       "hang",    "memory",        "invalid_answer"};
         return NAMES.at(static_cast<std::size_t>(status));
     }
 
@@ -72,7 +72,7 @@ namespace parking
         }
         catch (const std::bad_alloc &)
         {
-            return {PlanStatus::Memory, where + " found no memory"};
+            return {PlanStatus::Memory, where + " ran out of memory"};
         }
         catch (const std::exception &error)
         {
@@ -80,7 +80,7 @@ namespace parking
         }
         catch (...)
         {
-            return {PlanStatus::Exception, where + " threw something that is no std::exception"};
+            return {PlanStatus::Exception, where + " threw an exception that is not a std::exception"};
         }
     }
 
@@ -140,7 +140,7 @@ namespace parking
             getProblemDefinition()->clearSolutionPaths();
             return ob::PlannerStatus::CRASH;
         }
-        // BLIT* of OMPL 2.0.2 does so, and OMPL's benchmark throws for want of a path.
+        // BLIT* of OMPL 2.0.2 does so, and OMPL's benchmark throws if there is no path.
         if (status == ob::PlannerStatus::APPROXIMATE_SOLUTION && !getProblemDefinition()->getSolutionPath())
             return ob::PlannerStatus::TIMEOUT;
         if (exact)

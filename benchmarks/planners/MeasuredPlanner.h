@@ -13,110 +13,112 @@
 
 namespace parking
 {
-    /** \brief How a run ended. */
+    /** \brief The outcome of a run. */
     enum class PlanStatus
     {
         Exact,         ///< a path to a goal
         Approximate,   ///< a path that ends short of the goals
-        Timeout,       ///< nothing found until the time was up
+        Timeout,       ///< no solution within the time limit
         InvalidStart,  ///< no start is free
         InvalidGoal,   ///< no goal is free
-        Infeasible,    ///< the planner ended without having been stopped: there is nothing that it could still try
+        Infeasible,    ///< the planner ended by itself: the search is exhausted
         Exception,     ///< the planner threw
         Crash,         ///< a signal ended it, or it ended its process
-        Hang,          ///< it did not come back
-        Memory,        ///< it took too much memory
-        Nonsense       ///< its answer is none: no path, or states that are nowhere
+        Hang,          ///< it did not return
+        Memory,        ///< it exceeded the memory limit
+        InvalidAnswer  ///< it reported a missing path, or states out of range
     };
 
-    /** \brief Number of values that a PlanStatus has. */
-    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::Nonsense) + 1;
+    /** \brief Number of values of PlanStatus. */
+    constexpr std::size_t PLAN_STATUSES = static_cast<std::size_t>(PlanStatus::InvalidAnswer) + 1;
 
-    /** \brief Names as in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception,
-       crash, hang, memory, nonsense. */
+    /** \brief Names in results: exact, approximate, timeout, invalid_start, invalid_goal, infeasible, exception, crash,
+       hang, memory, invalid_answer. */
     std::string toString(PlanStatus status);
 
-    /** \brief Did the planner itself fail, whatever the problem? */
+    /** \brief Whether the planner itself failed, for any problem. */
     bool isFailure(PlanStatus status);
 
-    /** \brief What went wrong inside a planner. */
+    /** \brief A failure inside a planner. */
     struct PlannerFailure
     {
-        PlanStatus status;  ///< Exception, Memory or Nonsense
+        PlanStatus status;  ///< Exception, Memory or InvalidAnswer
         std::string text;   ///< one line
     };
 
     /** \brief The exception that is being handled, as a failure in \e where. */
     PlannerFailure currentFailure(const std::string &where);
 
-    /** \brief A planner of OMPL that measures its own solve() and keeps to the second: whatever is asked of it is asked
-        of the planner that it was made from.
+    /** \brief Wraps a planner of OMPL, measures solve() and ends it in time. All calls are forwarded to the wrapped
+        planner.
 
-        Of progress properties it has one, the best cost, that can be read safely from another thread: those of BIT* and
-        ABIT* of OMPL 1.5 are read by the benchmark while the search changes them, and crash now and then. */
+        Its only progress property is the best cost, which other threads can read safely. OMPL's benchmark reads those
+        of BIT* and ABIT* of OMPL 1.5 while the search changes them, which crashes occasionally. */
     class MeasuredPlanner final : public ompl::base::Planner
     {
     public:
-        /** \param planner must not be null */
+        /** \brief \param planner the planner to wrap; must not be null */
         explicit MeasuredPlanner(ompl::base::PlannerPtr planner);
 
-        /** \brief The planner that is measured. */
+        /** \brief The measured planner. */
         ompl::base::Planner &wrapped() const
         {
             return *planner_;
         }
 
-        /** \brief Hands \e problem to the planner, too. */
+        /** \brief Sets \e problem in both planners. */
         void setProblemDefinition(const ompl::base::ProblemDefinitionPtr &problem) override;
 
-        /** \brief The planner's own, timed, and ended in time. CRASH when it throws or its answer is no path, see
-            failure(); TIMEOUT when it speaks of an approximate solution and there is none. */
+        /** \brief Solves by the wrapped planner, timed and ended in time.
+
+            Returns CRASH when it throws or its answer is invalid, see failure(); TIMEOUT when it reports an approximate
+            solution but has none. */
         ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override;
         using ompl::base::Planner::solve;
 
         /** \brief Sets both planners up. */
         void setup() override;
 
-        /** \brief Clears both planners; what the measured one throws becomes failure(). */
+        /** \brief Clears both planners; exceptions of the measured one become failure(). */
         void clear() override;
 
         /** \brief Throws ompl::Exception when one of the two is not ready to solve. */
         void checkValidity() override;
 
-        /** \brief The planner's own graph; what it throws becomes failure(). */
+        /** \brief The planner's own graph; its exceptions become failure(). */
         void getPlannerData(ompl::base::PlannerData &data) const override;
 
-        /** \brief Of the last solve(). */
+        /** \brief Times and solutions of the last solve(). */
         const std::shared_ptr<SolveRecord> &record() const
         {
             return record_;
         }
 
-        /** \brief What went wrong in the planner since it was made, first. It is not thrown on: after it, solve()
-            returns CRASH and there is no solution. */
+        /** \brief The first failure of the planner since its construction. Its exception is not rethrown; after it,
+            solve() returns CRASH without a solution. */
         const std::optional<PlannerFailure> &failure() const
         {
             return failure_;
         }
 
-        /** \brief solve() ends after this many seconds of the clock, whatever the caller's condition says.
+        /** \brief Ends solve() after this time in seconds, independent of the caller's condition.
 
-            ompl::tools::Benchmark looks at its clock every 0.1 s only. */
+            ompl::tools::Benchmark checks its clock only every 0.1 s. */
         void setTimeLimit(double seconds)
         {
             timeLimit_ = seconds;
         }
 
-        /** \brief solve() also ends once \e stop is true; null: nothing to look at. */
+        /** \brief Ends solve() also when \e stop is true; null: not checked. */
         void setStop(const std::atomic<bool> *stop)
         {
             stop_ = stop;
         }
 
-        /** \brief Was the last solve() told to stop, since the time was up or the caller wanted it?
+        /** \brief Whether the last solve() was stopped, by the time limit or by the caller.
 
-            A planner that was not, and comes back without a solution, has nothing left to try: this is what it did, and
-            not what a clock says afterwards. */
+            A planner that returns without a solution and was not stopped has exhausted its search. The planner's end
+            decides, not a clock afterwards. */
         bool wasStopped() const
         {
             return wasStopped_;
@@ -131,20 +133,20 @@ namespace parking
         mutable std::optional<PlannerFailure> failure_;
         double timeLimit_{1e9};
         const std::atomic<bool> *stop_{nullptr};
-        std::atomic<bool> wasStopped_{false};  ///< planners with threads ask in each of them
+        std::atomic<bool> wasStopped_{false};  ///< set by each of a planner's threads
     };
 
-    /** \brief Path length, noting when which length was reached.
+    /** \brief Path length that records when each length was reached.
 
-        Every optimising planner of OMPL asks its objective whether a solution that it has just found satisfies: that is
-        the moment that counts, and needs no polling from another thread. */
+        Every optimising planner of OMPL passes a new solution to its objective to check whether it is good enough. That
+        is the measured time; no other thread needs to poll. */
     class RecordingObjective final : public ompl::base::PathLengthOptimizationObjective
     {
     public:
-        /** \brief \param record is told the cost of every solution that a planner asks about */
+        /** \brief \param record receives the cost of every solution that a planner checks */
         RecordingObjective(const ompl::base::SpaceInformationPtr &si, std::shared_ptr<SolveRecord> record);
 
-        /** \brief Notes \e cost; then what the path length says. */
+        /** \brief Records \e cost and returns the result of the path length. */
         bool isSatisfied(ompl::base::Cost cost) const override;
 
     private:

@@ -32,7 +32,7 @@
 #include <ompl/geometric/planners/sst/SST.h>
 #include <ompl/util/Exception.h>
 
-// Newer than some of the versions of OMPL that the project builds with.
+// Newer than some of the supported versions of OMPL.
 #if __has_include(<ompl/geometric/planners/informedtrees/EITstar.h>)
 #include <ompl/geometric/planners/informedtrees/EITstar.h>
 #define PARKING_HAVE_EITSTAR
@@ -59,7 +59,7 @@ namespace parking
 {
     namespace
     {
-        /** What counts in a name: lower-case letters and digits, * as "star". */
+        /** The significant part of a name: lower-case letters and digits, * as "star". */
         std::string keyOf(const std::string &name)
         {
             std::string key;
@@ -71,7 +71,7 @@ namespace parking
                     key += c;
             }
             if (key == "kpiece" || key == "bkpiece" || key == "lbkpiece")
-                key += "1";  // the names that OMPL.app's files use
+                key += "1";  // names in OMPL.app's files
             return key;
         }
 
@@ -100,8 +100,8 @@ namespace parking
         }
 
 #ifdef PARKING_HAVE_AORRTC
-        /** AORRTC of OMPL 2.0.2 crashes when it is cleared, or goes, before it was set up, and asks no objective about
-           its solutions: when it found which could not be told. */
+        /** AORRTC of OMPL 2.0.2 crashes when cleared or destroyed before setup. It passes no solutions to its
+           objective: their time is unknown. */
         class Aorrtc : public og::AORRTC
         {
         public:
@@ -115,7 +115,7 @@ namespace parking
             ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition &ptc) override
             {
                 std::size_t known = 0;
-                const auto tell = [&]
+                const auto reportSolution = [&]
                 {
                     if (pdef_->getSolutionCount() == known || !pdef_->hasExactSolution())
                         return;
@@ -126,7 +126,7 @@ namespace parking
                 return og::AORRTC::solve(ompl::base::PlannerTerminationCondition(
                     [&]
                     {
-                        tell();
+                        reportSolution();
                         return ptc();
                     }));
             }
@@ -149,9 +149,9 @@ namespace parking
                                                     : std::numeric_limits<std::size_t>::max();
         }
 
-        /** The text that \e parameter shall be set to, or an empty one when \e value is of another type than it.
+        /** The text to set \e parameter to, or an empty one when \e value has another type.
 
-            OMPL itself is content when a value begins like a number, and takes -1 for the largest unsigned one. */
+            OMPL accepts values that merely begin like a number, and reads -1 as the largest unsigned number. */
         std::string checkedValue(const ompl::base::GenericParam &parameter, const std::string &value)
         {
             if (isOneOf<bool>(parameter))
@@ -164,7 +164,7 @@ namespace parking
             double number = 0.0;
             if (isOneOf<float, double, long double>(parameter))
                 return parseNumber(value, number) ? value : "";
-            // What is too large for the type would come out as another number.
+            // A number too large for the type would be stored as another one.
             if (isOneOf<unsigned int, unsigned long, unsigned long long, unsigned short>(parameter))
             {
                 std::size_t count = 0;
@@ -190,7 +190,7 @@ namespace parking
                 for (const auto &each : all)
                     names.push_back(each.first);
                 if (names.empty())
-                    throw Error("planner " + planner.getName() + " has no parameters, so not " + inQuotes(name));
+                    throw Error("planner " + planner.getName() + " has no parameters: cannot set " + inQuotes(name));
                 throw Error(unknownName("parameter of " + planner.getName(), name, names));
             }
             const std::string wanted =
@@ -213,11 +213,11 @@ namespace parking
     {
         PlannerRegistry registry;
         registry.add(entry<og::ImprovedAStar>("improved_astar", "improved A* of this project"));
-        registry.add(entry<og::ImprovedAStar>("hybrid_astar", "Hybrid A*: the same core with its improvements off",
-                                              false, {{"parameter_set", "hybrid_astar"}}));
-        registry.add(entry<TextbookHybridAStar>("textbook_hybrid_astar",
-                                                "Hybrid A* as it is usually written, on a uniform lattice"));
-        registry.add(entry<ReedsSheppPlanner>("reeds_shepp", "the bare Reeds-Shepp curve, checked"));
+        registry.add(entry<og::ImprovedAStar>("hybrid_astar",
+                                              "Hybrid A*: the search of improved A* without its improvements", false,
+                                              {{"parameter_set", "hybrid_astar"}}));
+        registry.add(entry<TextbookHybridAStar>("textbook_hybrid_astar", "standard Hybrid A* on a uniform lattice"));
+        registry.add(entry<ReedsSheppPlanner>("reeds_shepp", "the Reeds-Shepp curve alone, checked"));
         registry.add(entry<og::RRTstar>("RRTstar", "OMPL's RRT*", true));
         registry.add(entry<og::InformedRRTstar>("InformedRRTstar", "OMPL's Informed RRT*", true));
         registry.add(entry<og::PRM>("PRM", "OMPL's PRM, to the first solution"));
@@ -264,7 +264,7 @@ namespace parking
         if (!entry.allocate)
             throw Error("planner " + entry.name + " has no allocator");
         if (const auto known = lookUp(entry.name); known != entries_.end())
-            throw Error("there is already a planner " + known->name);
+            throw Error("another planner already has the name " + known->name);
         entries_.push_back(std::move(entry));
     }
 

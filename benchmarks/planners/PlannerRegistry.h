@@ -15,11 +15,11 @@ namespace parking
     /** \brief Parameters of a planner in the order given, as name and value. */
     using PlannerSettings = std::vector<std::pair<std::string, std::string>>;
 
-    /** \brief An error about settings of a planner or its problem: whoever knows where these were set can say so. */
+    /** \brief An error about settings of a planner or its problem. The caller adds the place where they were set. */
     class SettingError : public Error
     {
     public:
-        /** \brief \param settings their names, as in a .cfg file behind that of the planner: `range`,
+        /** \brief \param settings their names in a .cfg file after the name of the planner: `range`,
             `problem.volume.min.x` */
         SettingError(std::vector<std::string> settings, const std::string &message)
           : Error(message),
@@ -27,7 +27,7 @@ namespace parking
         {
         }
 
-        /** \brief The settings that it is about. */
+        /** \brief The settings with the error. */
         const std::vector<std::string> &settings() const
         {
             return settings_;
@@ -40,36 +40,37 @@ namespace parking
     /** \brief A planner of the comparison. */
     struct PlannerEntry
     {
-        std::string name;     ///< as it is listed; unique but for case, underscores, hyphens and blanks
+        std::string name;     ///< name in lists; unique apart from case, underscores, hyphens and blanks
         std::string summary;  ///< one line for --help
-        /** Is the planner handed path length as its objective, and goes on improving until the time is up? */
+        /** Whether the planner receives path length as its objective and improves paths until the time limit. */
         bool optimizing{false};
-        ompl::base::PlannerAllocator allocate;  ///< makes a new instance; never empty in a registry
-        PlannerSettings settings;               ///< set on every instance before the user's
-        std::string library{};  ///< the file of the plug-in that it is from; empty for planners of the project
+        ompl::base::PlannerAllocator allocate;  ///< creates an instance; not empty in a registry
+        PlannerSettings settings;               ///< parameters set on every instance before the user's
+        std::string library{};                  ///< file of the planner's plug-in; empty for planners of the project
     };
 
     /** \brief The planners of the comparison by name.
 
-        Case, underscores, hyphens and blanks do not matter in names, and * reads as "star": RRTstar, rrt_star and RRT*
-        are the same planner. KPIECE1, BKPIECE1 and LBKPIECE1 go without their digit, too, as in OMPL.app's files. */
+        Names ignore case, underscores, hyphens and blanks, and read * as "star": RRTstar, rrt_star and RRT* are the
+        same planner. KPIECE1, BKPIECE1 and LBKPIECE1 are also found without the digit, as in OMPL.app's files. */
     class PlannerRegistry
     {
     public:
-        /** \brief All planners that come with the project: our own, and those of OMPL that can plan for a car. */
+        /** \brief All planners of the project: its own, and those of OMPL that can plan for a car. */
         static PlannerRegistry builtIn();
 
-        /** \brief Adds a planner, for example one of a plug-in. Throws parking::Error when its name is taken, empty, or
-            has other characters than letters, digits and _ . + -, or when it has no allocator. */
+        /** \brief Adds a planner, for example of a plug-in. Throws parking::Error when its name is taken, empty or
+            contains characters other than letters, digits and _ . + -, or when it has no allocator. */
         void add(PlannerEntry entry);
 
-        /** \brief Throws parking::Error with the nearest and all known names for one that is not known. */
+        /** \brief The planner of this name. Throws parking::Error with the nearest and all known names for an unknown
+            one. */
         const PlannerEntry &find(const std::string &name) const;
 
-        /** \brief Of all planners, in the order in which they were added. */
+        /** \brief Names of all planners in the order of their addition. */
         std::vector<std::string> names() const;
 
-        /** \brief All planners, in the order in which they were added. */
+        /** \brief All planners in the order of their addition. */
         const std::vector<PlannerEntry> &entries() const
         {
             return entries_;
@@ -83,8 +84,8 @@ namespace parking
 
     /** \brief Sets parameters of a planner, `parameter_set` first, the others in their order.
 
-        Words stand for numbers where a parameter is a switch: true, yes and on for 1, false, no and off for 0.
-        Throws SettingError naming the parameter and the value: with the nearest and all known names for one that is
-        not known, with what the planner says for a value out of range. */
+        Switches accept true, yes and on for 1, false, no and off for 0.
+        Throws SettingError naming parameter and value: with the nearest and all known names for an unknown parameter,
+        with the planner's message for a value out of range. */
     void applySettings(ompl::base::Planner &planner, const PlannerSettings &settings);
 }  // namespace parking

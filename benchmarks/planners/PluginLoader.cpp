@@ -23,7 +23,7 @@ namespace parking
                    std::to_string(version % 1000);
         }
 
-        /** Adds planners to the registry. */
+        /** Adds the library's planners to the registry. */
         class Adder final : public PluginPlanners
         {
         public:
@@ -50,17 +50,17 @@ namespace parking
 
         void loadPlugin(PlannerRegistry &registry, const std::string &name)
         {
-            // Never unloaded: allocators, planners and exceptions have their code there.
+            // Never unloaded, since it contains the code of allocators, planners and exceptions.
             static std::vector<boost::dll::shared_library> loaded;
             std::error_code ignored;
             const std::filesystem::path file = std::filesystem::absolute(name, ignored);
             if (!std::filesystem::exists(file, ignored))
                 throw Error("plug-in " + name + ": there is no such file");
             if (!std::filesystem::is_regular_file(file, ignored))
-                throw Error("plug-in " + name + ": is no file; name the library");
+                throw Error("plug-in " + name + ": is not a file; name the library");
             boost::system::error_code error;
             boost::dll::shared_library library;
-            // All at once: what the library lacks shall be known now, and not in the middle of a run.
+            // Resolves all symbols immediately, so that a missing one is reported before any run.
             library.load(file.string(), boost::dll::load_mode::rtld_now, error);
             if (error)
             {
@@ -70,7 +70,7 @@ namespace parking
             }
             if (!library.has(ENTRY_POINT))
                 throw Error("plug-in " + name + ": has no entry point '" + ENTRY_POINT +
-                            "'; PARKING_PLANNER_PLUGIN in ompl_improved_astar/PlannerPlugin.h makes one");
+                            "'; use PARKING_PLANNER_PLUGIN of ompl_improved_astar/PlannerPlugin.h");
             const auto &plugin = library.get<const PlannerPlugin>(ENTRY_POINT);
             if (plugin.interfaceVersion != PLANNER_PLUGIN_VERSION)
                 throw Error("plug-in " + name + ": was built for version " + std::to_string(plugin.interfaceVersion) +

@@ -9,19 +9,18 @@
 
 namespace parking
 {
-    /** \brief The numbers that a parameter of a planner may be. */
+    /** \brief The valid range of a planner's parameter. */
     struct ParameterRange
     {
-        double least,  ///< the smallest of them
-            most;      ///< the largest of them
+        double min,  ///< smallest valid value
+            max;     ///< largest valid value
     };
 
-    /** \brief Declares a parameter of \e planner that is kept in \e value, a member of it.
+    /** \brief Declares a parameter of \e planner that is stored in \e value, a member of it.
 
-        Setting a number outside of \e range throws ompl::Exception naming planner and parameter, so that the planner
-        never plans with it.
+        A number outside of \e range throws ompl::Exception naming planner and parameter.
 
-        \param usual in OMPL's form: the usual values, which are fewer than the possible ones */
+        \param usual the usual values, a part of the valid ones, in OMPL's format */
     template <class Value>
     void declareRanged(ompl::base::Planner &planner, const std::string &name, Value &value, const ParameterRange &range,
                        const std::string &usual)
@@ -31,9 +30,9 @@ namespace parking
             [&planner, &value, name, range](Value wanted)
             {
                 const auto number = static_cast<double>(wanted);
-                if (!(number >= range.least && number <= range.most))
-                    throw ompl::Exception(planner.getName(), name + " must be between " + formatNumber(range.least) +
-                                                                 " and " + formatNumber(range.most) + ", not " +
+                if (!(number >= range.min && number <= range.max))
+                    throw ompl::Exception(planner.getName(), name + " must be between " + formatNumber(range.min) +
+                                                                 " and " + formatNumber(range.max) + ", not " +
                                                                  formatNumber(number));
                 value = wanted;
             },

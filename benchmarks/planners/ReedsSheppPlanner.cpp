@@ -13,7 +13,7 @@ namespace parking
 {
     namespace
     {
-        constexpr std::size_t MAX_GOALS = 64;  // of a region that offers ever more of them
+        constexpr std::size_t MAX_GOALS = 64;  // of a region that samples ever more goals
     }                                          // namespace
 
     ReedsSheppPlanner::ReedsSheppPlanner(const ob::SpaceInformationPtr &si) : ob::Planner(si, "ReedsShepp")
@@ -40,7 +40,7 @@ namespace parking
                 break;
             goals.push_back(goal);
         }
-        if (goals.empty())  // none is free, or there was no time to look
+        if (goals.empty())  // No goal is free, or there was no time to sample one.
             return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
 
         std::vector<std::tuple<double, const ob::State *, const ob::State *>> motions;

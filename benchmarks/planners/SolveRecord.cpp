@@ -13,10 +13,10 @@ namespace parking
     {
         std::atomic<bool> countsProcessorTime{false};
 
-        constexpr double LOOK = 0.05;  // seconds between two looks at the clock, at most
+        constexpr double LOOK = 0.05;  // maximum seconds between two checks of the clock
 
-        /** Seconds in which this thread could have run and had no processor; infinite where the kernel does not tell.
-         */
+        /** Time in seconds in which this thread was ready to run but had no processor; infinite if the kernel does not
+         report it. */
         double queuedTime()
         {
             std::ifstream stream("/proc/thread-self/schedstat");
@@ -24,7 +24,7 @@ namespace parking
             return stream >> ran >> queued ? 1e-9 * queued : std::numeric_limits<double>::infinity();
         }
 
-        /** Seconds of the clock that countProcessorTime() has chosen. */
+        /** Time in seconds of the clock that countProcessorTime() selected. */
         double clockTime()
         {
             if (countsProcessorTime.load(std::memory_order_relaxed))

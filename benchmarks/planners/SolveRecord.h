@@ -8,56 +8,58 @@
 
 namespace parking
 {
-    /** \brief A solution that was better than all before it. */
+    /** \brief A solution better than all previous ones. */
     struct Improvement
     {
-        double time{0.0};  ///< seconds since solve() began
+        double time{0.0};  ///< time in seconds since solve() began
         double cost{0.0};  ///< metres
     };
 
-    /** \brief What one solve() took and found, and when. Safe to use from several threads. */
+    /** \brief Effort and solutions of one solve(), with their times. Thread-safe. */
     class SolveRecord
     {
     public:
-        /** \brief Chooses the clock that planners are timed and stopped by: the wall clock, or the processor time of
-            all threads of this process, which a busy machine does not change. The same one for all planners; not to be
-            changed while one of them is at work. */
+        /** \brief Selects the clock that times and stops planners: the wall clock, or the processor time of all threads
+            of this process.
+
+            Processor time does not depend on the load of the machine. The clock is common to all planners and must not
+            change during a run. */
         static void countProcessorTime(bool processorTime);
 
-        /** \brief Forgets everything; the clock starts now. */
+        /** \brief Clears the record and starts the clock. */
         void begin();
 
-        /** \brief The clock stops. */
+        /** \brief Stops the clock. */
         void end();
 
-        /** \brief Notes \e cost, in metres, if it is finite and better than all before. */
+        /** \brief Records \e cost in metres, if it is finite and lower than all previous ones. */
         void note(double cost);
 
-        /** \brief The same for what came out when the clock stopped. */
+        /** \brief Records the cost of the final path at the time when the clock stopped, if lower than all previous
+            ones. */
         void noteAtEnd(double cost);
 
-        /** \brief Seconds of the clock between begin() and end(); 0 before. */
+        /** \brief Time in seconds between begin() and end(); 0 before end(). */
         double wallTime() const;
 
-        /** \brief Seconds of processor time of all threads between begin() and end(); 0 before. */
+        /** \brief Processor time in seconds of all threads between begin() and end(); 0 before end(). */
         double cpuTime() const;
 
-        /** \brief The least cost noted; infinite without one. */
+        /** \brief The lowest recorded cost; infinite without one. */
         double bestCost() const;
 
-        /** \brief All that were noted, in order of time, each of a lower cost than the one before. */
+        /** \brief All recorded solutions in order of time, each of a lower cost than the previous one. */
         std::vector<Improvement> improvements() const;
 
         /** \brief Whether \e seconds of the clock have passed since begin().
 
-            By processor time also whether the thread that called begin() has slept for longer than that, while no
-            thread of this process computed: a planner that waits would not come to its limit. Time in which it had to
-            wait for a processor does not count. That is not seen from other threads, nor where the kernel does not tell
-            (/proc/thread-self/schedstat).
+            By processor time it is also true when the thread of begin() has slept longer than that while no thread of
+            this process computed: a waiting planner would never reach its limit. Time spent waiting for a processor
+            does not count. Other threads cannot detect this, nor kernels without /proc/thread-self/schedstat.
 
-            A planner asks this after every expansion or sample, and the kernel's answer to what a process has computed
-            takes longer than many of these: it is asked again only once all processors together may have got there, or
-            after 50 ms. */
+            Planners call this after every expansion or sample, but a system call for processor time takes longer than
+            many of these. It is repeated only when all processors together may have reached the limit, or after 50
+            ms. */
         bool isOver(double seconds);
 
     private:
@@ -67,9 +69,9 @@ namespace parking
         mutable std::mutex mutex_;
         double begin_{0.0};
         double cpuBegin_{0.0};
-        std::thread::id thread_;  // that called begin()
+        std::thread::id thread_;  // the thread that called begin()
         std::chrono::steady_clock::time_point steadyBegin_;
-        std::atomic<std::chrono::steady_clock::time_point> nextLook_;  // at the clock; never over before
+        std::atomic<std::chrono::steady_clock::time_point> nextLook_;  // earliest time of the next check of the clock
         double queuedBefore_{0.0};  // seconds in which it waited for a processor before begin()
         double wallTime_{0.0};
         double cpuTime_{0.0};

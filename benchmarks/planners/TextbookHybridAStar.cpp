@@ -28,10 +28,11 @@ namespace parking
 {
     namespace
     {
-        constexpr double MOST_CELLS = 5e7;  // of the disc's ways
+        constexpr double MOST_CELLS = 5e7;  // cell size of the disc's distances
         constexpr unsigned LOOK_AT_CLOCK = 4096;
 
-        /** Ways of a disc of the car's inscribed radius to one place: Dijkstra's algorithm over eight neighbours. */
+        /** Path lengths of a disc with the car's inscribed radius to one position: Dijkstra's algorithm over eight
+            neighbours. */
         class DiscWays
         {
         public:
@@ -85,7 +86,7 @@ namespace parking
                 }
             }
 
-            /** Metres; a little less than it may be, since cells are not passed through their middles. */
+            /** The distance in metres, slightly reduced, since paths do not pass through the middle of cells. */
             double from(const Pose &pose) const
             {
                 const float cost = cost_[cellOf(pose)];
@@ -95,7 +96,7 @@ namespace parking
 
         private:
             static constexpr float UNKNOWN = std::numeric_limits<float>::max();
-            static constexpr double OCTILE = 1.0824;  // ways over eight neighbours are longer by up to this factor
+            static constexpr double OCTILE = 1.0824;  // paths over eight neighbours are longer by up to this factor
 
             std::size_t cellOf(const Pose &pose) const
             {
@@ -138,7 +139,7 @@ namespace parking
             add({poseOf(start), 0.0, NOBODY, 0, false});
         }
 
-        /** The states of a path; empty when there is none or the time is up. */
+        /** The states of a path; empty without one or after the time limit. */
         std::vector<Pose> run()
         {
             for (unsigned expanded = 0; !open_.empty() && !ptc_;)
@@ -239,10 +240,10 @@ namespace parking
         double curvature_;
         ob::RealVectorBounds bounds_;
         ob::ScopedState<> from_, to_;
-        std::vector<DiscWays> ways_;  // one, or none
+        std::vector<DiscWays> ways_;  // one state, or none
         std::vector<Node> nodes_;
         std::unordered_map<std::uint64_t, std::uint32_t> cells_;
-        /** By f, then h, then age. */
+        /** Orders by f, then h, then age. */
         std::priority_queue<std::tuple<double, double, std::uint32_t>,
                             std::vector<std::tuple<double, double, std::uint32_t>>, std::greater<>>
             open_;

@@ -18,8 +18,8 @@ namespace parking
 {
     namespace
     {
-        constexpr double BESIDE = 3.0;          // metres beyond the obstacles of somebody's polygons
-        constexpr double LEAST_MARGIN = 0.001;  // metres: what is free must not depend on who rounds how
+        constexpr double BESIDE = 3.0;          // metres added to the bounds of polygons without bounds
+        constexpr double LEAST_MARGIN = 0.001;  // metres: a free pose must not depend on the rounding of a checker
         constexpr int TRIALS = 20000;
         constexpr double PUSH = 0.1, FARTHEST_PUSH = 6.0;  // metres
         constexpr std::size_t MAP_FILE_LIMIT = std::size_t(1) << 20;
@@ -39,7 +39,7 @@ namespace parking
             return world;
         }
 
-        /** A map is a YAML file that names an image. */
+        /** Whether a YAML file is a map: it names an image. */
         bool isMap(const fs::path &file)
         {
             if (file.extension() != ".yaml" && file.extension() != ".yml")
@@ -110,7 +110,7 @@ namespace parking
             }
         }
         else
-            // A pipe, which could not be read again, is a scenario.
+            // A pipe cannot be read twice, and is treated as a scenario.
             (fs::is_regular_file(folderOrFile, ignored) && isMap(folderOrFile) ? maps : scenarios)
                 .push_back(folderOrFile);
         std::vector<QueryWorld> worlds;
@@ -121,7 +121,7 @@ namespace parking
             QueryWorld world;
             world.scenario = readScenario(file, {vehicle});
             world.name = fs::path(file).stem().string();
-            // A scenario on a map that is there as well would be the same world twice.
+            // A scenario on a map of the folder would be the same world twice.
             const bool isKnown = std::any_of(worlds.begin(), worlds.end(),
                                              [&](const QueryWorld &each)
                                              { return each.name == world.name + "_map" || each.name == world.name; });
@@ -146,12 +146,12 @@ namespace parking
         {
             const double direction = random.between(-PI, PI);
             Pose last = from;
-            for (double way = PUSH; way <= FARTHEST_PUSH; way += PUSH)
+            for (double distance = PUSH; distance <= FARTHEST_PUSH; distance += PUSH)
             {
-                const Pose next =
-                    rounded({from.x + way * std::cos(direction), from.y + way * std::sin(direction), from.yaw});
+                const Pose next = rounded(
+                    {from.x + distance * std::cos(direction), from.y + distance * std::sin(direction), from.yaw});
                 if (!space.isFree(next))
-                    return way > PUSH ? std::optional<Pose>(last) : std::nullopt;
+                    return distance > PUSH ? std::optional<Pose>(last) : std::nullopt;
                 last = next;
             }
             return std::nullopt;

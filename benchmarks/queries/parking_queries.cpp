@@ -1,4 +1,4 @@
-// parking_queries: writes random parking problems, the same ones for the same seed.
+// parking_queries: writes random parking problems; equal seeds give equal problems.
 
 #include "benchmarks/queries/Queries.h"
 #include "benchmarks/system/CommandLine.h"
@@ -43,18 +43,18 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("output", oneValue("DIR"), "folder to write; there must be no queries in it");
+        add("output", oneValue("DIR"), "folder to write; it must not contain queries");
         add("seed", oneValue("TEXT"), "any word or number (default 1)");
-        add("kind", manyValues("NAME"), "only worlds of this kind; may be given several times (default: every kind)");
+        add("kind", manyValues("NAME"), "use only worlds of this kind; repeatable (default: every kind)");
         add("from", manyValues("DIR|FILE"),
-            "instead: worlds of a folder or file, maps or scenarios that parking_plan reads; may be "
-            "given several times");
-        add("worlds", oneValue("N"), "of each kind (default 2)");
-        add("queries", oneValue("N"), "in each world (default 8); every other goal is pushed to an obstacle");
-        add("margin", oneValue("M"), "metres that start and goal have on all sides (default 0)");
+            "use the worlds of this folder or file instead: maps or scenarios of parking_plan; repeatable");
+        add("worlds", oneValue("N"), "number of worlds of each kind (default 2)");
+        add("queries", oneValue("N"),
+            "number of queries in each world (default 8); every second goal is pushed to an obstacle");
+        add("margin", oneValue("M"), "minimum clearance in metres of start and goal on all sides (default 0)");
         add("vehicle", oneValue("NAME|FILE"),
-            "the car (default: a scenario's own, TPCAP's on maps, otherwise one drawn at random)");
-        add("help", "this text");
+            "the car (default: a scenario's own, TPCAP's on maps, otherwise a random one)");
+        add("help", "print this text");
         return options;
     }
 
@@ -62,13 +62,16 @@ namespace
     {
         std::ostringstream text;
         text << "usage: parking_queries --output DIR [options]\n\n"
-                "Writes random parking problems: worlds, and in each of them starts and goals that are free. DIR gets "
-                "a\n"
-                "scenario for each, and index.json with what was drawn. Equal seeds give equal files.\n\n"
+                "Writes random parking problems: worlds with pairs of a free start and a free goal. DIR "
+                "receives\n"
+                "a scenario for each, and index.json with their properties. Equal seeds give equal files.\n\n"
+                "Examples, run at the root of the project:\n"
+                "  parking_queries --output queries --seed 7\n"
+                "  parking_queries --output garages --from benchmarks/scenarios --queries 4\n\n"
              << describe() << "\nKinds:";
         for (const std::string &kind : parking_test::worldKinds())
             text << ' ' << kind;
-        text << "\n\nStatus: 0 written, 2 bad input or usage\n";
+        text << "\n\nStatus: 0 written, 2 invalid input or usage\n";
         return text.str();
     }
 
@@ -91,11 +94,12 @@ namespace
         std::set<std::string> known;
         for (const QueryWorld &world : worlds)
             if (!known.insert(world.name).second)
-                throw Error("two worlds are called " + inQuotes(world.name) + "; take the folders one at a time");
+                throw Error("two worlds have the name " + inQuotes(world.name) + "; use one folder at a time");
         return worlds;
     }
 
-    /** The files of a folder that is written as a whole: unless it is kept, what was written is gone again. */
+    /** Files of a folder that is written completely or not at all: the destructor removes them unless keep() was
+        called. */
     class NewFiles
     {
     public:
@@ -108,7 +112,7 @@ namespace
         ~NewFiles()
         {
             std::error_code ignored;
-            while (!made_.empty())  // a folder after what is in it; one that others have put something into stays
+            while (!made_.empty())  // A folder after its contents; it stays if others have added files.
             {
                 fs::remove(made_.back(), ignored);
                 made_.pop_back();
@@ -121,7 +125,7 @@ namespace
             makeFolder(file.parent_path());
             if (std::error_code ignored; fs::exists(file, ignored))
                 throw Error(inQuotes(file.string()) +
-                            " is there already: name another folder, or worlds of other names");
+                            " exists already: choose another folder, or worlds of other names");
             writeFileAtomically(file.string(), content);
             made_.push_back(file);
         }
@@ -140,12 +144,12 @@ namespace
                 missing.insert(missing.begin(), each);
             fs::create_directories(folder, failed);
             if (failed)
-                throw Error(inQuotes(folder.string()) + ": cannot be made: " + failed.message());
+                throw Error(inQuotes(folder.string()) + ": cannot be created: " + failed.message());
             made_.insert(made_.end(), missing.begin(), missing.end());
         }
 
         fs::path folder_;
-        std::vector<fs::path> made_;  // in the order in which they were made
+        std::vector<fs::path> made_;  // in order of creation
     };
 
     int writeQueries(const std::vector<std::string> &arguments)
@@ -172,7 +176,7 @@ namespace
         const fs::path folder(options.output);
         std::error_code failed;
         if (fs::exists(folder / "index.json", failed))
-            throw Error(inQuotes(options.output) + " holds queries already; name another folder, or remove it");
+            throw Error(inQuotes(options.output) + " contains queries already; choose another folder, or remove it");
         const std::vector<QueryWorld> worlds = worldsFor(options);
         NewFiles files(options.output);
         nlohmann::json index{{"format", 1}, {"seed", options.seed}, {"margin", options.margin}};

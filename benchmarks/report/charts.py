@@ -1,7 +1,7 @@
 """Charts as Plotly's figures: {'data': traces, 'layout': ...}.
 
-The member meta of a trace is the index of its planner, by which the page shows and hides it. The page adds the colours of
-text and grid, which follow the browser's theme."""
+The member meta of a trace is the index of its planner, which the page uses to show and hide it. The page adds the
+colours of text and grid, which follow the browser's theme."""
 import math
 
 import numpy
@@ -9,12 +9,12 @@ import numpy
 from formatting import shown, shown_time
 from planner_statistics import median, median_ranks
 
-# Of light and dark pages alike; further planners repeat them with other dashes.
+# For light and dark pages; further planners repeat them with other dashes.
 COLOURS = ('#3d85c6', '#e07b39', '#1f9e89', '#d1559b', '#9270d6', '#9b9b20', '#3aa9d6', '#8b8b8b')
 DASHES = ('solid', 'dash', 'dot')
-MAX_POINTS = 300       # of a curve, which is as many as a screen has
-STEPS = 80             # times at which medians over time are computed
-FARTHEST_RATIO = 1000.0  # at which performance profiles end
+MAX_POINTS = 300       # maximum points of a curve: the resolution of a screen
+STEPS = 80             # number of times at which medians over time are computed
+FARTHEST_RATIO = 1000.0  # largest ratio of performance profiles
 
 
 def colour_of(index):
@@ -26,7 +26,7 @@ def dash_of(index):
 
 
 def _digits(values, digits=4):
-    """As short as a chart needs them."""
+    """A number in the precision of a chart."""
     return [float(f'{value:.{digits}g}') for value in values]
 
 
@@ -47,7 +47,7 @@ def _time_axis(low, high, text='time (logarithmic)'):
 
 
 def _curve(index, name, x, y, hover, **more):
-    """A step curve; it keeps a height until the next point."""
+    """A step curve; it keeps a value until the next point."""
     return {'type': 'scatter', 'mode': 'lines', 'meta': index, 'name': name, 'x': _digits(x), 'y': _digits(y),
             'line': {'shape': 'hv', 'width': 2, 'color': colour_of(index), 'dash': dash_of(index)},
             'hovertemplate': '%{fullData.name}: ' + hover + '<extra></extra>', **more}
@@ -64,7 +64,7 @@ def _band(index, name, x, low, high, hover):
 
 
 def time_range(times, limit):
-    """A range that holds all finite times and the time limit."""
+    """A range that contains all finite times and the time limit."""
     finite = [time for time in times if 0.0 < time < math.inf]
     high = max([*finite, limit] if limit > 0.0 else finite, default=1.0)
     low = max(10.0 ** math.floor(math.log10(min(finite, default=high / 100.0)) + 1e-9), 1e-6)
@@ -72,7 +72,7 @@ def time_range(times, limit):
 
 
 def success_points(runs):
-    """(time, share of the runs solved by then) at each time at which a run is solved. Runs that are not solved count."""
+    """(time, share of the runs solved by then) at each time at which a run is solved. Unsolved runs count."""
     times = sorted(run.time for run in runs if math.isfinite(run.time))
     points = {time: (k + 1) / len(runs) for k, time in enumerate(times)}
     return list(points.items())
@@ -104,8 +104,8 @@ def best_length_at(runs, times):
 def median_curve(runs, low, high):
     """(time, median, low, high) of the best length over time where the median is finite, at each change.
 
-    Runs without a solution by then count as infinitely long. The interval is that of the median, or the range when there
-    are too few runs for one."""
+    Runs without a solution by then count as infinitely long. The interval is that of the median, or the range with too
+    few runs."""
     times = numpy.geomspace(low, high, STEPS + 1)
     lengths = numpy.sort(best_length_at(runs, times), axis=0)
     first, last, _ = median_ranks(len(runs)) or (1, len(runs), 0.0)
@@ -145,9 +145,9 @@ def _names_axis(names):
 
 
 def strip_chart(names, rows, limit, detailed):
-    """Every run's first solution on an axis of time, a line of dots for each planner, with the median and its interval.
+    """Every run's first solution on an axis of time: dots per planner, with the median and its interval.
 
-    rows: (index, runs, median, (low, high, certainty)); detailed: each dot names its run."""
+    rows: (index, runs, median, (low, high, certainty)); detailed: whether each dot names its run."""
     low, high = time_range([run.time for _, runs, *_ in rows for run in runs], limit)
     traces, missing = [], []
     for line, (index, runs, middle, interval) in enumerate(rows):
@@ -156,7 +156,7 @@ def strip_chart(names, rows, limit, detailed):
                            for _, run in solved], 'hovertemplate': '%{fullData.name}: %{text}<extra></extra>'}
         traces.append({'type': 'scatter', 'mode': 'markers', 'meta': index, 'name': names[index],
                        'x': _digits(run.time for _, run in solved),
-                       'y': _digits(line + 0.07 * (k * 5 % 7 - 3) for k, _ in solved),  # not all in one line
+                       'y': _digits(line + 0.07 * (k * 5 % 7 - 3) for k, _ in solved),  # spread vertically
                        'marker': {'size': 5, 'opacity': 0.6, 'color': colour_of(index)},
                        **(labels if detailed else {'hoverinfo': 'name'})})
         if math.isfinite(middle):
@@ -206,16 +206,16 @@ def expected_chart(names, expected, count, limit):
 
 
 def rank_chart(names, ranks, groups):
-    """Mean ranks, the best on top; a bar beside them joins those that the problems do not tell apart.
+    """Mean ranks, the best on top; bars join planners without a significant difference.
 
-    ranks: index -> mean rank; groups: lists of indices that are next to each other by rank."""
+    ranks: index -> mean rank; groups: lists of indices adjacent by rank."""
     order = sorted(ranks, key=lambda index: (ranks[index], index))
     traces = [{'type': 'scatter', 'mode': 'markers', 'meta': index, 'name': names[index], 'x': _digits([ranks[index]]),
                'y': [line], 'marker': {'size': 11, 'color': colour_of(index)},
                'hovertemplate': '%{fullData.name}: mean rank %{x:.2f}<extra></extra>'} for line, index in enumerate(order)]
     for place, group in enumerate(groups):
         lines = [order.index(index) for index in group]
-        label = 'not told apart: ' + ', '.join(names[index] for index in group)
+        label = 'no significant difference: ' + ', '.join(names[index] for index in group)
         x = len(order) + 0.3 + 0.25 * place
         traces.append({'type': 'scatter', 'mode': 'lines', 'name': label, 'x': [x, x],
                        'y': [min(lines) - 0.2, max(lines) + 0.2], 'line': {'width': 5, 'color': '#888888'},

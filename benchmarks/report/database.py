@@ -11,35 +11,35 @@ import numpy
 
 from program import ReportError
 
-FILE = 'benchmark.db'  # in a folder of results
+FILE = 'benchmark.db'  # name in a folder of results
 
 
 @dataclasses.dataclass
 class Run:
-    """One run of a planner. Times in seconds, lengths in metres; infinite where there is no valid exact solution."""
+    """One run of a planner. Times in seconds, lengths in metres; infinite without a valid exact solution."""
     problem: str
     planner: str
-    values: numpy.ndarray  # of the columns of the table runs; NaN: none
-    columns: dict          # name -> its place among the values
+    values: numpy.ndarray  # values of the columns of the table runs; NaN: none
+    columns: dict          # name -> position in the values
     improvements: list     # (seconds, metres) of solutions, each shorter than the previous one
 
     number: int = 0
     seed: int = 0
     solved: bool = False       # exact, and valid in the second check
-    invalid: bool = False      # exact in the planner's view only
+    invalid: bool = False      # exact by the planner's report only
     approximate: bool = False  # another path
-    time: float = math.inf     # of the first solution
-    length: float = math.inf   # of the last one
+    time: float = math.inf     # time of the first solution
+    length: float = math.inf   # length of the last solution
 
     def figure(self, name):
-        """The value of a column, whose name may have blanks for underscores; NaN without one."""
+        """The value of a column, also by its name with blanks; NaN without one."""
         place = self.columns.get(name.replace(' ', '_'))
         return math.nan if place is None else float(self.values[place])
 
 
 @dataclasses.dataclass
 class Results:
-    """All runs, and how they were made."""
+    """All runs, with their settings."""
     problems: list = dataclasses.field(default_factory=list)
     planners: list = dataclasses.field(default_factory=list)
     runs: list = dataclasses.field(default_factory=list)
@@ -47,16 +47,16 @@ class Results:
     setups: dict = dataclasses.field(default_factory=dict)    # problem -> text
     facts: dict = dataclasses.field(default_factory=dict)     # column of the table experiments -> its distinct values
     time_limit: float = math.nan
-    rechecked: bool = True  # was every solution checked again?
+    rechecked: bool = True  # whether every solution was checked again
     sources: list = dataclasses.field(default_factory=list)   # files
-    labels: list = dataclasses.field(default_factory=list)    # what tells them from each other
+    labels: list = dataclasses.field(default_factory=list)    # distinguishing names of the sources
 
     def __post_init__(self):
         self._cells = None
 
     @property
     def folder(self):
-        """Of the first source."""
+        """The value of the first source."""
         return os.path.dirname(os.path.abspath(self.sources[0]))
 
     @property
@@ -75,7 +75,7 @@ class Results:
 
 
 def _judge(run, rechecked):
-    """Sets what counts of a run: an exact solution that is not valid in the second check is a failure."""
+    """Sets the outcome of a run: an exact solution that fails the second check is a failure."""
     get = run.figure
     run.number, run.seed = (0 if math.isnan(get(name)) else int(get(name)) for name in ('run', 'seed'))
     if rechecked:
@@ -90,7 +90,7 @@ def _judge(run, rechecked):
     if not run.solved:
         run.improvements = []
         return
-    # The planner's own share of loading a map has a column of its own; curves leave it out like the tables.
+    # The planner's own share of map loading has a separate column; curves exclude it like the tables.
     loading = get('time') - get('planning time')
     if loading > 0.0:
         run.improvements = [(max(0.0, time - loading), cost) for time, cost in run.improvements]
@@ -102,7 +102,7 @@ def _judge(run, rechecked):
 
 
 def _improvements(connection):
-    """id of a run -> its improvements, out of samples of the best cost at many times."""
+    """id of a run -> its improvements, from samples of the best cost at many times."""
     found = {}
     if 'best_cost' in (row[1] for row in connection.execute('PRAGMA table_info(progress)')):
         for run, time, cost in connection.execute('SELECT runid, min(time), best_cost FROM progress WHERE best_cost '
@@ -170,8 +170,8 @@ def _read_runs(results, connection, file, rename):
 
 
 def _configured_order(folder):
-    """Problems and planners in the order of the configuration, which summary.csv has; in a database they may be in that of
-    their first runs, which is random."""
+    """Problems and planners in the order of the configuration, from summary.csv: a database may have that of the first
+    runs, which is random."""
     try:
         with open(os.path.join(folder, 'summary.csv'), encoding='utf-8', newline='') as stream:
             rows = list(csv.DictReader(stream))
@@ -182,7 +182,7 @@ def _configured_order(folder):
 
 def _connect(file):
     if not os.path.isfile(file):
-        raise ReportError(f'{file}: is no file; a database is needed')
+        raise ReportError(f'{file}: is not a file; a database is required')
     connection = sqlite3.connect(pathlib.Path(file).absolute().as_uri() + '?mode=ro', uri=True)
     connection.row_factory = sqlite3.Row
     return connection
@@ -193,7 +193,7 @@ def _database_of(source):
         return source
     file = os.path.join(source, FILE)
     if not os.path.exists(file):
-        raise ReportError(f'{source}: holds no results of parking_benchmark ({FILE})')
+        raise ReportError(f'{source}: contains no results of parking_benchmark ({FILE})')
     return file
 
 
@@ -206,7 +206,7 @@ def _planners_in(file):
 
 
 def _label(source):
-    """What tells the planners of a source from those of others."""
+    """Names that distinguish the planners of a source from those of others."""
     name = os.path.basename(os.path.abspath(source))
     return os.path.basename(os.path.dirname(os.path.abspath(source))) if name == FILE else os.path.splitext(name)[0]
 
@@ -217,7 +217,7 @@ def _labels(sources):
 
 
 def read_results(*sources):
-    """Reads databases, or those in folders. A planner that several of them have is one for each: "RRT (old)".
+    """Reads databases, or those in folders. A planner in several of them becomes one for each: "RRT (old)".
 
     Raises ReportError."""
     results = Results()
@@ -237,8 +237,8 @@ def read_results(*sources):
         results.sources.append(file)
         results.labels.append(label)
     if not results.runs:
-        raise ReportError(f'{results.sources[0]}: holds no runs')
-    if len(sources) > 1:  # those of one planner stand beside each other
+        raise ReportError(f'{results.sources[0]}: contains no runs')
+    if len(sources) > 1:  # instances of one planner are adjacent
         names = [re.sub(r' \(.*\)$', '', planner) for planner in results.planners]
         results.planners.sort(key=lambda planner: names.index(re.sub(r' \(.*\)$', '', planner)))
     limits = {float(value) for value in results.facts.get('timelimit', [])}

@@ -1,9 +1,9 @@
-"""Figures as a reader sees them."""
+"""Figures in the format for readers."""
 import math
 
 
 def shown(value, digits=3):
-    """With at least that many significant digits, and no exponent."""
+    """A number with at least that many significant digits, and no exponent."""
     if value is None or math.isnan(value):
         return '–'
     if math.isinf(value):
@@ -14,7 +14,7 @@ def shown(value, digits=3):
 
 
 def shown_time(seconds):
-    """4.81 ms, 1.20 s, ∞."""
+    """A time such as 4.81 ms, 1.20 s or ∞."""
     if not math.isfinite(seconds):
         return shown(seconds)
     if seconds < 1e-3:
@@ -23,7 +23,7 @@ def shown_time(seconds):
 
 
 def shown_in(value, unit, digits=3):
-    """With its unit, where there is a value."""
+    """A value with its unit; empty without a value."""
     return shown(value, digits) + (f' {unit}' if unit and math.isfinite(value) else '')
 
 
@@ -32,5 +32,5 @@ def percent(share):
 
 
 def probability(p):
-    """p = 0.012, p < 0.0001."""
+    """A probability such as p = 0.012 or p < 0.0001."""
     return 'p < 0.0001' if p < 1e-4 else f'p = {p:.2g}'

@@ -1,20 +1,20 @@
-"""Paths of the planners, out of the pictures that parking_benchmark draws of its problems."""
+"""Paths of the planners, from parking_benchmark's pictures of its problems."""
 import dataclasses
 import os
 import xml.etree.ElementTree as ElementTree
 
-SHAPES = {'g', 'path', 'rect', 'polygon', 'polyline', 'circle', 'text', 'tspan'}  # scripts and links are none
+SHAPES = {'g', 'path', 'rect', 'polygon', 'polyline', 'circle', 'text', 'tspan'}  # without scripts and links
 
 
 @dataclasses.dataclass
 class Path:
-    """A planner's path: of which run, and its stretches between changes of direction, (direction, points)."""
+    """A planner's path: the number of its run, and its stretches between changes of direction, (direction, points)."""
     run: int
     stretches: list = dataclasses.field(default_factory=list)
 
     @property
     def cusps(self):
-        """Where the direction changes."""
+        """Positions of the changes of direction."""
         return [points.split(' ', 1)[0].split(',') for _, points in self.stretches[1:]]
 
 
@@ -28,7 +28,7 @@ class Picture:
 
 
 def _whole_pixels(points):
-    """Points rounded, each once."""
+    """Rounded points without repetitions."""
     rounded = [','.join(f'{float(value):.0f}' for value in point.split(',')) for point in points.split()]
     return ' '.join(point for k, point in enumerate(rounded) if k == 0 or rounded[k - 1] != point)
 
@@ -44,7 +44,7 @@ def _take_paths(group):
 
 
 def read_picture(folder, problem):
-    """The picture of a problem; None when there is none, or one of another program."""
+    """The picture of a problem; None without one of this program."""
     try:
         root = ElementTree.parse(os.path.join(folder, 'pictures', problem + '.svg')).getroot()
         for element in root.iter():

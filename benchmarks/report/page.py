@@ -1,4 +1,4 @@
-"""The report: one HTML page that needs nothing else. report.html is its template."""
+"""The report: one self-contained HTML page. report.html is its template."""
 import base64
 import dataclasses
 import gzip
@@ -17,11 +17,11 @@ from standings import MEASURES, WITHIN, share_solved
 from tables import FILES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# A page stays below 10 MB by leaving out the details of what exceeds these.
-MAX_DETAILED_RUNS = 20000  # of a comparison in which each dot names its run
-MAX_SECTION_CELLS, MAX_MATRIX_CELLS = 1000, 5000  # planners on problems
+# Beyond these limits, details are left out to keep a page below 10 MB.
+MAX_DETAILED_RUNS = 20000  # runs of a comparison in which each dot names its run
+MAX_SECTION_CELLS, MAX_MATRIX_CELLS = 1000, 5000  # planners times problems
 MAX_GALLERIES, MAX_SETUPS = 25, 100  # problems
-BEST = {'time': 'quickest planner on the problem', 'length': 'shortest path on the problem'}
+BEST = {'time': 'fastest planner on the problem', 'length': 'shortest path on the problem'}
 
 # Further columns, shown where the runs have such figures. The file is made from the table in
 # benchmarks/store/RunColumns.cpp.
@@ -33,12 +33,12 @@ with open(os.path.join(HERE, 'columns.json'), encoding='utf-8') as _columns:
 class Figure:
     """A cell of a table."""
     text: str
-    sort: float = None  # by which its column is sorted
-    tip: str = ''       # shown where it is pointed at, tapped or focused
+    sort: float = None  # sort key of its column
+    tip: str = ''       # explanation when pointed at, tapped or focused
     kind: str = ''      # class in the style sheet
     note: str = ''      # smaller, beside the text
     share: float = None  # drawn as a bar or a colour
-    interval: tuple = None  # of the share
+    interval: tuple = None  # interval of the share
 
 
 @dataclasses.dataclass
@@ -53,8 +53,10 @@ class Row:
 
 
 class Cell:
-    """How one planner did on one problem. A run without a valid exact solution takes infinitely long; lengths are those of
-    the solved runs, as in summary.csv, except for comparisons across problems, where it is infinitely long, too."""
+    """Results of one planner on one problem. A run without a valid exact solution counts as infinitely slow.
+
+    Lengths are those of the solved runs, as in summary.csv. In comparisons across problems an unsolved run counts as
+    infinitely long, too."""
 
     def __init__(self, runs):
         self.runs = runs
@@ -108,7 +110,7 @@ def overall_table(results, table):
                 for problem, cells in table.items()}
     cells_of = {index: [(problem, cells[index]) for problem, cells in table.items() if index in cells]
                 for index in range(len(results.planners))}
-    # Planners that were run on fewer problems than others are not to be compared with them.
+    # Planners that ran on fewer problems than others are not comparable with them.
     most = max(map(len, cells_of.values()))
     times = {index: [run.time for _, cell in cells for run in cell.runs] for index, cells in cells_of.items()}
     best = min(median(times[index]) for index, cells in cells_of.items() if len(cells) == most)
@@ -133,7 +135,8 @@ def overall_table(results, table):
 
 
 def matrix(results, table, count, linked):
-    """The first problems against planners: share solved as colour, median time as text. linked: problems with a section."""
+    """The first problems against planners: share solved as colour, median time as text. linked: problems with a
+    section."""
     rows = []
     for number, (problem, cells) in enumerate(list(table.items())[:count]):
         figures = []
@@ -155,7 +158,8 @@ def matrix(results, table, count, linked):
 
 
 def _further_columns(results, folded):
-    """Columns that any run has. Loading the map matters beside a drive only: otherwise it is the same for all."""
+    """Columns with a value in any run. Loading the map matters beside a drive only: otherwise it is the same for
+    all."""
     there = [column for column in COLUMNS if column['folded'] == folded
              and any(not math.isnan(run.figure(column['name'])) for run in results.runs[:2000])]
     driven = any(not math.isnan(run.figure('travel time')) for run in results.runs[:2000])
@@ -177,7 +181,7 @@ def problem_table(results, cells, columns):
         marks = []
         if cell.invalid:
             marks.append(('invalid', f'▲ {cell.invalid} invalid', f'{cell.invalid} of {cell.count} runs ended with a path '
-                          'that the planner calls a solution and that fails the second check'))
+                          'that the planner reports as a solution and that fails the second check'))
         if cell.approximate:
             marks.append(('near', f'{cell.approximate} approximate', f'{cell.approximate} of {cell.count} runs ended with '
                           'a path that does not reach the goal'))
@@ -196,7 +200,7 @@ def problem_table(results, cells, columns):
 
 
 def further_table(results, cells, columns):
-    """Further figures of paths and drives; None where no planner has any."""
+    """Further figures of paths and drives; None without values."""
     rows = [Row(results.planners[index], list(_further_figures(cell, columns)), index)
             for index, cell in cells.items() if cell.solved]
     return _table('figures', ['planner', *(column['heading'] for column in columns)], rows) if columns and rows else None
@@ -224,13 +228,13 @@ def field_table(results, field):
 
 def _pair_tip(results, pair):
     first, second = results.planners[pair.first], results.planners[pair.second]
-    return (f'{first} against {second}: better on {pair.wins}, alike on {pair.ties}, worse on {pair.losses} of '
+    return (f'{first} against {second}: better on {pair.wins}, equal on {pair.ties}, worse on {pair.losses} of '
             f'{pair.problems} problems; median ratio {shown(pair.ratio)}; Wilcoxon {probability(pair.wilcoxon.p)}, Holm '
             f'{probability(pair.wilcoxon_holm)}; sign test {probability(pair.sign)}, Holm {probability(pair.sign_holm)}')
 
 
 def pair_matrix(results, standings, measure):
-    """Row against column: problems won and lost; coloured where the difference is significant."""
+    """Row against column: problems won and lost; coloured if the difference is significant."""
     found = {(pair.first, pair.second): pair for pair in standings.pairs if pair.measure == measure}
     there = sorted({index for pair in found for index in pair})
     rows = []
@@ -266,10 +270,10 @@ def class_table(results, standings):
 
 
 class Charts(dict):
-    """The figures of the page by name; the page draws each when it comes into view."""
+    """The figures of the page by name; the page draws each when it becomes visible."""
 
     def add(self, name, title, figure, note='', wide=False):
-        """What the template knows of a figure, or of its absence (None)."""
+        """The template's data of a figure, or of its absence (None)."""
         if figure is not None:
             self[name] = figure
         return {'name': name, 'title': title, 'note': note, 'wide': wide, 'height': figure and figure['layout']['height']}
@@ -278,7 +282,7 @@ class Charts(dict):
 def _field_context(results, field, number, made):
     """A field of the standings: its table and charts."""
     names, count = results.planners, len(field.problems)
-    panels = [made.add(f'expected-{number}', 'Problems solved over time, expected for one try each; band: 95 %',
+    panels = [made.add(f'expected-{number}', 'Expected problems solved over time, one attempt each; band: 95 %',
                        charts.expected_chart(names, field.expected, count, results.time_limit))]
     for measure, best in BEST.items():
         panels.append(made.add(f'profile-{measure}-{number}', f'Performance profile: {MEASURES[measure]}, median of '
@@ -288,8 +292,8 @@ def _field_context(results, field, number, made):
             test = ranking.friedman
             note = ('' if test is None else f'Friedman over {count} problems: χ² = {shown(test.chi_square)}, '
                     f'{probability(test.p)} (by F of Iman and Davenport). ')
-            note += (f"Bars join neighbours that pairwise Wilcoxon tests with Holm's correction do not tell apart at "
-                     f"{100 * LEVEL:.0f} %. Nemenyi's critical difference, for comparison: {shown(ranking.critical)} ranks.")
+            note += (f"Bars join adjacent planners without a significant difference in pairwise Wilcoxon tests with Holm's "
+                     f"correction at {100 * LEVEL:.0f} %. Nemenyi's critical difference, for comparison: {shown(ranking.critical)} ranks.")
             panels.append(made.add(f'ranks-{measure}-{number}', f'Mean rank by {MEASURES[measure]}',
                                    charts.rank_chart(names, ranking.ranks, ranking.groups), note))
     listed = ', '.join(field.problems[:6]) + (' …' if count > 6 else '')
@@ -311,7 +315,7 @@ def _standings_context(results, standings, made):
 
 
 def _card(results, index, cell, path, link):
-    """What stands below a planner's path."""
+    """The text below a planner's path."""
     best = next((run for run in cell.runs if path and run.number == path.run), None)
     card = {'index': index, 'name': results.planners[index], 'link': link, 'path': path if best else None, 'kind': '',
             'count': f'{cell.solved}/{cell.count}', 'text': 'no path'}
@@ -332,7 +336,7 @@ def _gallery(results, problem, cells):
     picture = read_picture(results.folder, problem)
     names = results.planners
     if picture is None or any(cell.solved and names[index] not in picture.paths for index, cell in cells.items()):
-        return None  # or one of other results
+        return None  # or the picture of other results
     cards = []
     for index, cell in cells.items():
         path = picture.paths.get(names[index])
@@ -359,7 +363,7 @@ def _problem_context(results, number, problem, cells, columns, made):
 
 
 def _links(results):
-    """Files beside the report, as (name, what it is)."""
+    """Files beside the report, as (name, content)."""
     files = [('benchmark.db', 'all runs, in the schema of OMPL; Planner Arena opens it'),
              ('summary.csv', 'medians and intervals'), ('summary.md', 'the table of the terminal')]
     for problem in results.problems:
@@ -369,7 +373,7 @@ def _links(results):
 
 
 def _facts(results):
-    """How the runs were made: (what, value)."""
+    """Conditions of the measurement: (name, value)."""
     facts = results.facts
     models = [line.split(':', 1)[1] for text in facts.get('cpuinfo', []) for line in text.splitlines()
               if line.startswith('Model name') and ':' in line]
@@ -382,7 +386,7 @@ def _facts(results):
 
 
 def _packed_plotly():
-    """Plotly's script for a page without network, packed: unpacked it has 8 MB in Debian."""
+    """Plotly's script for a page without network, compressed: it has 8 MB in Debian."""
     return base64.b64encode(gzip.compress(plotly.offline.get_plotlyjs().encode(), compresslevel=6, mtime=0)).decode()
 
 

@@ -1,6 +1,6 @@
-"""Statistics of runs and problems that assume nothing of a distribution, computed by SciPy.
+"""Statistics of runs and problems without assumptions about distributions, computed by SciPy.
 
-Infinite values are welcome everywhere: a run that timed out took longer than all that did not. Definitions and sources:
+Values may be infinite: a run that timed out took longer than all that did not. Definitions and sources:
 docs/benchmark-reference.md."""
 import collections
 import functools
@@ -9,17 +9,17 @@ import math
 import numpy
 from scipy import stats
 
-LEVEL = 0.05  # of what is called significant; intervals have the rest
-EXACT = 10    # differences up to which Wilcoxon's test is exact
+LEVEL = 0.05  # significance level; intervals have the rest
+EXACT = 10    # largest number of differences for the exact Wilcoxon test
 
 Wilcoxon = collections.namedtuple('Wilcoxon', 'plus minus count zeros p exact')
 Friedman = collections.namedtuple('Friedman', 'chi_square f p')
 
 
 def quantile(values, share):
-    """Linear between the two values next to it (type 7 of Hyndman and Fan); NaN without values.
+    """Quantile, linear between the two adjacent values (type 7 of Hyndman and Fan); NaN without values.
 
-    NumPy's interpolates from infinity to infinity, which is no number."""
+    NumPy interpolates from infinity to infinity, which gives NaN."""
     ordered = sorted(values)
     if not ordered:
         return math.nan
@@ -34,8 +34,10 @@ def median(values):
 
 @functools.lru_cache(maxsize=None)
 def median_ranks(count):
-    """Ranks (from 1) of the order statistics that enclose the median with at least 95 %, and the certainty that they
-    have; None for too few values. The number of values below the median is binomially distributed."""
+    """Ranks (from 1) of the order statistics that enclose the median with at least 95 %, and the certainty; None for
+    too few values.
+
+    The number of values below the median is binomially distributed."""
     rank = int(stats.binom.ppf(0.5 * LEVEL, count, 0.5))
     if rank < 1:
         return None
@@ -43,7 +45,7 @@ def median_ranks(count):
 
 
 def median_interval(values):
-    """(low, high, certainty); the range of all values and certainty 0 when there are too few."""
+    """(low, high, certainty) of the median; the range of all values and certainty 0 with too few values."""
     ordered = sorted(values)
     if not ordered:
         return math.nan, math.nan, 0.0
@@ -62,7 +64,7 @@ def share_interval(successes, trials):
 
 
 def wilson(share, trials):
-    """95 % interval of a share that may be of a fraction of a trial (Wilson); SciPy's takes whole numbers only."""
+    """95 % interval of a share with a fractional count (Wilson); SciPy's accepts whole numbers only."""
     z = stats.norm.ppf(1.0 - 0.5 * LEVEL)
     middle = share + z * z / (2.0 * trials)
     reach = z * math.sqrt(share * (1.0 - share) / trials + z * z / (4.0 * trials * trials))
@@ -71,12 +73,12 @@ def wilson(share, trials):
 
 
 def wilcoxon(differences):
-    """Signed-rank test, two-sided, zeros as Pratt has it; plus and minus are the sums of ranks of either sign.
+    """Two-sided signed-rank test with Pratt's treatment of zeros; plus and minus are the sums of ranks of either sign.
 
-    Exact for up to EXACT differences, whatever their zeros and ties: all choices of signs are counted. Beyond, by the
-    normal approximation, corrected for ties and continuity."""
+    Exact for up to EXACT differences, with any zeros and ties: all choices of signs are counted. Beyond, by the normal
+    approximation, corrected for ties and continuity."""
     values = numpy.round(numpy.asarray(differences, dtype=float), 12)
-    signed = numpy.sign(values) * stats.rankdata(numpy.abs(values))  # has the same test as the values, and is finite
+    signed = numpy.sign(values) * stats.rankdata(numpy.abs(values))  # gives the same test as the values, and is finite
     own = signed[signed != 0.0]
     if own.size < 2:
         p = 1.0
@@ -90,12 +92,12 @@ def wilcoxon(differences):
 
 
 def sign_test(wins, losses):
-    """Two-sided, exact; ties are no trials."""
+    """Two-sided exact sign test; ties are not trials."""
     return float(stats.binomtest(wins, wins + losses).pvalue) if wins + losses else 1.0
 
 
 def holm(values):
-    """p values adjusted for being several (Holm), in the order given."""
+    """p values with Holm's correction for multiple tests, in the order given."""
     adjusted, greatest = [0.0] * len(values), 0.0
     for place, k in enumerate(sorted(range(len(values)), key=lambda k: values[k])):
         greatest = max(greatest, min(1.0, (len(values) - place) * values[k]))
@@ -104,14 +106,15 @@ def holm(values):
 
 
 def mean_ranks(rows):
-    """rows: for each problem the scores of all planners, of which the least is best. A mean rank for each planner."""
+    """Mean rank of each planner. rows: for each problem the scores of all planners, lower is better."""
     return [float(rank) for rank in stats.rankdata(rows, axis=1).mean(axis=0)]
 
 
 def friedman(rows):
-    """Do all planners rank alike? Friedman's statistic, and p by the F distribution of Iman and Davenport.
+    """Friedman's test whether all planners rank equally: its statistic, and p by the F distribution of Iman and
+    Davenport.
 
-    None for fewer than three planners, of which the tests of pairs say all."""
+    None for fewer than three planners, for which the tests of pairs suffice."""
     problems, planners = len(rows), len(rows[0])
     if planners < 3:
         return None
@@ -127,15 +130,15 @@ def friedman(rows):
 
 @functools.lru_cache(maxsize=None)
 def critical_difference(planners, problems):
-    """Nemenyi's: mean ranks that differ by more differ significantly, all pairs considered."""
+    """Nemenyi's critical difference: a larger difference of two mean ranks is significant, for all pairs at once."""
     width = stats.studentized_range.ppf(1.0 - LEVEL, planners, math.inf)
     return float(width / math.sqrt(2.0) * math.sqrt(planners * (planners + 1) / (6.0 * problems)))
 
 
 def groups(ranks, differ):
-    """Largest runs of planners next to each other by mean rank of which no two differ: [[index, ...]], best first.
+    """Largest groups of planners adjacent by mean rank without a different pair: [[index, ...]], best first.
 
-    differ(a, b): are these two told apart? Only groups of two and more."""
+    differ(a, b): whether two planners differ. Only groups of two and more."""
     order = sorted(range(len(ranks)), key=lambda k: ranks[k])
     found, reached = [], 0
     for begin in range(len(order)):

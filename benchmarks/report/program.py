@@ -1,4 +1,4 @@
-"""What programs of the report share: the packages that they need, errors of one line, files that are whole or not there."""
+"""Common parts of the report's programs: required packages, one-line errors, files that are complete or absent."""
 import argparse
 import importlib.util
 import os
@@ -13,7 +13,7 @@ MISSING = 3  # exit status
 def require_packages(program):
     """Ends the program with one line when a package is missing.
 
-    Another python3 may be first in PATH and lack what Debian's has: then Debian's runs the program instead."""
+    The first python3 in PATH may lack Debian's packages: then Debian's python3 runs the program instead."""
     missing = [package for module, package in PACKAGES.items() if importlib.util.find_spec(module) is None]
     if not missing:
         return
@@ -26,7 +26,7 @@ def require_packages(program):
 
 
 class ReportError(Exception):
-    """Bad input; its text is one line that names the file."""
+    """Invalid input; its text is one line that names the file."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -35,7 +35,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def run(program, main):
-    """Runs main with the program's arguments. Returns the exit status: 2, and one line on standard error, for errors."""
+    """Runs main with the program's arguments. Returns the exit status: 2, and one line on standard error, for
+    errors."""
     try:
         main(sys.argv[1:])
     except ReportError as error:
@@ -52,21 +53,21 @@ def require_no_input(outputs, inputs):
     for output in outputs:
         for file in inputs:
             if os.path.exists(output) and os.path.exists(file) and os.path.samefile(output, file):
-                raise ReportError(f'{output}: is the input {file}, which would be lost; name another file to write')
+                raise ReportError(f'{output}: is the input {file}, which would be lost; choose another file to write')
 
 
 def require_writable(file):
-    """Raises ReportError unless a file of this name can be written, whether or not there is one."""
+    """Raises ReportError unless a file of this name can be written, existing or not."""
     if not file:
         raise ReportError('the name of the file to write is empty')
     if os.path.exists(file) and not os.path.isfile(file):
-        kind = 'a folder' if os.path.isdir(file) else 'a pipe or a device, which a file would take the place of'
+        kind = 'a folder' if os.path.isdir(file) else 'a pipe or a device, which a file would replace'
         raise ReportError(f'{file}: cannot be written: is {kind}')
     folder = os.path.dirname(os.path.abspath(file))
     if not os.path.isdir(folder):
         raise ReportError(f'{file}: cannot be written: there is no folder {folder}')
     try:
-        # What permissions do not tell: root may write everywhere, and yet /proc takes no file.
+        # Permissions are not sufficient: root may write everywhere, but not in /proc.
         with tempfile.NamedTemporaryFile(dir=folder, prefix='.report-'):
             pass
     except OSError as error:
@@ -74,7 +75,8 @@ def require_writable(file):
 
 
 def write_whole(file, content):
-    """Raises ReportError when the file cannot be written; what was there before then stays."""
+    """Writes a file completely or not at all. Raises ReportError when it cannot be written; an existing file then
+    stays."""
     require_writable(file)
     temporary = None
     try:

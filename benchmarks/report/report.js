@@ -4,7 +4,7 @@
     const charts = JSON.parse(document.getElementById('charts').textContent);
     const hidden = new Set();  // planners
 
-    // Plotly's script is packed: it has megabytes.
+    // Plotly's script is compressed: it has megabytes.
     async function loadPlotly() {
         const packed = Uint8Array.from(atob(document.getElementById('plotly').textContent), each => each.charCodeAt(0));
         const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
@@ -35,7 +35,7 @@
             all('.chart').forEach(element => { element.textContent = 'This browser is too old to draw charts.'; });
             return;
         }
-        // Each chart when it comes near the window: of hundreds few are ever looked at.
+        // Draws each chart when it is close to the window: few of hundreds are viewed.
         const observer = new IntersectionObserver(entries => entries.forEach(({isIntersecting, target}) => {
             if (isIntersecting) {
                 observer.unobserve(target);
@@ -59,7 +59,7 @@
         });
     }
 
-    // Tables sorted by a heading: up, down, as they were.
+    // Sorts tables by a heading: ascending, descending, original order.
     for (const table of all('table')) {
         const body = table.tBodies[0], original = Array.from(body.rows);
         all('thead button', table).forEach((button, column) => button.addEventListener('click', () => {
@@ -81,7 +81,7 @@
         }));
     }
 
-    // What a figure means, at the lower edge: for pointer, finger and keyboard.
+    // Shows the meaning of a figure at the lower edge, by pointer, finger and keyboard.
     const tip = document.getElementById('tip');
     function explain(event) {
         const target = event.target.closest && event.target.closest('[data-tip]');

@@ -1,4 +1,4 @@
-"""Planners against each other over all problems: profiles, penalised times, ranks and tests of pairs.
+"""Comparison of planners over all problems: profiles, penalised times, ranks and tests of pairs.
 
 Definitions and their sources: docs/benchmark-reference.md."""
 import bisect
@@ -17,16 +17,16 @@ from planner_statistics import (LEVEL, critical_difference, friedman, groups, ho
 from program import ReportError
 
 MEASURES = {'time': 'time to the first solution', 'length': 'length of the path'}
-WITHIN = {'time': (1.0, 2.0, 10.0), 'length': (1.0, 1.01, 1.1)}  # ratios to the virtual best that the tables have
-PENALTY = 10.0            # a run that is not solved counts as that many time limits
+WITHIN = {'time': (1.0, 2.0, 10.0), 'length': (1.0, 1.01, 1.1)}  # ratios to the virtual best in the tables
+PENALTY = 10.0            # number of time limits for an unsolved run
 MIN_SCORE = 1e-9          # seconds or metres; scores are compared by their ratios
-MAX_POINTS = 150          # of a curve
-CLASSES = 'classes.csv'   # in the folder of the results
+MAX_POINTS = 150          # maximum points of a curve
+CLASSES = 'classes.csv'   # name in the folder of the results
 KINDS = ('parallel', 'perpendicular', 'angled')
 
 
 def score(runs, measure):
-    """Median over all runs, to six significant digits: what differs by less is the noise of arithmetic, and a tie."""
+    """Median over all runs, to six significant digits: a smaller difference is rounding, and a tie."""
     return float(f'{median([max(MIN_SCORE, getattr(run, measure)) for run in runs]):.6g}')
 
 
@@ -53,12 +53,12 @@ def profile(values):
 
 @dataclasses.dataclass
 class Row:
-    """One planner on the problems of a field."""
+    """Results of one planner on the problems of a field."""
     index: int
     runs: int
     solved: int
-    expected: float  # number of problems solved when each is tried once
-    par10: float     # s, mean over the problems, each of the same weight
+    expected: float  # expected number of problems solved with one attempt each
+    par10: float     # seconds, mean over the problems with equal weights
     within: dict     # (measure, ratio) -> share of the problems
     rank: dict       # measure -> mean rank
 
@@ -68,12 +68,12 @@ class Ranking:
     """Mean ranks by one measure."""
     ranks: dict      # index -> mean rank
     friedman: object
-    critical: float  # Nemenyi's difference
-    groups: list     # of indices that no pair of is told apart
+    critical: float  # Nemenyi's critical difference
+    groups: list     # lists of indices without a significant difference
 
 
 class Field:
-    """Planners that were run on the same problems, and how they stand to each other on all of them."""
+    """Planners with common problems, and their comparison on all of them."""
 
     def __init__(self, results, problems, planners, scores, differ):
         self.problems, self.planners = problems, planners  # names, indices
@@ -96,11 +96,11 @@ class Field:
         self.rows = [self._row(index, sum(penalties[index]) / len(problems)) for index in planners]
 
     def _expected_solved(self, index):
-        """Points (time, expected number of problems solved by then when each is tried once, low, high).
+        """Points (time, expected number of problems solved by then with one attempt each, low, high).
 
-        The interval is Wilson's for as many trials as there are problems: runs on one problem are not independent. It is
-        never too narrow for problems drawn alike, since the share of runs solved on a problem spreads at most as far as
-        solved or not."""
+        The interval is Wilson's for as many trials as there are problems, since runs on one problem are not
+        independent. It is never too narrow for problems of one distribution: the share of runs solved on a problem
+        spreads at most as far as 0 or 1."""
         count = len(self.problems)
         gains = {}
         for runs in self._cells[index]:
@@ -137,15 +137,15 @@ class Field:
 
 @dataclasses.dataclass
 class Pair:
-    """Two planners on the problems that both were run on."""
+    """Two planners on their common problems."""
     measure: str
     first: int
     second: int
     problems: int
-    wins: int    # of the first
+    wins: int    # problems won by the first
     ties: int
     losses: int
-    ratio: float  # median of first over second; neither solved counts as 1
+    ratio: float  # median of first over second; both unsolved counts as 1
     wilcoxon: object
     sign: float
     wilcoxon_holm: float = 1.0
@@ -157,12 +157,12 @@ class Pair:
 
     @property
     def first_is_better(self):
-        """By the ranks of the test."""
+        """The planner with the better ranks in the test."""
         return self.wilcoxon.minus > self.wilcoxon.plus
 
 
 def difference(first, second):
-    """Logarithm of the ratio; 0 when neither solved it."""
+    """Logarithm of the ratio; 0 if both are unsolved."""
     if first == second:
         return 0.0
     if math.isinf(first) or math.isinf(second):
@@ -171,7 +171,7 @@ def difference(first, second):
 
 
 def middle_difference(differences):
-    """Median; of two in the middle an infinite one counts, and two opposite ones say that neither is ahead."""
+    """Median with infinite values: of two in the middle an infinite one counts, and two opposite ones give 0."""
     ordered = sorted(differences)
     low, high = ordered[(len(ordered) - 1) // 2], ordered[len(ordered) // 2]
     if math.isinf(low) and math.isinf(high) and low != high:
@@ -180,8 +180,10 @@ def middle_difference(differences):
 
 
 def _pairs(results, scores):
-    """All pairs of planners that share two problems or more. Holm's correction is for all pairs of a measure between
-    planners that such pairs connect: those on problems of their own are other experiments."""
+    """All pairs of planners with two common problems or more.
+
+    Holm's correction covers all pairs of a measure between planners that such pairs connect: other problems are other
+    experiments."""
     made = []
     for measure in MEASURES:
         own, table = [], scores[measure]
@@ -202,7 +204,7 @@ def _pairs(results, scores):
 
 
 def _families(pairs):
-    """Pairs whose planners are connected by pairs, together."""
+    """Groups of pairs whose planners are connected by pairs."""
     count = 1 + max((pair.second for pair in pairs), default=0)
     links = coo_matrix((numpy.ones(len(pairs)), ([pair.first for pair in pairs], [pair.second for pair in pairs])), (count, count))
     _, family_of = connected_components(links, directed=False)
@@ -213,8 +215,9 @@ def _families(pairs):
 
 
 def class_by_name(problem):
-    """The kind of slot in the name, or else the name without its numbers: Case17 and Case3 are both "Case". Problems that
-    other planners solve for a disc instead of the car (Case3_se2_circle) stay apart."""
+    """The kind of slot in the name, or else the name without its numbers: Case17 and Case3 are both "Case".
+
+    Problems solved for a disc instead of the car (Case3_se2_circle) stay separate."""
     stem, setting = re.fullmatch(r'(.*?)(_(?:se2|dubins|reeds_shepp)(?:_\w+)?)?', problem, re.DOTALL).groups()
     kinds = [kind for kind in KINDS if kind in stem.lower()]
     return (kinds[0] if kinds else re.sub(r'^\d+[\W_]*|[\W_\d]*\d$', '', stem) or stem) + (setting or '')
@@ -223,7 +226,7 @@ def class_by_name(problem):
 def read_classes(file):
     """problem -> class, from a CSV file with the columns problem and class. Raises ReportError."""
     if os.path.exists(file) and not os.path.isfile(file):
-        raise ReportError(f'{file}: is no file; a CSV file is needed')
+        raise ReportError(f'{file}: is not a file; a CSV file is required')
     try:
         with open(file, encoding='utf-8', newline='') as stream:
             rows = list(csv.DictReader(stream))
@@ -232,19 +235,20 @@ def read_classes(file):
     except (UnicodeDecodeError, csv.Error) as error:
         raise ReportError(f'{file}: is not a CSV file ({error})') from error
     if not rows or not {'problem', 'class'} <= set(rows[0]):
-        raise ReportError(f'{file}: lacks a first line with the columns problem and class, or holds nothing else')
+        raise ReportError(f'{file}: lacks a first line with the columns problem and class, or contains no other line')
     found = {}
     for count, row in enumerate(rows, 2):
         problem, kind = ((row[name] or '').strip() for name in ('problem', 'class'))
         if not problem or not kind:
             raise ReportError(f'{file}:{count}: lacks a problem or its class')
         if found.setdefault(problem, kind) != kind:
-            raise ReportError(f'{file}:{count}: {problem} is of class {found[problem]} already')
+            raise ReportError(f'{file}:{count}: {problem} already belongs to class {found[problem]}')
     return found
 
 
 def problem_classes(results, file=None):
-    """class -> its problems, in the order of the problems. Those that the file does not name go by their names."""
+    """class -> its problems, in the order of the problems. Problems that the file does not contain are classified by
+    name."""
     beside = os.path.join(results.folder, CLASSES)
     told = read_classes(file or beside) if file or os.path.exists(beside) else {}
     unknown = [problem for problem in told if problem not in results.problems]
@@ -257,7 +261,7 @@ def problem_classes(results, file=None):
 
 
 class Standings:
-    """All figures, computed once for the page and for the files beside it. Fields are sorted by size, pairs by measure."""
+    """All figures, computed once for the page and its files. Fields are sorted by size, pairs by measure."""
 
     def __init__(self, results, classes_file=None):
         cells = {(problem, index): results.of(problem, planner) for index, planner in enumerate(results.planners)

@@ -1,4 +1,4 @@
-"""The standings for programs: statistics.json has all, standings.csv and pairs.csv the tables."""
+"""The standings for programs: all in statistics.json, the tables in standings.csv and pairs.csv."""
 import csv
 import io
 import json
@@ -6,7 +6,7 @@ import math
 
 from standings import MEASURES, WITHIN
 
-FORMAT = 1  # of statistics.json
+FORMAT = 1  # format of statistics.json
 FILES = {'statistics.json': 'all figures of "Planners against each other"',
          'standings.csv': 'planners overall and by class of problem: PAR-10, ranks, shares',
          'pairs.csv': 'every pair of planners: wins, tests, corrected p values'}
@@ -14,7 +14,7 @@ SHARES = [(measure, ratio) for measure in MEASURES for ratio in WITHIN[measure]]
 
 
 def _csv(heading, rows):
-    """Numbers with ten digits; empty: no figure, or infinite."""
+    """Numbers with ten digits; empty for missing or infinite ones."""
     stream = io.StringIO()
     writer = csv.DictWriter(stream, heading, restval='', lineterminator='\n')
     writer.writeheader()
@@ -56,7 +56,7 @@ def _pairs_csv(results, standings):
 
 
 def _finite(value):
-    """The value with None for all that is not finite: JSON has no infinity."""
+    """The value with None for everything that is not finite: JSON has no infinity."""
     if isinstance(value, dict):
         return {key: _finite(each) for key, each in value.items()}
     if isinstance(value, (list, tuple)):

@@ -19,14 +19,14 @@ namespace parking
         if (access == Access::Write)
             lock(file);
         const int flags = SQLITE_OPEN_READWRITE | (access == Access::Write ? SQLITE_OPEN_CREATE : 0);
-        // Where a file system knows no locks, SQLite goes without, too.
+        // On file systems without locks, SQLite does not lock either.
         const char *system = access == Access::Write && !locked_ ? "unix-none" : nullptr;
         try
         {
             check(sqlite3_open_v2(file.c_str(), &handle_, flags, system));
-            // Readers hold up a commit for as long as they read.
+            // Readers delay a commit while they read.
             check(sqlite3_busy_timeout(handle_, std::numeric_limits<int>::max()));
-            // One file, at every moment, that anybody can read; other journals need shared memory, or two files.
+            // One file that is readable at any time; other journals need shared memory, or two files.
             run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
         }
         catch (const Error &)
@@ -44,14 +44,14 @@ namespace parking
     void Database::lock(const std::string &file)
     {
         namespace fs = std::filesystem;
-        // Opening a pipe waits until somebody reads it, and a device keeps nothing.
+        // Opening a pipe blocks until it has a reader, and a device stores nothing.
         if (std::error_code ignored;
             fs::exists(file, ignored) && !fs::is_regular_file(file, ignored) && !fs::is_directory(file, ignored))
-            throw Error(file_ + ": is a pipe or a device; it must be a file, which can be gone on with");
+            throw Error(file_ + ": is a pipe or a device; it must be a file, so that it can be extended later");
         lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (lock_ < 0)
             throw Error(file_ + ": cannot be written: " + std::strerror(errno));
-        // A byte behind all that SQLite locks. The system unlocks it, however the process ends.
+        // A byte beyond all that SQLite locks. The system unlocks it when the process ends in any way.
         struct flock place = {};
         place.l_type = F_WRLCK;
         place.l_whence = SEEK_SET;
@@ -61,14 +61,14 @@ namespace parking
         if (!locked_ && (errno == EAGAIN || errno == EACCES))
         {
             close();
-            throw Error(file_ + ": another parking_benchmark is writing it at this moment");
+            throw Error(file_ + ": another parking_benchmark is writing it");
         }
     }
 
     void Database::close()
     {
         sqlite3_close(handle_);
-        // Afterwards: closing it takes SQLite's locks of this process away.
+        // Afterwards: closing the file releases SQLite's locks of this process.
         if (lock_ >= 0)
             ::close(lock_);
     }
@@ -78,12 +78,12 @@ namespace parking
         const int code = sqlite3_errcode(handle_);
         const std::string text = sqlite3_errmsg(handle_);
         int cause = sqlite3_system_errno(handle_);
-        if (cause == 0 && code == SQLITE_IOERR)  // a file knows what happened to it (quota, limit of its size)
+        if (cause == 0 && code == SQLITE_IOERR)  // a file has its own reason (quota, limit of its size)
             sqlite3_file_control(handle_, "main", SQLITE_FCNTL_LAST_ERRNO, &cause);
-        // Where it cannot make a file, SQLite looks for it once more, and does not find it.
+        // If SQLite cannot create a file, it opens it again, and reports that it is missing.
         throw Error(file_ + ": SQLite: " + oneLine(text) +
                     (cause != 0 && cause != ENOENT ? std::string(" (") + std::strerror(cause) + ")" : "") +
-                    (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ? "; move it away, or name another file" : ""));
+                    (code == SQLITE_NOTADB || code == SQLITE_CORRUPT ? "; move it, or choose another file" : ""));
     }
 
     void Database::check(int result) const
@@ -97,7 +97,7 @@ namespace parking
         check(sqlite3_exec(handle_, statements.c_str(), nullptr, nullptr, nullptr));
     }
 
-    SqlValue Database::ask(const std::string &statement, const std::vector<SqlValue> &values) const
+    SqlValue Database::valueOf(const std::string &statement, const std::vector<SqlValue> &values) const
     {
         Statement answer(*this, statement, values);
         return answer.step() ? answer.value(0) : SqlValue(nullptr);
@@ -123,7 +123,7 @@ namespace parking
 
     void Database::Statement::bind(const std::vector<SqlValue> &values)
     {
-        sqlite3_reset(statement_);  // an error of the last run was told then
+        sqlite3_reset(statement_);  // an error of the last step was thrown already
         for (std::size_t i = 0; i < values.size(); ++i)
         {
             const int place = static_cast<int>(i) + 1;

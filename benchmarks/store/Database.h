@@ -13,28 +13,29 @@ namespace parking
     /** \brief A cell of a database. */
     using SqlValue = std::variant<std::nullptr_t, std::int64_t, double, std::string>;
 
-    /** \brief An open file of SQLite, which one process at a time writes and others may read.
+    /** \brief An open file of SQLite, written by one process at a time and readable by others.
 
-        Changes between BEGIN and COMMIT are made together, and are on the disk afterwards; what was not committed when
-        the database is closed, or its process ends, is taken back. All errors are parking::Error with the file's name
-       and SQLite's own words. */
+        Changes between BEGIN and COMMIT are made as one, and are on the disk afterwards. Changes without COMMIT are
+        undone when the database is closed or its process ends. All errors are parking::Error with the file's name and
+        SQLite's message. */
     class Database
     {
     public:
-        /** \brief How a file is opened. */
+        /** \brief Mode in which a file is opened. */
         enum class Access
         {
-            Read,  ///< nothing is changed but what a killed process left half done
-            Write  ///< a missing file becomes a database; refused while another process writes it
+            Read,  ///< no changes, except to complete the recovery after a killed process
+            Write  ///< creates a missing file; throws while another process writes it
         };
 
-        /** \brief Throws parking::Error also when the file is missing, to be read, or written by another process. */
+        /** \brief Opens a file. Throws parking::Error also when a file to read is missing, or another process writes a
+            file to write. */
         Database(const std::string &file, Access access);
         ~Database();
         Database(const Database &) = delete;
         Database &operator=(const Database &) = delete;
 
-        /** \brief A statement that can be run again with other values. */
+        /** \brief A statement that can be executed repeatedly with different values. */
         class Statement
         {
         public:
@@ -44,28 +45,28 @@ namespace parking
             Statement(const Statement &) = delete;
             Statement &operator=(const Statement &) = delete;
 
-            /** \brief Starts over with other values. */
+            /** \brief Restarts the statement with other values. */
             void bind(const std::vector<SqlValue> &values);
 
-            /** \brief Goes on to the next row; false when there is none. */
+            /** \brief Advances to the next row; false when there is none. */
             bool step();
 
             /** \brief Names of the columns. */
             std::vector<std::string> names() const;
 
-            /** \brief Type with which a column was declared, counted from 0; empty for an expression. */
+            /** \brief Declared type of a column, counted from 0; empty for an expression. */
             std::string type(int column) const;
 
             /** \brief A cell of the current row. */
             SqlValue value(int column) const;
 
-            /** \brief The same as a text; empty for a cell without a value. */
+            /** \brief A cell of the current row as text; empty for a cell without a value. */
             std::string text(int column) const;
 
-            /** \brief The same as a whole number; 0 for a cell without a value. */
+            /** \brief A cell of the current row as a whole number; 0 for a cell without a value. */
             std::int64_t number(int column) const;
 
-            /** \brief The same as any number. */
+            /** \brief A cell of the current row as a number; 0 for a cell without a value. */
             double real(int column) const;
 
         private:
@@ -73,16 +74,16 @@ namespace parking
             sqlite3_stmt *statement_{nullptr};
         };
 
-        /** \brief Runs statements without values. */
+        /** \brief Executes statements without values. */
         void run(const std::string &statements);
 
-        /** \brief The first cell of the first row that a statement finds; no value when there is none. */
-        SqlValue ask(const std::string &statement, const std::vector<SqlValue> &values = {}) const;
+        /** \brief The first cell of the first row of a query; no value without rows. */
+        SqlValue valueOf(const std::string &statement, const std::vector<SqlValue> &values = {}) const;
 
         /** \brief The number of the row that was inserted last. */
         std::int64_t lastRow() const;
 
-        /** \brief As it was opened, fit for a message. */
+        /** \brief Name of the file as given, for messages. */
         const std::string &file() const
         {
             return file_;

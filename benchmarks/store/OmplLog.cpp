@@ -14,7 +14,7 @@ namespace parking
     {
         using Statement = Database::Statement;
 
-        const std::size_t EXPERIMENT_COLUMNS = 12;  // of OMPL's schema; behind them those that are properties
+        const std::size_t EXPERIMENT_COLUMNS = 12;  // number of columns in OMPL's schema; further ones are properties
 
         std::string figure(const Statement &row, int column)
         {
@@ -29,7 +29,7 @@ namespace parking
             return name;
         }
 
-        /** How many there are comes before them. */
+        /** A list after its number of entries. */
         std::string counted(const std::vector<std::string> &lines, const std::string &what)
         {
             std::string text = std::to_string(lines.size()) + " " + what + "\n";
@@ -38,7 +38,7 @@ namespace parking
             return text;
         }
 
-        /** Of each enumeration its name and the names of its values, in one line. */
+        /** Name and values of each enumeration, one per line. */
         std::vector<std::string> enumerations(const Database &database)
         {
             std::vector<std::string> lines;
@@ -50,7 +50,7 @@ namespace parking
             return lines;
         }
 
-        /** All about the experiment but its planners. */
+        /** The head of an experiment's log, without its planners. */
         std::string head(const Database &database, const std::string &experiment)
         {
             Statement row(database, "SELECT * FROM experiments WHERE name = ?", {experiment});
@@ -74,7 +74,7 @@ namespace parking
                    " seconds spent to collect the data\n" + counted(enumerations(database), "enum types");
         }
 
-        /** Columns of which a run of the planner has a figure, as names and typed names. */
+        /** Columns for which a run of the planner has a figure, as names and typed names. */
         std::vector<std::pair<std::string, std::string>> columnsOf(const Database &database, const std::string &runs)
         {
             std::vector<std::pair<std::string, std::string>> columns;
@@ -101,10 +101,10 @@ namespace parking
                             const std::string &experiment)
         {
             const std::string runs = " WHERE experimentid = " + experiment + " AND plannerid IN (" + ids + ")";
-            // Of a run that fails early nobody knows the parameters.
+            // A run that fails early has no parameters.
             std::vector<std::string> parameters;
             std::istringstream settings(std::get<std::string>(
-                database.ask("SELECT MAX(settings) FROM plannerConfigs WHERE id IN (" + ids + ")")));
+                database.valueOf("SELECT MAX(settings) FROM plannerConfigs WHERE id IN (" + ids + ")")));
             for (std::string line; std::getline(settings, line) && line != ";";)
                 parameters.push_back(line.substr(line.front() == ';' ? 1 : 0));
 

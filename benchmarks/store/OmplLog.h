@@ -6,7 +6,6 @@
 
 namespace parking
 {
-    /** \brief The log of an experiment as ompl::tools::Benchmark writes it, of what is in the database of a
-        comparison. */
+    /** \brief The log of an experiment in the format of ompl::tools::Benchmark, from the database of a comparison. */
     std::string omplLog(const Database &database, const std::string &experiment);
 }  // namespace parking

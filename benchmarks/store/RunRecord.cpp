@@ -14,7 +14,7 @@ namespace parking
 {
     namespace
     {
-        /** JSON has no infinity: what is not finite is the word for it. */
+        /** JSON has no infinity: values that are not finite are stored as words. */
         json figureJson(const FigureValue &value)
         {
             const auto *real = std::get_if<double>(&value);

@@ -15,10 +15,10 @@
 
 namespace parking
 {
-    /** \brief A figure of a run, of any type that OMPL's logs know; enumerations are whole numbers here. */
+    /** \brief A figure of a run, of any type of OMPL's logs; enumerations are whole numbers here. */
     using FigureValue = std::variant<bool, std::int64_t, double>;
 
-    /** \brief A figure with its type, whatever number it was measured as. */
+    /** \brief A figure as a value of this type. */
     template <class Number>
     FigureValue figureOf(Number value)
     {
@@ -28,34 +28,34 @@ namespace parking
             return static_cast<std::int64_t>(value);
     }
 
-    /** \brief Everything that is kept of one run: a row of the database. */
+    /** \brief All data stored of one run: a row of the database. */
     struct RunRecord
     {
-        std::string experiment;   ///< its name
-        std::string planner;      ///< what results call the planner, see PlannerSpec::name
-        std::string fingerprint;  ///< of everything that the run depends on
-        std::string reason;       ///< one line on why there is no solution; empty where nobody tells
-        /** By the names of runColumns(); what was not measured is not there. The planner's own progress properties are
-            there under the names that it gives them, with blanks for underscores. */
+        std::string experiment;   ///< name of the experiment
+        std::string planner;      ///< name of the planner in the results, see PlannerSpec::name
+        std::string fingerprint;  ///< digest of everything that the run depends on
+        std::string reason;       ///< one line on why there is no solution; empty if unknown
+        /** Figures by the names of runColumns(), without those that were not measured. The planner's own progress
+            properties have the planner's names, with '_' as blanks. */
         std::map<std::string, FigureValue> figures;
-        std::map<std::string, std::string> parameters;  ///< of the planner, by OMPL's names
+        std::map<std::string, std::string> parameters;  ///< parameters of the planner, by OMPL's names
         std::vector<Improvement> progress;              ///< each better solution, in order of time
-        bool hasPath{false};                            ///< is there a path, exact or not?
-        bool exact{false};                              ///< does the planner say that it ends at a goal?
-        Path path;                                      ///< in local coordinates
+        bool hasPath{false};                            ///< whether there is a path, exact or not
+        bool exact{false};                              ///< whether the planner reports that the path ends at a goal
+        Path path;                                      ///< the path in local coordinates
 
-        /** \brief Sets the figure of a column. Throws parking::Error naming the column when there is none of this name,
-            or its type cannot hold the value. */
+        /** \brief Sets the figure of a column. Throws parking::Error naming the column when it is unknown or its type
+            cannot hold the value. */
         void setFigure(const std::string &column, const FigureValue &value);
 
-        /** \brief The same for a value of any type. */
+        /** \brief Sets a figure from a value of any type. */
         template <class Value>
         void set(const std::string &column, const Value &value)
         {
             setFigure(column, figureOf(value));
         }
 
-        /** \brief The same for a value that may be missing; then nothing is set. */
+        /** \brief Sets a figure unless the value is missing. */
         template <class Value>
         void set(const std::string &column, const std::optional<Value> &value)
         {
@@ -66,13 +66,13 @@ namespace parking
         /** \brief A figure as a number; NaN when it was not measured. */
         double number(const std::string &column) const;
 
-        /** \brief Is it there and true? */
+        /** \brief Whether a figure was measured and is true. */
         bool is(const std::string &column) const
         {
             return number(column) == 1.0;
         }
 
-        /** \brief Exact, valid when checked once more, and in time. */
+        /** \brief Whether the path is exact, valid in the recheck, and in time. */
         bool isSuccess() const
         {
             return is("success");
@@ -84,13 +84,14 @@ namespace parking
             return static_cast<std::size_t>(number("run"));
         }
 
-        /** \brief Exact, approximate, or why there is no path. */
+        /** \brief Outcome of the run: exact, approximate, or the reason for a missing path. */
         std::optional<PlanStatus> outcome() const;
 
-        /** \brief As a process hands it to another, and the database keeps it once it is not of use any more. */
+        /** \brief Format in which processes transfer a record. */
         nlohmann::json toJson() const;
 
-        /** \brief Throws parking::Error, or an exception of nlohmann's, when \e json is no record. */
+        /** \brief Reads the output of toJson(). Throws parking::Error, or an exception of nlohmann's library, for other
+            input. */
         static RunRecord fromJson(const nlohmann::json &json);
     };
 }  // namespace parking

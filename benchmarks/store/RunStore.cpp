@@ -20,11 +20,11 @@ namespace parking
 {
     namespace
     {
-        constexpr std::int64_t FORMAT = 3;        // of the tables
+        constexpr std::int64_t FORMAT = 3;        // version of the tables
         constexpr double PROGRESS_STEP = 0.05;    // seconds between samples of the best cost
-        const std::string PREFIX = "geometric_";  // of planners' names, as OMPL's benchmark puts it
+        const std::string PREFIX = "geometric_";  // prefix of planners' names in OMPL's benchmark
 
-        /** The columns are OMPL's; where it has tables of experiments, planners and runs there are views. */
+        /** The tables have OMPL's columns; views replace OMPL's tables of experiments, planners and runs. */
         const char *const TABLES = R"(
             CREATE TABLE all_experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
                 totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER,
@@ -69,7 +69,7 @@ namespace parking
             return name == "id" || name == "experimentid" || name == "plannerid";
         }
 
-        /** What a figure is called in the database. Names that a planner has made up may be those of keys. */
+        /** Name of a figure in the database. Names defined by a planner may collide with those of keys. */
         std::string columnOf(const std::string &figure)
         {
             std::string name = oneLine(figure);
@@ -105,7 +105,7 @@ namespace parking
             if (std::holds_alternative<std::nullptr_t>(cell))
                 return;
             if (std::holds_alternative<std::string>(cell))
-                throw Error("the column " + inQuotes(column) + " holds a text");
+                throw Error("the column " + inQuotes(column) + " contains a text");
             const auto *whole = std::get_if<std::int64_t>(&cell);
             const FigureValue value = whole == nullptr    ? FigureValue(std::get<double>(cell))
                                       : type == "BOOLEAN" ? FigureValue(*whole != 0)
@@ -116,7 +116,7 @@ namespace parking
                 record.figures[name] = value;
         }
 
-        /** As ompl_benchmark_statistics joins the lines of a log. */
+        /** Joins the lines of a log like ompl_benchmark_statistics. */
         std::string settingsOf(const RunRecord &record)
         {
             std::string text;
@@ -138,7 +138,7 @@ namespace parking
             return parameters;
         }
 
-        /** Cost over time as Planner Arena plots it: at regular times and at each improvement. */
+        /** Cost over time for Planner Arena: at regular times and at each improvement. */
         std::map<double, SqlValue> progressOf(const RunRecord &record)
         {
             std::map<double, SqlValue> costs;
@@ -159,13 +159,13 @@ namespace parking
 
         void requireFormat(const Database &database)
         {
-            if (numberOf(database.ask("PRAGMA user_version")) != FORMAT)
+            if (numberOf(database.valueOf("PRAGMA user_version")) != FORMAT)
                 throw Error(database.file() +
-                            ": is no database of runs that this version of parking_benchmark can "
-                            "read; move it away, or name another --output");
+                            ": is not a database of runs in this version of parking_benchmark; move it, or "
+                            "choose another --output");
         }
 
-        /** \param condition what follows WHERE, with values for its `?` */
+        /** \param condition text after WHERE, with values for its `?` */
         std::vector<RunRecord> readRuns(const Database &database, const std::string &condition,
                                         const std::vector<SqlValue> &values)
         {
@@ -181,7 +181,7 @@ namespace parking
                     condition + " ORDER BY e.name, p.name, runs.run",
                 values);
             const std::vector<std::string> names = rows.names();
-            const int first = 10, end = static_cast<int>(names.size());  // behind those and the three ids
+            const int first = 10, end = static_cast<int>(names.size());  // columns after those and the three ids
             while (rows.step())
             {
                 RunRecord &record = runs.emplace_back();
@@ -224,7 +224,7 @@ namespace parking
 
     RunStore::RunStore(const std::string &file) : database_(file, Database::Access::Write)
     {
-        if (numberOf(database_.ask("SELECT COUNT(*) FROM sqlite_master")) != 0)
+        if (numberOf(database_.valueOf("SELECT COUNT(*) FROM sqlite_master")) != 0)
         {
             requireFormat(database_);
             return;
@@ -277,20 +277,20 @@ namespace parking
             return true;
         if (selected_.count(beginningOf(fingerprint)) == 0)
             return false;
-        database_.ask("INSERT OR IGNORE INTO selection VALUES (?, ?)", {fingerprint, count_});
+        database_.valueOf("INSERT OR IGNORE INTO selection VALUES (?, ?)", {fingerprint, count_});
         return true;
     }
 
     void RunStore::describe(const std::vector<Row> &experiments)
     {
-        // What the configuration says; all else is of the beginning.
+        // Settings of the configuration are updated; the rest stays as at the beginning.
         const std::set<std::string> configured{"timelimit", "memorylimit", "runcount", "seed"};
         database_.run("BEGIN IMMEDIATE");
         for (const Row &row : experiments)
         {
             const SqlValue &name = row.at("name");
             const std::int64_t id = idOf("all_experiments", {{"name", name}});
-            const bool isShown = numberOf(database_.ask("SELECT id FROM experiments WHERE id = ?", {id})) != 0;
+            const bool isShown = numberOf(database_.valueOf("SELECT id FROM experiments WHERE id = ?", {id})) != 0;
             for (const auto &[column, value] : row)
                 if (!isShown || configured.count(column) > 0)
                     setColumn("all_experiments", id, column, value);
@@ -304,8 +304,8 @@ namespace parking
     void RunStore::setColumn(const std::string &table, std::int64_t id, const std::string &column,
                              const SqlValue &value)
     {
-        grow(table, column, "INTEGER");  // a version; the others are there
-        database_.ask("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
+        grow(table, column, "INTEGER");  // a version; the other columns exist
+        database_.valueOf("UPDATE " + table + " SET " + quotedName(column) + " = ? WHERE id = ?", {value, id});
     }
 
     RunStore::Key RunStore::keyOf(const RunRecord &record)
@@ -366,7 +366,7 @@ namespace parking
             query += " AND " + column + " = ?";
             values.push_back(value);
         }
-        const std::int64_t id = numberOf(database_.ask(query, values));
+        const std::int64_t id = numberOf(database_.valueOf(query, values));
         return id != 0 ? id : insert(table, row);
     }
 
@@ -380,7 +380,7 @@ namespace parking
         {
             const std::string column = columnOf(figure);
             if (!taken.insert(lowerCase(column)).second)
-                continue;  // names that differ in their capitals only
+                continue;  // names that differ only in capitals
             grow("all_runs", column, typeOf(figure, value));
             row[column] = valueOf(value);
         }
@@ -394,8 +394,8 @@ namespace parking
                            {"reason", record.reason},
                            {"path", record.hasPath ? SqlValue(path.dump()) : SqlValue(nullptr)}});
         if (const double time = record.number("time"); time > 0.0)
-            database_.ask("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
-                          {time, row.at("experimentid")});
+            database_.valueOf("UPDATE all_experiments SET totaltime = totaltime + ? WHERE id = ?",
+                              {time, row.at("experimentid")});
         known_.insert(keyOf(record));
     }
 
@@ -411,7 +411,7 @@ namespace parking
             if (!selectIfBegun(record.fingerprint) || (same != there.end() && same->second.toJson() == record.toJson()))
                 continue;
             if (same != there.end())
-                database_.ask(
+                database_.valueOf(
                     "UPDATE details SET fingerprint = '' WHERE runid IN (SELECT runs.id FROM runs JOIN "
                     "all_experiments e ON experimentid = e.id JOIN all_plannerConfigs p ON plannerid = p.id "
                     "WHERE e.name = ? AND p.name = ? AND runs.run = ?)",
@@ -428,7 +428,7 @@ namespace parking
         const std::int64_t id = idOf("all_experiments", {{"name", row.at("name")}});
         const auto own = [&](const std::string &column)
         {
-            return textOf(database_.ask("SELECT " + column + " FROM all_experiments WHERE id = ?", {id}));
+            return textOf(database_.valueOf("SELECT " + column + " FROM all_experiments WHERE id = ?", {id}));
         };
         std::set<std::string> hosts;
         for (const std::string &names : {own("hostname"), textOf(row["hostname"])})

@@ -38,20 +38,20 @@ namespace parking
 
     namespace
     {
-        /** Metres that the ends of a step between two looks may lie apart. */
+        /** Maximum distance in metres between the ends of a step of the collision check. */
         constexpr double STEP = 0.005;
-        /** Metres by which a body must overlap to count as touching: numbers round. */
+        /** Overlap of a body in metres that counts as contact: numbers are rounded. */
         constexpr double OVERLAP = 1e-4;
-        /** Metres that a stop must keep from an obstacle that appears to have been possible: controllers know poses to
-            a centimetre. */
+        /** Minimum distance in metres of an avoidable obstacle from a stop: controllers measure poses to a
+            centimetre. */
         constexpr double SPARE = 0.05;
-        /** Metres that it must keep from what stood there before, beside which cars park. */
+        /** Minimum distance in metres to obstacles of the scenario, beside which cars park. */
         constexpr double SPARE_BESIDE = 0.01;
-        /** Seconds between two poses of a car that brakes. */
+        /** Seconds between two poses of a braking car. */
         constexpr double BRAKING_STEP = 0.005;
-        /** Metres that are none: numbers round. */
+        /** Distance in metres that counts as zero: numbers are rounded. */
         constexpr double NOTHING = 1e-9;
-        /** Radians that wheels must be off their command for that to be seen. */
+        /** Radians between steering and its command that are detectable. */
         constexpr double SEEN = 0.01;
 
         std::string rounded(double value)
@@ -92,7 +92,7 @@ namespace parking
             return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.yaw + share * wrapAngle(b.yaw - a.yaw)};
         }
 
-        /** Where a car first touches something from second \e since on; nothing when it does not. */
+        /** First contact of a drive after \e since; empty without contact. */
         struct Touch
         {
             double time{0.0}, speed{0.0}, driven{0.0};
@@ -108,15 +108,15 @@ namespace parking
                 if (q.t < since)
                     continue;
                 const Pose a = poseOf(p), b = poseOf(q);
-                const double way = positionDistance(a, b);
-                const int looks = 1 + static_cast<int>((way + 4.0 * std::abs(wrapAngle(b.yaw - a.yaw))) / STEP);
+                const double distance = positionDistance(a, b);
+                const int looks = 1 + static_cast<int>((distance + 4.0 * std::abs(wrapAngle(b.yaw - a.yaw))) / STEP);
                 for (int k = 1; k <= looks; ++k)
                 {
                     const double share = static_cast<double>(k) / looks, time = p.t + share * (q.t - p.t);
                     if (time >= since && !oracle.isFree(between(a, b, share), car, -OVERLAP))
-                        return Touch{time, std::abs(p.v + share * (q.v - p.v)), driven + share * way};
+                        return Touch{time, std::abs(p.v + share * (q.v - p.v)), driven + share * distance};
                 }
-                driven += way;
+                driven += distance;
             }
             return std::nullopt;
         }
@@ -141,29 +141,29 @@ namespace parking
             return point;
         }
 
-        /** Where a car goes that brakes with all it has from an instant of a drive on: what physics allows.
+        /** The physically possible stop: a car that brakes with full force from a given time of a drive.
 
-            An integration of its own, in steps of 5 ms, which shares nothing with controller, supervisor and simulated
-           car: it slows down as hard as this car really can, its wheels stand as they do in the drive where it passes
-           the same place, and stay where they are while they stick.
+            An independent integration in steps of 5 ms, which shares nothing with controller, supervisor and simulated
+            car. It decelerates at this car's limit. The steering is that of the drive at the same place, and stays
+            constant while stuck.
 
-            \param drive what the car would do if it did not brake, truly driven
-            \param odds what is wrong with the car
-            \param since seconds, the begin of what is looked at: an obstacle appears, or something breaks
-            \param brakes seconds, when the brake takes hold
+            \param drive the simulated drive without braking
+            \param odds disturbances of the car
+            \param since seconds, begin of the check: an obstacle appears, or a fault begins
+            \param brakes seconds when the brake takes effect
             \return the poses from \e since to standstill */
         std::vector<Pose> brakingWay(const Trajectory &drive, const Vehicle &car, const Disturbances &odds,
                                      double since, double brakes)
         {
-            std::vector<Pose> way;
+            std::vector<Pose> path;
             for (double t = since; t < brakes; t += BRAKING_STEP)
             {
                 const TrajectoryPoint point = interpolated(drive, t);
-                way.push_back({point.x, point.y, point.yaw});
+                path.push_back({point.x, point.y, point.yaw});
             }
             const TrajectoryPoint begin = interpolated(drive, brakes);
             Pose pose{begin.x, begin.y, begin.yaw};
-            way.push_back(pose);
+            path.push_back(pose);
             const double brake = (1.0 - odds.brakeLoss) * (1.0 + odds.speedBias) * car.maxAcceleration;
             const double wheelbase = (1.0 + odds.wheelbaseError) * car.wheelbase;
             double speed = begin.v, wheels = begin.steering, t = brakes, place = brakes;
@@ -174,7 +174,7 @@ namespace parking
                     std::abs(speed) <= brake * BRAKING_STEP ? 0.0 : speed - std::copysign(brake * BRAKING_STEP, speed);
                 const double driven = 0.5 * (before + speed) * BRAKING_STEP;
                 t += BRAKING_STEP;
-                // The place of the drive that is as far along, in the direction in which the car rolls.
+                // The place of the drive at the same distance, in the direction of travel.
                 for (double left = std::abs(driven); left > NOTHING && place < drive.back().t;)
                 {
                     const double v = interpolated(drive, place).v;
@@ -193,9 +193,9 @@ namespace parking
                 const double yaw = pose.yaw + 0.5 * driven * std::tan(angle) / wheelbase;
                 pose = {pose.x + driven * std::cos(yaw), pose.y + driven * std::sin(yaw),
                         pose.yaw + driven * std::tan(angle) / wheelbase};
-                way.push_back(pose);
+                path.push_back(pose);
             }
-            return way;
+            return path;
         }
 
         const TrajectoryPoint &pointAt(const Trajectory &drive, double time)
@@ -213,16 +213,16 @@ namespace parking
 
         struct Surprise
         {
-            double time{0.0};   ///< when it appears
-            double ahead{0.0};  ///< metres until it would be touched
+            double time{0.0};   ///< time when it appears
+            double ahead{0.0};  ///< metres until contact
             Polygon obstacle;
         };
 
-        /** A box in the way of a car that goes on as it does. Nothing when no place is found. */
+        /** A box in front of a car that continues its drive. Empty when no place is found. */
         std::optional<Surprise> surpriseFor(const Scenario &scenario, const Trajectory &drive, Random &random)
         {
             const Vehicle &car = scenario.vehicle;
-            for (int tries = 0; tries < 40; ++tries)
+            for (int attempts = 0; attempts < 40; ++attempts)
             {
                 Surprise surprise;
                 const TrajectoryPoint &now = pointAt(drive, random.between(0.0, drive.back().t));
@@ -255,7 +255,7 @@ namespace parking
             return std::nullopt;
         }
 
-        /** Of all commands of a drive, the first that asks for more than the car can. */
+        /** The first command of a drive that exceeds a limit of the car. */
         std::string brokenLimit(const ParkingResult &result, const Vehicle &car, double period)
         {
             constexpr double SLACK = 1e-9;
@@ -278,13 +278,13 @@ namespace parking
             }
             return "";
         }
-        bool isFree(const std::vector<Pose> &way, const Vehicle &car, const PolygonOracle &oracle, double spare)
+        bool isFree(const std::vector<Pose> &path, const Vehicle &car, const PolygonOracle &oracle, double spare)
         {
-            return std::all_of(way.begin(), way.end(),
+            return std::all_of(path.begin(), path.end(),
                                [&](const Pose &pose) { return oracle.isFree(pose, car, spare); });
         }
 
-        /** The drive that is under way at \e time. */
+        /** The drive in progress at \e time. */
         const ParkingLeg &legAt(const ParkingResult &result, double time)
         {
             return *(std::find_if(result.legs.begin() + 1, result.legs.end(),
@@ -292,8 +292,8 @@ namespace parking
                      1);
         }
 
-        /** When it could first be seen, in the drive that is under way at \e time, that wheels stick; nothing when they
-            do not. */
+        /** The first time at which stuck wheels are detectable, in the drive in progress at \e time; empty if they are
+            not stuck. */
         std::optional<double> wheelsSeenToStick(const ParkingResult &result, const Disturbances &odds, double time)
         {
             const ParkingLeg &leg = legAt(result, time);
@@ -333,13 +333,13 @@ namespace parking
         if (random.chance(0.6))
             surprise = surpriseFor(scenario, expected, random);
         AutomaticParking parking(parameters);
-        bool told = false;
+        bool reported = false;
         parking.setMapUpdate(
             [&](double time, const Pose &) -> std::optional<Scenario>
             {
-                if (!surprise || told || time < surprise->time - 1e-9)
+                if (!surprise || reported || time < surprise->time - 1e-9)
                     return std::nullopt;
-                told = true;
+                reported = true;
                 Scenario changed = scenario;
                 changed.polygons.push_back(surprise->obstacle);
                 return changed;
@@ -350,7 +350,7 @@ namespace parking
         report.message = result.message;
         report.events = result.events;
         if (surprise)
-            report.events.push_back(rounded(surprise->time) + " s: something appears " + rounded(surprise->ahead) +
+            report.events.push_back(rounded(surprise->time) + " s: an obstacle appears " + rounded(surprise->ahead) +
                                     " m ahead");
         const Vehicle &car = scenario.vehicle;
         report.brokenLimit = brokenLimit(result, car, parameters.drive.tracking.mpc.step);
@@ -361,7 +361,7 @@ namespace parking
             return report;
         report.stands = result.trajectory.back().v == 0.0;
         report.duration = result.trajectory.back().t;
-        // What is seen at the begin of a period is braked for in the next one.
+        // An event at the begin of a period can affect the brake in the next one.
         const Disturbances &odds = parameters.drive.disturbances;
         const double period = parameters.drive.tracking.mpc.step, reaction = period + odds.delay;
         const PolygonOracle before(scenario);
@@ -376,7 +376,7 @@ namespace parking
             report.events.push_back(rounded(touch.time) + " s: touches " + what);
         };
         if (const std::optional<Touch> touch = firstTouch(result.trajectory, car, before, 0.0))
-            touchesKnown(*touch, before, "what was there before");
+            touchesKnown(*touch, before, "an obstacle of the scenario");
         if (!surprise)
             return report;
         report.appeared = true;
@@ -385,13 +385,13 @@ namespace parking
                                   alone(surprise->obstacle), SPARE);
         const std::optional<Touch> touch =
             firstTouch(result.trajectory, car, alone(surprise->obstacle), surprise->time);
-        // It is no surprise any more on a drive that was planned round it.
+        // A drive planned around it is no longer unprepared.
         if (touch && legAt(result, touch->time).begin > surprise->time)
-            touchesKnown(*touch, alone(surprise->obstacle), "what has appeared before");
+            touchesKnown(*touch, alone(surprise->obstacle), "the appeared obstacle");
         else if (touch)
         {
             report.hitAppeared = true;
-            report.events.push_back(rounded(touch->time) + " s: touches what has appeared");
+            report.events.push_back(rounded(touch->time) + " s: touches the appeared obstacle");
             report.impactSpeed = std::max(report.impactSpeed, touch->speed);
         }
         return report;

@@ -10,55 +10,54 @@
 
 namespace parking
 {
-    /** \brief What goes wrong on a drive, beside an obstacle that may appear. */
+    /** \brief A disturbance of a drive, in addition to an obstacle that may appear. */
     enum class Trouble
     {
-        None,       ///< a car and measurements as they should be
-        Dropout,    ///< no pose is measured for 0.1 to 1.5 s, once or twice
-        Stuck,      ///< the wheels stay where they are for 0.2 to 3 s
-        Wheelbase,  ///< 3 % longer or shorter than the controller believes
-        Brake,      ///< slows down 20 % less than it is told to
+        None,       ///< car and measurements without faults
+        Dropout,    ///< poses are missing for 0.1 to 1.5 s, once or twice
+        Stuck,      ///< the steering is stuck for 0.2 to 3 s
+        Wheelbase,  ///< the wheelbase differs by 3 % from the controller's
+        Brake,      ///< the brake is 20 % weaker than commanded
         Delay,      ///< commands arrive 0.3 s late
-        Several     ///< the last three together
+        Several     ///< wrong wheelbase, weak brake and delay combined
     };
 
-    /** \brief Number of values that a Trouble has. */
+    /** \brief Number of values of Trouble. */
     constexpr std::size_t TROUBLES = static_cast<std::size_t>(Trouble::Several) + 1;
 
     /** \brief A few words for tables: "wheelbase wrong by 3 %". */
     std::string toString(Trouble trouble);
 
-    /** \brief What came of one. */
+    /** \brief Result of a drive with a disturbance. */
     struct TroubledDrive
     {
-        Trouble trouble{Trouble::None};               ///< what went wrong
-        ParkingStatus status{ParkingStatus::NoPath};  ///< how it ended
-        std::string message;                          ///< one line, of the pipeline
-        bool stands{false};                           ///< at the end
-        double duration{0.0};                         ///< seconds until then
-        bool appeared{false};                         ///< did an obstacle appear on the way that was being driven?
-        double ahead{0.0};                            ///< metres left to it then
-        /** Could the car stop before it: reacting in a period of the controller, later by the delay, and then slowing
-           down as hard as this car can? */
+        Trouble trouble{Trouble::None};               ///< the disturbance
+        ParkingStatus status{ParkingStatus::NoPath};  ///< status at the end
+        std::string message;                          ///< message of the pipeline, one line
+        bool stands{false};                           ///< whether the car is at rest in the end
+        double duration{0.0};                         ///< seconds until the end
+        bool appeared{false};                         ///< whether an obstacle appeared on the path in progress
+        double ahead{0.0};                            ///< distance to the obstacle in metres when it appeared
+        /** Whether the car could stop before the obstacle. It reacts in one period of the controller plus the delay,
+           and then decelerates at this car's limit. */
         bool avoidable{false};
-        bool hitAppeared{false};  ///< the obstacle, before anything was planned round it
-        bool hitOther{false};     ///< anything else
-        /** Was that touch avoidable? Always, but where wheels stick: only when braking as soon as that could be seen
-            would have avoided it. */
+        bool hitAppeared{false};  ///< whether it touched the obstacle before a plan around it
+        bool hitOther{false};     ///< whether it touched anything else
+        /** Whether the other contact was avoidable: always, except for stuck steering, where braking when it was
+            detectable must have sufficed. */
         bool otherAvoidable{false};
-        double impactSpeed{0.0};          ///< m/s, of the first touch
-        std::string brokenLimit;          ///< the first command beyond a limit of the car; empty when none is
-        double fastest{0.0};              ///< share of the speed limit, as measured
-        std::vector<std::string> events;  ///< what happened on the way, with times
+        double impactSpeed{0.0};          ///< speed of the first contact in m/s
+        std::string brokenLimit;          ///< first command beyond a limit of the car; empty without one
+        double fastest{0.0};              ///< maximum measured speed as a share of the limit
+        std::vector<std::string> events;  ///< events of the drive, with times
     };
 
-    /** \brief Parks the car of \e scenario, with trouble that depends on \e seed alone.
+    /** \brief Parks the car of \e scenario, with a disturbance that depends only on \e seed.
 
-        The drive is first made without the obstacle, which says where the car will be when; the obstacle is put in its
-       way 0.5 to 6 m ahead at a random time. Touches are looked for by the oracle of the tests every few millimetres of
-       the way that the simulated car really took.
+        A drive without the obstacle determines the car's position over time. The obstacle is placed 0.5 to 6 m ahead of
+        it at a random time. A reference checker tests the simulated drive for contacts every few millimetres.
 
-        \param parameters of the pipeline; their disturbances do not count */
+        \param parameters of the pipeline; their disturbances are replaced */
     TroubledDrive driveInTrouble(const Scenario &scenario, Trouble trouble, std::uint64_t seed,
                                  const ParkingParameters &parameters);
 }  // namespace parking

@@ -1,5 +1,5 @@
-// Which car parks in which slot in how many stretches: writes docs/results/car-slot-table.md, or checks that it is what
-// would be written.
+// Writes docs/results/car-slot-table.md, the number of stretches in which each car parks in each slot, or checks that
+// the file is up to date.
 
 #include "automatic_parking/SlotQuestions.h"
 #include "parking_geometry/Error.h"
@@ -25,11 +25,11 @@ namespace
         SlotKind kind;
         double length, width;
         double aisle;
-        bool assumed;  ///< the pages read give no width of aisle or lane for it
+        bool assumed;  ///< whether the source states no width of aisle or lane
         double angle{90.0};
     };
 
-    constexpr double LANE = 3.5;  // metres, where none is given
+    constexpr double LANE = 3.5;  // default in metres
 
     const char *const EAR = "baubegleitende-rechtsberatung.de, helpster.de";
     const char *const GARAGES = "derbausv.de, \"Garagenverordnung im Bild\"";
@@ -62,7 +62,7 @@ namespace
         {"Japan", "MLIT 1992, small car", MLIT, SlotKind::Perpendicular, 5.0, 2.3, 5.0, false},
     };
 
-    /** To so many decimals. */
+    /** Rounds to a number of decimals. */
     std::string rounded(double value, int decimals)
     {
         const double unit = std::pow(10.0, decimals);
@@ -136,7 +136,7 @@ namespace
         return text;
     }
 
-    /** What one sweep needs, and the two tight cases. */
+    /** Space for a single sweep, and stretches in two tight cases. */
     std::string needsTable(const std::vector<Vehicle> &cars)
     {
         std::string text =
@@ -180,30 +180,23 @@ namespace
         std::vector<Vehicle> cars;
         for (const std::string &name : vehicleNames())
             cars.push_back(vehicleByName(name));
-        return "# Which car parks in which slot\n\n"
-               "Which car parks in which slot, and how often does it change direction? Made by `car_slot_table FILE`, "
-               "which\n"
+        return "# Cars and parking slots\n\n"
+               "The number of stretches in which each car parks in each slot. Made by `car_slot_table FILE`, which\n"
                "`scripts/results` runs; see [results](../results.md).\n\n"
-               "The number of stretches (parts between changes of direction) from the aisle into the slot: 1 is a "
-               "single sweep.\n"
-               "`long` and `wide`: the car is longer or wider than the slot, less 1 cm at either end. `-`: no way was "
-               "found. In reverse, but "
-               "for\n"
-               "angled slots, which are entered forwards. Lengths in metres.\n\n"
-               "The world is a harsh one, that of `slotSurroundings()`: neighbours fill their slots up to the line, "
-               "the\n"
-               "kerb of a parallel slot is a wall, and a wall bounds the aisle. The car stands in the middle. A sweep "
-               "keeps\n"
-               "5 cm all round the body, several stretches 1 to 5 cm. Cars between real cars, which leave some of "
-               "their "
-               "slots\n"
+               "A stretch is a part between changes of direction, from the aisle into the slot: 1 is a single sweep.\n"
+               "`long` and `wide`: the car is longer or wider than the slot, less 1 cm at either end. `-`: no path was "
+               "found.\n"
+               "Cars enter in reverse, except for angled slots. Lengths in metres.\n\n"
+               "The world is that of `slotSurroundings()`: neighbours fill their slots up to the line, the kerb of a\n"
+               "parallel slot is a wall, and a wall bounds the aisle. The car stops in the middle. A sweep keeps 5 cm\n"
+               "round the body, several stretches 1 to 5 cm. Cars between real cars, which leave some of their slots\n"
                "free, need fewer stretches.\n\n" +
                movesTable(cars) +
-               "\n\\* The pages read say nothing about the aisle, or lane, of this slot: the number is assumed.\n\n"
-               "## What a car needs\n\n"
-               "Slots as long as the car and 0.3 m, parallel ones as wide as the car and 0.5 m. The shortest parallel "
-               "slot\n"
-               "is that of a car in its middle.\n\n" +
+               "\n"
+               "\\* The source does not state the width of the aisle or lane: the number is assumed.\n\n"
+               "## Requirements of a car\n\n"
+               "Perpendicular slots are 0.3 m longer than the car, parallel ones 0.5 m wider. The shortest parallel\n"
+               "slot is that of a car in its middle.\n\n" +
                needsTable(cars) +
                "\n## Sources\n\n"
                "Cars: see [VehicleCatalogue.cpp](../../parking_geometry/VehicleCatalogue.cpp), which names them one by "
@@ -218,7 +211,11 @@ int main(int argc, char **argv)
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const char *const usage =
         "usage: car_slot_table FILE           write the table\n"
-        "       car_slot_table --check FILE   exit 1 when FILE is not what would be written\n";
+        "       car_slot_table --check FILE   exit 1 when FILE is not up to date\n\n"
+        "Computes the number of stretches in which each known car parks in standard slots.\n\n"
+        "Examples, run at the root of the project:\n"
+        "  car_slot_table table.md\n"
+        "  car_slot_table --check docs/results/car-slot-table.md\n";
     if (arguments.size() == 1 && arguments[0] == "--help")
     {
         std::cout << usage;
@@ -237,7 +234,7 @@ int main(int argc, char **argv)
             writeFileAtomically(arguments[0], text);
         else if (readFile(arguments[1], 1 << 20) != text)
         {
-            std::cerr << arguments[1] << " is not what this program writes; car_slot_table FILE writes it\n";
+            std::cerr << arguments[1] << " is not the output of this program; car_slot_table FILE writes it\n";
             return 1;
         }
         return 0;

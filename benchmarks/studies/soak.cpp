@@ -1,4 +1,4 @@
-// Plans in random worlds for hours, on several threads: does memory grow, does anything take long, is anything wrong?
+// Plans in random worlds for hours, on several threads, and checks memory, times and answers.
 
 #include "benchmarks/plan/PlanRun.h"
 #include "benchmarks/plan/Problem.h"
@@ -44,11 +44,11 @@ namespace
     namespace po = boost::program_options;
     using Clock = std::chrono::steady_clock;
 
-    /** Planning ends after this many expansions, which depends on no clock: equal queries have equal answers. */
+    /** Planning ends after this many expansions, independent of a clock: equal queries have equal answers. */
     constexpr std::uint64_t MOST_EXPANSIONS = 20000, MOST_WHEN_SMALL = 250, MOST_OF_SOME = 1000;
-    constexpr double TIME_LIMIT = 0.05;  // seconds, for each query that is put to a planner of OMPL
+    constexpr double TIME_LIMIT = 0.05;  // limit in seconds of each query to a planner of OMPL
 
-    /** Counts durations in classes 5 % apart, from a tenth of a microsecond to hours: it never grows. */
+    /** Counts durations in classes 5 % apart, from a tenth of a microsecond to hours, in constant memory. */
     class LatencyCounts
     {
     public:
@@ -59,7 +59,8 @@ namespace
             ++counts_[std::min(static_cast<std::size_t>(place), CLASSES - 1)];
         }
 
-        /** The duration in seconds, rounded up by at most 5 %, that a \e share of all does not exceed; 0 of none. */
+        /** The duration in seconds, rounded up by at most 5 %, that a \e share of all does not exceed; 0 without
+            durations. */
         double quantile(double share) const
         {
             const double wanted =
@@ -76,36 +77,36 @@ namespace
 
     private:
         static constexpr std::size_t CLASSES = 600;
-        static constexpr double SHORTEST = 1e-7, RATIO = 1.05;  // seconds; of one class to the next
+        static constexpr double SHORTEST = 1e-7, RATIO = 1.05;  // seconds; ratio of adjacent classes
         std::array<std::uint64_t, CLASSES> counts_{};
     };
 
-    /** What all workers have done; they count together. */
+    /** Figures of all workers, which count in one place. */
     struct SoakFigures
     {
         using Count = std::atomic<unsigned long long>;
 
-        Count worlds{0};           ///< random worlds that were planned in
-        Count queries{0};          ///< random queries put to plan()
-        Count solved{0};           ///< of these, with a path to a goal
-        Count replanned{0};        ///< queries from half way, with a new obstacle on the rest of the path
-        Count repeated{0};         ///< queries put twice: the path must be the same
-        Count seenByOracle{0};     ///< paths that the oracle of the tests has looked at
-        Count byOthers{0};         ///< queries put to planners behind OMPL, this project's among them
-        Count refusedOfOthers{0};  ///< exact paths of OMPL's planners that the referee does not accept
-        Count disagreed{0};        ///< answers that are wrong
+        Count worlds{0};           ///< number of random worlds
+        Count queries{0};          ///< number of random queries to plan()
+        Count solved{0};           ///< number of those with a path to a goal
+        Count replanned{0};        ///< number of queries from the middle of a path, with a new obstacle on the rest
+        Count repeated{0};         ///< number of repeated queries: the path must be equal
+        Count seenByOracle{0};     ///< number of paths checked by the reference checker of the tests
+        Count byOthers{0};         ///< number of queries to OMPL planners, including this project's
+        Count refusedOfOthers{0};  ///< number of exact paths of OMPL's planners that the referee rejects
+        Count disagreed{0};        ///< number of wrong answers
 
-        std::mutex mutex;                        ///< of what follows
-        LatencyCounts planning;                  ///< processor time of the queries put to plan()
-        std::vector<std::string> disagreements;  ///< a line for each of the first hundred
+        std::mutex mutex;                        ///< protects the members below
+        LatencyCounts planning;                  ///< processor time of the queries to plan()
+        std::vector<std::string> disagreements;  ///< one line for each of the first hundred wrong answers
     };
 
-    /** What a worker plans. */
+    /** Settings of a worker. */
     struct SoakSettings
     {
-        bool small{false};         ///< small worlds and nothing but plan(): as many queries as can be
-        std::size_t perWorld{40};  ///< queries in a world before there is another one
-        std::uint64_t most{0};     ///< queries of all workers together, after which they stop; 0: no end
+        bool small{false};         ///< whether to use only small worlds and plan(), for as many queries as possible
+        std::size_t perWorld{40};  ///< number of queries per world
+        std::uint64_t most{0};     ///< maximum number of queries of all workers; 0: no limit
     };
 
     search::PlanResult planned(const Scenario &scenario, const FootprintChecker &checker, std::uint64_t mostExpansions)
@@ -128,8 +129,8 @@ namespace
                           { return p.curvature == q.curvature && p.length == q.length; });
     }
 
-    /** A small world of any kind; unless all are to be small, one in seven is a large one as parking_queries makes
-       them. Three cars in ten are of the catalogue. */
+    /** A random world. One in seven is a large one as in parking_queries, unless only small ones are wanted. Three cars
+       in ten are of the catalogue. */
     World randomWorld(Random &random, bool small)
     {
         const std::vector<std::string> names = vehicleNames(), kinds = parking_test::worldKinds();
@@ -164,11 +165,12 @@ namespace
         return world;
     }
 
-    /** Plans in random worlds, one after the other, and has every answer judged by the referee; one thread each. */
+    /** Plans in random worlds in one thread and lets the referee check every answer. */
     class SoakWorker
     {
     public:
-        /** \param seed of all that is random in this worker \param figures of all workers; must outlive them */
+        /** \param seed of all random numbers of this worker
+            \param figures of all workers; must outlive them */
         SoakWorker(const SoakSettings &settings, std::uint64_t seed, SoakFigures &figures)
           : settings_(settings),
             seed_(seed),
@@ -178,7 +180,7 @@ namespace
         {
         }
 
-        /** Works until \e stop. */
+        /** Works until \e stop is true. */
         void work(const std::atomic<bool> &stop)
         {
             const auto isOver = [&]
@@ -208,7 +210,7 @@ namespace
 
         Pose anyGoal()
         {
-            constexpr double ASIDE = 0.3, TURNED = 0.2;  // metres and radians that a car may stand off a place to park
+            constexpr double ASIDE = 0.3, TURNED = 0.2;  // maximum offset in metres and radians from a place to park
             if (world_->places.empty() || !random_.chance(0.6))
                 return anywhere();
             const Pose place = world_->places[random_.index(world_->places.size())];
@@ -220,9 +222,9 @@ namespace
 
         Pose anywhere()
         {
-            // Mostly free ones: to be told that a pose is not costs nothing and shows little.
+            // Mostly free ones: collisions take no time and test little.
             Pose pose;
-            for (int tries = 0; tries < 30; ++tries)
+            for (int attempts = 0; attempts < 30; ++attempts)
             {
                 pose = world_->anywhere(random_);
                 if (checker_->isFree(pose) || random_.chance(0.02))
@@ -252,14 +254,14 @@ namespace
                 const std::lock_guard<std::mutex> lock(figures_.mutex);
                 figures_.planning.add(time);
             }
-            judge(scenario, *checker_, result);
+            checkResult(scenario, *checker_, result);
             if (solved && random_.chance(0.05))
                 askOracle(scenario, result.path);
             if (random_.chance(0.01))
             {
                 ++figures_.repeated;
                 if (!equal(planned(scenario, *checker_, mostExpansions).path, result.path))
-                    disagree("another path when asked again");
+                    disagree("another path for an equal query");
             }
             if (settings_.small)
                 return;
@@ -269,7 +271,7 @@ namespace
                 askOthers(scenario);
         }
 
-        void judge(const Scenario &scenario, const FootprintChecker &checker, const search::PlanResult &result)
+        void checkResult(const Scenario &scenario, const FootprintChecker &checker, const search::PlanResult &result)
         {
             const Referee referee(scenario);
             const auto isFree = [&](const Pose &pose)
@@ -292,18 +294,18 @@ namespace
 
         void askOracle(const Scenario &scenario, const Path &path)
         {
-            constexpr double STEP = 0.005;    // metres between two looks
-            constexpr double OVERLAP = 1e-7;  // metres that count as touching, which is free
+            constexpr double STEP = 0.005;    // metres between two checks
+            constexpr double OVERLAP = 1e-7;  // metres of overlap that count as contact, which is free
             ++figures_.seenByOracle;
             if (!world_->oracle.isPathFree(path, scenario.vehicle, STEP, -OVERLAP))
-                disagree("the oracle says that it touches something");
+                disagree("the reference checker reports a collision");
         }
 
         void replan(const Path &path)
         {
             if (world_->scenario.grid)
                 return;
-            // Half way there something stands in the way.
+            // Puts an obstacle in the middle of the path.
             const Path rest = path.rest(0.5 * path.length());
             Scenario changed = world_->scenario;
             changed.start = {rest.start.x, rest.start.y, wrapAngle(rest.start.yaw)};
@@ -312,7 +314,7 @@ namespace
             const double length = random_.between(0.2, 1.5), width = random_.between(0.2, 1.5);
             changed.polygons.push_back(parking_test::rectangle(length, width, {at.x, at.y, random_.between(-PI, PI)}));
             const FootprintChecker checker(ObstacleSet::fromScenario(changed), changed.vehicle);
-            judge(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
+            checkResult(changed, checker, planned(changed, checker, MOST_EXPANSIONS));
             ++figures_.replanned;
         }
 
@@ -337,8 +339,7 @@ namespace
             {
                 wrong = error.what();
             }
-            // What others say of their paths is theirs to answer for; that the referee refuses them is what it is there
-            // for.
+            // Invalid paths of other planners are their own faults; the referee must detect them.
             if (!wrong.empty() && name == NAMES.front())
                 disagree(std::string(name) + ": " + wrong);
             else if (!wrong.empty())
@@ -348,15 +349,15 @@ namespace
         SoakSettings settings_;
         std::uint64_t seed_;
         SoakFigures &figures_;
-        std::uint64_t queries_{0};  // of this worker
+        std::uint64_t queries_{0};  // queries of this worker
         Random random_;
         PlannerRegistry registry_;
-        std::size_t turn_{0};  // of the other planners
+        std::size_t turn_{0};  // queries of this worker to the other planners
         std::unique_ptr<World> world_;
         std::unique_ptr<FootprintChecker> checker_;
     };
 
-    /** MB of memory that this process has in use; 0 where nobody says. */
+    /** MB of memory in use by this process; 0 if unknown. */
     double memoryInUse()
     {
         std::ifstream stream("/proc/self/statm");
@@ -381,9 +382,9 @@ namespace
         char text[400];
         std::snprintf(
             text, sizeof text,
-            "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, put to the oracle "
-            "%llu, others %llu (%llu refused) | "
-            "%.2f ms median, %.1f ms 99 %%, %.1f ms 99.9 %% | %.0f MB | %llu disagreements",
+            "%7.0f s  %10llu queries (%.1f %% solved), %llu worlds, replanned %llu, repeated %llu, checked by "
+            "the reference %llu, others %llu (%llu refused) | %.2f ms median, %.1f ms 99 %%, %.1f ms 99.9 %% | "
+            "%.0f MB | %llu disagreements",
             time, count(figures.queries), 100.0 * share, count(figures.worlds), count(figures.replanned),
             count(figures.repeated), count(figures.seenByOracle), count(figures.byOthers),
             count(figures.refusedOfOthers), 1e3 * figures.planning.quantile(0.5), 1e3 * figures.planning.quantile(0.99),
@@ -395,20 +396,21 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("minutes", oneValue("N"), "for so long (default 60)");
-        add("queries", oneValue("N"), "or until so many were asked");
-        add("threads", oneValue("N"), "(default: one per core)");
-        add("seed", oneValue("N"), "of the worlds (default 1)");
-        add("small", "small worlds and nothing but plan(): as many queries as can be");
-        add("growth", oneValue("MB"), "memory that may be taken after the first tenth of the time (default 200)");
+        add("minutes", oneValue("N"), "duration (default 60)");
+        add("queries", oneValue("N"), "end after N queries");
+        add("threads", oneValue("N"), "number of threads (default: one per core)");
+        add("seed", oneValue("N"), "seed of the worlds (default 1)");
+        add("small", "use only small worlds and plan(), for as many queries as possible");
+        add("growth", oneValue("MB"), "maximum memory growth after the first tenth of the time (default 200)");
         add("every", oneValue("S"), "seconds between two lines (default 60)");
-        add("help", "this text");
+        add("help", "print this text");
         const CommandLine given(arguments, options, {});
         if (given.given("help"))
         {
             std::cout
-                << "usage: soak [options]\n\nPlans in random worlds and has every answer judged by the referee.\n\n"
-                << options << "\nStatus: 0 all is well, 1 an answer is wrong or memory has grown, 2 wrong usage\n";
+                << "usage: soak [options]\n\nPlans in random worlds, lets the referee check every answer, and monitors "
+                   "memory.\n\nExamples:\n  soak --minutes 1 --small\n  soak --queries 1000 --threads 2 --seed 7\n\n"
+                << options << "\nStatus: 0 no faults, 1 an answer is wrong or memory has grown, 2 invalid usage\n";
             return 0;
         }
         ompl::msg::noOutputHandler();
@@ -430,7 +432,7 @@ namespace
         for (std::size_t i = 0; i < threads; ++i)
             running.emplace_back([&settings, &figures, &stop, worker = 1000 * seed + i]
                                  { SoakWorker(settings, worker, figures).work(stop); });
-        double settled = 0.0, most = 0.0, said = 0.0;
+        double settled = 0.0, most = 0.0, reported = 0.0;
         for (double now = 0.0; now < limit && (settings.most == 0 || figures.queries < settings.most);
              now = seconds(begin))
         {
@@ -440,9 +442,9 @@ namespace
             const bool begins = settings.most > 0 ? figures.queries < settings.most / 10 : now < 0.1 * limit;
             if (begins)
                 settled = std::max(settled, memory);
-            if (now - said >= every)
+            if (now - reported >= every)
             {
-                said = now;
+                reported = now;
                 std::cerr << line(figures, now, memory) << std::endl;
             }
         }
@@ -450,7 +452,7 @@ namespace
         for (std::thread &each : running)
             each.join();
         std::cout << line(figures, seconds(begin), memoryInUse()) << "\n";
-        std::printf("memory: %.0f MB at most in the first tenth, %.0f MB at most in all; %zu threads\n", settled, most,
+        std::printf("memory: maximum %.0f MB in the first tenth, %.0f MB in total; %zu threads\n", settled, most,
                     threads);
         for (const std::string &each : figures.disagreements)
             std::cout << each << "\n";

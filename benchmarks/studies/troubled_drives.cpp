@@ -1,4 +1,4 @@
-// Drives that meet trouble: many, each with its seed. A table of docs/results.md comes from here.
+// Simulates many drives with disturbances, each with its seed. Writes a table of docs/results.md.
 
 #include "benchmarks/studies/TroubledDrives.h"
 #include "benchmarks/system/CommandLine.h"
@@ -22,25 +22,25 @@ namespace
     {
         po::options_description options("Options");
         auto add = options.add_options();
-        add("stop-and-steer", "drive the paths with standstills, not optimised trajectories");
-        add("acceleration-share", oneValue("X"), "of the car's acceleration that trajectories use");
-        add("brake-reserve", oneValue("X"), "share of the brake that is not counted on");
-        add("steering-rate-share", oneValue("X"), "of the car's steering rate that trajectories use");
-        add("steering-share", oneValue("X"), "of its steering angle");
-        add("nearness", oneValue("X"), "seconds that a metre in touch with obstacles is worth");
-        add("kept", oneValue("M"), "metres that trajectories prefer to keep from obstacles");
-        add("least", oneValue("M"), "metres that they do keep where the plan does");
-        add("clearance-share", oneValue("X"), "of the plan's clearance that they keep in any case");
-        add("no-smoothing", "drive the planner's arcs as they are");
-        add("drives", oneValue("N"), "how many in all (default 1000)");
-        add("first", oneValue("N"), "the first of them, which is its seed (default 0)");
-        add("verbose", "a line for each drive");
-        add("events", "what happened on each drive that is told of");
-        add("help", "this text");
+        add("stop-and-steer", "drive the paths with stops to steer, not optimised trajectories");
+        add("acceleration-share", oneValue("X"), "share of the car's acceleration that trajectories use");
+        add("brake-reserve", oneValue("X"), "share of the brake kept in reserve");
+        add("steering-rate-share", oneValue("X"), "share of the car's steering rate that trajectories use");
+        add("steering-share", oneValue("X"), "share of the car's steering angle that trajectories use");
+        add("nearness", oneValue("X"), "cost in seconds of a metre of contact with obstacles");
+        add("kept", oneValue("M"), "preferred clearance of trajectories in metres");
+        add("least", oneValue("M"), "clearance in metres that trajectories keep if the plan does");
+        add("clearance-share", oneValue("X"), "minimum share of the plan's clearance that they keep");
+        add("no-smoothing", "drive the planner's arcs without smoothing");
+        add("drives", oneValue("N"), "number of drives (default 1000)");
+        add("first", oneValue("N"), "number of the first drive, which is its seed (default 0)");
+        add("verbose", "print a line for each drive");
+        add("events", "print the events of each printed drive");
+        add("help", "print this text");
         return options;
     }
 
-    /** The pipeline as \e line tunes it. Throws parking::Error for values out of their range. */
+    /** The parameters of the pipeline from \e line. Throws parking::Error for values out of their range. */
     ParkingParameters parametersOf(const CommandLine &line)
     {
         ParkingParameters parameters;
@@ -68,7 +68,7 @@ namespace
         std::size_t drives{0}, parked{0}, stoppedFree{0}, appeared{0}, avoidable{0}, avoidableHit{0}, inevitableHit{0},
             otherHit{0}, otherInevitable{0}, rolling{0}, broken{0};
         double impact{0.0}, fastest{0.0};
-        double time{0.0};  // seconds, of those that parked
+        double time{0.0};  // sum of seconds of the drives that parked
 
         void add(const TroubledDrive &drive)
         {
@@ -90,7 +90,7 @@ namespace
             fastest = std::max(fastest, drive.fastest);
         }
 
-        /** Is all that is promised kept? */
+        /** Whether all guarantees are kept. */
         bool good() const
         {
             return avoidableHit == 0 && otherHit == 0 && rolling == 0 && broken == 0;
@@ -119,10 +119,10 @@ namespace
                                             "and was hit",
                                             "at most, m/s",
                                             "anything else was hit",
-                                            "likewise, not avoidable",
+                                            "not avoidable",
                                             "rolls at the end",
                                             "commands beyond a limit",
-                                            "s to park, in the mean"};
+                                            "mean s to park"};
         std::string text = joined(head) + "|---|";
         for (std::size_t i = 1; i < head.size(); ++i)
             text += "--:|";
@@ -151,10 +151,12 @@ namespace
         const CommandLine line(arguments, all, po::positional_options_description().add("scenario", -1));
         if (line.given("help"))
         {
-            std::cout
-                << "usage: troubled_drives SCENARIO... [options]\n\nParks in every scenario by turns, with trouble of "
-                   "every kind by turns.\n\n"
-                << options;
+            std::cout << "usage: troubled_drives SCENARIO... [options]\n\n"
+                         "Simulates parking with disturbances of every kind in each scenario, and counts contacts.\n\n"
+                         "Examples, run at the root of the project:\n"
+                         "  troubled_drives benchmarks/scenarios/parallel.yaml --drives 14\n"
+                         "  troubled_drives benchmarks/scenarios/perpendicular.yaml --drives 7 --first 100 --events\n\n"
+                      << options;
             return 0;
         }
         if (!line.given("scenario"))
@@ -175,9 +177,9 @@ namespace
             rows[i % TROUBLES].add(drive);
             if (line.given("verbose") || !one.good())
                 std::cerr << scenario.name << ", " << toString(drive.trouble) << ", drive " << i << ": "
-                          << toString(drive.status) << (drive.hitAppeared ? ", hit what appeared" : "")
+                          << toString(drive.status) << (drive.hitAppeared ? ", hit the appeared obstacle" : "")
                           << (drive.appeared && !drive.avoidable ? " (not avoidable)" : "")
-                          << (drive.hitOther ? ", hit something else" : "")
+                          << (drive.hitOther ? ", hit another obstacle" : "")
                           << (drive.hitOther && !drive.otherAvoidable ? " (not avoidable)" : "")
                           << (drive.stands ? "" : ", rolls") << ", " << formatNumber(drive.impactSpeed) << " m/s "
                           << drive.brokenLimit << " (" << drive.message << ")" << std::endl;

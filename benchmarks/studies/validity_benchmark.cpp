@@ -1,7 +1,8 @@
-// What checks of states and motions cost, beside what OMPL's users would otherwise have: plain FCL for states, OMPL's
-// DiscreteMotionValidator for motions. Every benchmark goes round a fixed set of random problems, so that its mean is
-// that of the set. Counters say which tier decided how many poses, and how many answers were wrong. Ratios are worth
-// more than times: --benchmark_enable_random_interleaving=true puts both sides of a ratio into the same conditions.
+// Measures the cost of checks of states and motions against the alternatives of OMPL's users: plain FCL for states,
+// OMPL's DiscreteMotionValidator for motions. Every benchmark iterates over a fixed set of random problems, so that its
+// mean is that of the set. Counters show how many poses each tier decided, and how many answers were wrong. Ratios are
+// more robust than times: --benchmark_enable_random_interleaving=true measures both sides of a ratio under the same
+// conditions.
 
 #include "benchmarks/worlds/RandomWorlds.h"
 #include "ompl_improved_astar/ImprovedAStar.h"
@@ -36,17 +37,17 @@ namespace
 
     // ---- states ----------------------------------------------------------------------------------------------------
 
-    /** Where the poses of a benchmark lie. */
+    /** Location of a benchmark's poses. */
     enum class Surroundings
     {
         Free,     ///< more than a metre from every obstacle
         Mixed,    ///< anywhere in the world
-        Tight,    ///< at most half a metre from touching an obstacle, on either side
-        Search,   ///< what a parking search asks about
-        FromSlot  ///< the same, searched from the goal only, out of the slot
+        Tight,    ///< at most half a metre from contact with an obstacle, on either side
+        Search,   ///< poses checked by a parking search
+        FromSlot  ///< poses checked by a search from the goal only, out of the slot
     };
 
-    /** A world with both kinds of check, and the poses that are asked about there. */
+    /** A world with both checkers, and the poses to check. */
     struct Place
     {
         Place(const ObstacleSet &obstacles, const Vehicle &vehicle)
@@ -55,14 +56,15 @@ namespace
         {
         }
 
-        std::unique_ptr<FootprintChecker> tiered;  ///< distance field and circles before the exact test
+        std::unique_ptr<FootprintChecker> tiered;  ///< distance field and circles before the exact check
         std::unique_ptr<PlainFclChecker> plain;    ///< FCL for every pose
         std::vector<Pose> poses;                   ///< of the rear axle, in the world's local coordinates
     };
 
-    /** Eight random worlds with 4000 poses each, always the same ones.
+    /** Eight random worlds with 4000 poses each, equal in every run.
 
-        \param grids occupancy grids, otherwise polygons; \e surroundings any but those of a search */
+        \param grids whether worlds are occupancy grids instead of polygons
+        \param surroundings any value but those of a search */
     std::vector<Place> randomPlaces(bool grids, Surroundings surroundings)
     {
         constexpr std::size_t POSES = 4000;
@@ -88,11 +90,11 @@ namespace
         return places;
     }
 
-    /** At most so many poses are kept of a problem, evenly spread over its search. */
+    /** Maximum number of poses of a problem, evenly spread over its search. */
     constexpr std::size_t KEPT = 20000;
 
-    /** Every pose that ImprovedAStar asks about while it looks for a first solution. It is given a checker that it does
-        not know: so it asks for every state along the motions that it tries. */
+    /** Every pose that ImprovedAStar checks until its first solution. With a checker of an unknown type it checks every
+        state along the motions that it attempts. */
     std::vector<Pose> posesOfSearch(const Scenario &scenario, const FootprintChecker &checker, bool fromSlot)
     {
         const auto space = std::make_shared<ob::ReedsSheppStateSpace>(scenario.vehicle.minTurningRadius());
@@ -121,7 +123,7 @@ namespace
         planner.params().setParam("bidirectional", fromSlot ? "0" : "1");
         planner.setProblemDefinition(problem);
         planner.setup();
-        // Counted in questions, not in seconds: the same poses on every machine.
+        // Counted in checks, not in seconds: equal poses on every machine.
         planner.solve(ob::PlannerTerminationCondition([&poses] { return poses.size() > 100 * KEPT; }));
         return poses;
     }
@@ -156,8 +158,8 @@ namespace
         return entry->second;
     }
 
-    /** How often the poses of a world are gone through before the next one: planners stay in one world for longer than
-        it takes to fill the caches. */
+    /** Number of passes over the poses of a world before the next one: planners stay in one world for longer than the
+        caches need to fill. */
     constexpr std::size_t ROUNDS = 10;
 
     enum class Checker
@@ -170,13 +172,13 @@ namespace
     {
         const std::vector<Place> &places = placesOf(grids, surroundings);
         CheckCounts counts;
-        std::size_t free = 0, asked = 0, world = 0, round = 0, i = 0;
+        std::size_t free = 0, checks = 0, world = 0, round = 0, i = 0;
         for (auto _ : state)
         {
             const Place &place = places[world];
             free += kind == Checker::Tiered ? place.tiered->isFree(place.poses[i], counts)
                                             : place.plain->isFree(place.poses[i]);
-            ++asked;
+            ++checks;
             if (++i < place.poses.size())
                 continue;
             i = 0;
@@ -185,9 +187,9 @@ namespace
             round = 0;
             world = (world + 1) % places.size();
         }
-        const auto percent = [asked](std::size_t count)
+        const auto percent = [checks](std::size_t count)
         {
-            return 100.0 * static_cast<double>(count) / static_cast<double>(asked);
+            return 100.0 * static_cast<double>(count) / static_cast<double>(checks);
         };
         state.counters["free %"] = percent(free);
         state.counters["field %"] = percent(counts.byField);
@@ -198,7 +200,8 @@ namespace
 
     // ---- motions ---------------------------------------------------------------------------------------------------
 
-    /** OMPL 1.5 counts the segments of a curve by the straight line between its ends; this is what 1.6 does. */
+    /** OMPL 1.5 derives the number of segments of a curve from the straight line between its ends; this is the
+        computation of 1.6. */
     class EvenlyCheckedSpace : public ob::ReedsSheppStateSpace
     {
     public:
@@ -256,8 +259,8 @@ namespace
     enum class Validator
     {
         Swept,
-        Discrete,    ///< OMPL's, every 2 cm, with the two-tier state checks
-        DiscreteFcl  ///< OMPL's with plain FCL
+        Discrete,    ///< OMPL's validator, every 2 cm, with the two-tier state checks
+        DiscreteFcl  ///< OMPL's validator with plain FCL
     };
 
     const ob::MotionValidator &validatorOf(const Motions &motions, Validator kind)
@@ -273,7 +276,7 @@ namespace
         }
     }
 
-    /** \param valid whether to keep to motions that are free: a check cannot end early there */
+    /** \param valid whether to use only free motions, on which a check cannot end early */
     void motionCheck(benchmark::State &state, Validator kind, bool valid)
     {
         static std::vector<std::unique_ptr<Motions>> worlds;
@@ -303,7 +306,8 @@ namespace
         state.counters["motions"] = static_cast<double>(chosen.size());
     }
 
-    /** Puts the answers of both validators to the oracle of the tests, which looks every millimetre. */
+    /** Compares the answers of both validators with the reference checker of the tests, which checks every
+        millimetre. */
     void wrongMotions(benchmark::State &state)
     {
         std::size_t motions = 0, free = 0, sweptWrong = 0, discreteWrong = 0, sweptRefused = 0;
@@ -320,7 +324,7 @@ namespace
                     for (std::size_t i = 0; i < curve.count && isFree; ++i)
                     {
                         const Arc &arc = curve.pieces[i];
-                        // A nanometre either way is rounding.
+                        // A nanometre in either direction is rounding.
                         isFree = set.world.oracle.isArcFree(pose, arc.curvature, arc.length, set.vehicle, 1e-3, -1e-9);
                         pose = advance(pose, arc.curvature, arc.length);
                     }
@@ -351,7 +355,7 @@ namespace
         double curvature, length;
     };
 
-    /** Random arcs of a metre whose smallest clearance lies in between; full lock either way, and straight. */
+    /** Random arcs of a metre whose minimum clearance is in this interval; full lock to either side, and straight. */
     void sweptArc(benchmark::State &state, double least, double most, bool prepared)
     {
         const std::vector<Place> &places = placesOf(false, Surroundings::Mixed);
@@ -388,7 +392,7 @@ namespace
 
     // ---- building --------------------------------------------------------------------------------------------------
 
-    /** A map of cells of 5 cm with walls, blocks and single cells that sensors imagine. */
+    /** A map with cells of 5 cm: walls, blocks, and single cells of sensor noise. */
     OccupancyGrid randomMap(std::size_t side)
     {
         Random random(side);
@@ -413,7 +417,7 @@ namespace
             benchmark::DoNotOptimize(DistanceField(obstacles).lowerBound(0.0, 0.0));
     }
 
-    /** Everything between a map and the first check: obstacles, field and index of edges. */
+    /** All steps between a map and the first check: obstacles, field and index of edges. */
     void checkerOfMap(benchmark::State &state)
     {
         const OccupancyGrid grid = randomMap(static_cast<std::size_t>(state.range(0)));

@@ -14,7 +14,7 @@ namespace parking
         {
             return record.path.sample(samplingOf(record.path.length(), record.is("densely valid")));
         }
-        /** Twelve colours that differ for most eyes, also in print. */
+        /** Twelve colours that most readers can distinguish, also in print. */
         constexpr std::array<const char *, 12> COLOURS{"#2563eb", "#ea580c", "#059669", "#be185d",
                                                        "#7c3aed", "#0891b2", "#a16207", "#dc2626",
                                                        "#4d7c0f", "#9333ea", "#475569", "#b45309"};
@@ -72,7 +72,7 @@ namespace parking
             for (std::size_t k = 1; k < path.size(); ++k)
             {
                 line.emplace_back(path[k - 1].pose.x, path[k - 1].pose.y);
-                // The last state of a stretch has its direction.
+                // The last state of a stretch has the stretch's direction.
                 if (k + 1 < path.size() && path[k + 1].direction == path[k].direction)
                     continue;
                 line.emplace_back(path[k].pose.x, path[k].pose.y);

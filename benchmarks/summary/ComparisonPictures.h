@@ -9,14 +9,14 @@
 
 namespace parking
 {
-    /** \brief The run with the shortest valid path, or with the shortest path at all when none is valid; null without
-        any path. */
+    /** \brief The run with the shortest valid path, or with the shortest path if none is valid; null without any
+        path. */
     const RunRecord *bestRun(const std::vector<const RunRecord *> &records);
 
-    /** \brief One problem with the best path of each planner, as SVG.
+    /** \brief Picture (SVG) of a problem with the best path of each planner.
 
         Each stretch between changes of direction is a line with the attributes data-planner, data-run and
-       data-direction (forward or reverse), by which the report finds it.
+        data-direction (forward or reverse), which the report uses to find it.
 
         \param best planners' names and best runs (null: none) */
     std::string comparisonSvg(const Scenario &scenario, const std::string &title,

@@ -18,7 +18,7 @@ namespace parking
 {
     namespace
     {
-        /** Beside the installed program, or in the sources that it was built from. */
+        /** The script next to the installed program, or in the source folder of the build. */
         std::string findScript()
         {
             std::error_code ignored;
@@ -37,7 +37,7 @@ namespace parking
         const std::string report = (fs::path(folder) / "report.html").string();
         const auto withoutReport = [&report](const std::string &reason)
         {
-            std::cerr << "parking_benchmark: " << report << ": is not made: " << reason << std::endl;
+            std::cerr << "parking_benchmark: " << report << ": is not written: " << reason << std::endl;
             return std::string();
         };
         const std::string script = findScript();
@@ -45,7 +45,7 @@ namespace parking
             return withoutReport("the script make_report is not installed");
         constexpr double PATIENT = std::numeric_limits<double>::infinity();
         const std::atomic<bool> neverStops{false};
-        // A process that ends with this one: it must not write any more when this one's successor writes the same.
+        // A process that ends with this one: it must not write while its successor writes the same file.
         const IsolatedResult result = runIsolated(
             [&](const std::function<void()> & /*halfDone*/) -> std::string
             {
@@ -58,7 +58,7 @@ namespace parking
         if (result.status == PACKAGES_MISSING)
             return withoutReport(result.errors);
         if (result.status != 0)
-            throw Error(report + ": cannot be made: " + (result.errors.empty() ? result.text : result.errors));
+            throw Error(report + ": cannot be created: " + (result.errors.empty() ? result.text : result.errors));
         return report;
     }
 }  // namespace parking

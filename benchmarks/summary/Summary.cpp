@@ -45,7 +45,7 @@ namespace parking
             return text;
         }
 
-        /** Milliseconds with three digits that say something. */
+        /** Milliseconds with three significant digits. */
         std::string shownTime(double seconds)
         {
             const double value = MS * seconds;
@@ -93,7 +93,7 @@ namespace parking
             return std::isfinite(value) ? formatNumber(value) : "";
         }
 
-        /** What the CSV has of a column. */
+        /** Text of a column in the CSV file. */
         struct CsvFigure
         {
             const char *name;
@@ -120,7 +120,7 @@ namespace parking
             return {median};
         }
 
-        /** For example first_solution_median_s. */
+        /** Name such as first_solution_median_s. */
         std::string csvHeading(const RunColumn &column, const CsvFigure &figure)
         {
             std::string text = std::string(column.summary->heading) + "_" + figure.name;
@@ -136,7 +136,7 @@ namespace parking
                     values.push_back(record->number(column.name));
                 else if (column.summary->statistic == Statistic::Distribution)
                     values.push_back(HUGE_VAL);
-            // Of those that have the figure: a path without a trajectory has none of its figures.
+            // Only runs with the figure count: a path without a trajectory has no figures of one.
             values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                          values.end());
             if (column.summary->statistic == Statistic::Share)
@@ -150,7 +150,7 @@ namespace parking
                     interval.low, interval.high,         interval.level};
         }
 
-        /** Of all runs of one planner on one experiment. */
+        /** Summary of all runs of one planner on one experiment. */
         SummaryRow summaryOf(const std::vector<const RunRecord *> &records)
         {
             SummaryRow row;
@@ -221,7 +221,7 @@ namespace parking
             for (std::size_t i = 0; i < cells.size(); ++i)
             {
                 const std::string padding(widths[i] - cells[i].size(), ' ');
-                // Names to the left, figures to the right.
+                // Names aligned to the left, figures to the right.
                 each += (i < 2 ? cells[i] + padding : padding + cells[i]) + "  ";
             }
             text += each.substr(0, each.find_last_not_of(' ') + 1) + "\n";

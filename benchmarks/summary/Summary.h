@@ -10,50 +10,50 @@
 
 namespace parking
 {
-    /** \brief A column of the runs summed up over those of one planner on one experiment, as its Statistic says: NaN
-        where no run counts, infinite where too many runs do. */
+    /** \brief A column summed up over the runs of one planner on one experiment by its Statistic.
+        NaN if no run counts, infinite if too many runs are infinite. */
     struct SummaryFigure
     {
-        const RunColumn *column;  ///< one that has a place in the summary
-        double median;            ///< in the column's unit
+        const RunColumn *column;  ///< a column of the summary
+        double median;            ///< value in the column's unit
         double low;               ///< first quartile
         double high;              ///< third quartile
-        double begin;             ///< of the confidence interval of the median
-        double end;               ///< of the same interval
-        double level;             ///< of certainty that the interval has; 0 for the range of too few values
+        double begin;             ///< lower end of the median's confidence interval
+        double end;               ///< upper end of the median's confidence interval
+        double level;             ///< certainty of the interval; 0 for the range of too few values
     };
 
-    /** \brief How one planner did on one experiment. Times in seconds, lengths in metres. */
+    /** \brief Results of one planner on one experiment. Times in seconds, lengths in metres. */
     struct SummaryRow
     {
-        std::string experiment;              ///< its name
-        std::string planner;                 ///< what results call the planner
-        std::size_t runs{0};                 ///< all that are there, finished or failed
-        std::size_t solved{0};               ///< exact and densely valid
-        std::size_t invalid{0};              ///< exact in the planner's view, but not valid when checked again
-        std::size_t approximate{0};          ///< other paths: they end short of the goals, or came too late
-        std::vector<SummaryFigure> figures;  ///< of all columns that the summary has, in their order
+        std::string experiment;      ///< name of the experiment
+        std::string planner;         ///< name of the planner in the results
+        std::size_t runs{0};         ///< number of all runs, including failed ones
+        std::size_t solved{0};       ///< number of exact and densely valid paths
+        std::size_t invalid{0};      ///< number of paths exact by the planner's report, but invalid in the recheck
+        std::size_t approximate{0};  ///< number of other paths: short of the goals, or after the time limit
+        std::vector<SummaryFigure> figures;  ///< all columns of the summary, in their order
 
-        /** \brief The figure of a column. Throws parking::Error when the summary does not have it. */
+        /** \brief The figure of a column. Throws parking::Error for a column outside of the summary. */
         const SummaryFigure &figure(std::string_view column) const;
     };
 
-    /** \brief A row for each planner of each experiment, in their order. */
+    /** \brief One row for each planner of each experiment, in their order. */
     std::vector<SummaryRow> summarize(const BenchmarkConfig &config, const std::vector<Experiment> &experiments,
                                       const std::vector<RunRecord> &records);
 
     /** \brief A table for the terminal. */
     std::string summaryText(const std::vector<SummaryRow> &rows);
 
-    /** \brief The same as a Markdown table. */
+    /** \brief The table as Markdown. */
     std::string summaryMarkdown(const std::vector<SummaryRow> &rows);
 
-    /** \brief What happened in a run in which the planner itself failed, on one line. */
+    /** \brief The failure of a planner in a run, on one line. */
     std::string failureText(const RunRecord &record);
 
-    /** \brief A list of the planners that failed, with how often and why; empty when none did. */
+    /** \brief A list of the planners that failed, with number and reason; empty without failures. */
     std::string failuresText(const std::vector<RunRecord> &records);
 
-    /** \brief With all figures, as comma-separated values. Infinite and missing values are empty. */
+    /** \brief All figures as comma-separated values. Infinite and missing values are empty. */
     std::string summaryCsv(const std::vector<SummaryRow> &rows);
 }  // namespace parking

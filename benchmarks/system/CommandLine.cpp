@@ -25,7 +25,7 @@ namespace parking
 {
     namespace
     {
-        /** Do both names mean the same ordinary file, or will they once one of them is written? */
+        /** Whether both names refer to the same ordinary file, or will do so after one of them is written. */
         bool areSameFile(const std::string &a, const std::string &b)
         {
             namespace fs = std::filesystem;
@@ -70,14 +70,12 @@ namespace parking
         }
         catch (const po::too_many_positional_options_error &)
         {
-            throw Error(
-                positional.max_total_count() == 0
-                    ? "something was given that belongs to no option, and nothing like that is expected (see --help)"
-                    : "too many files given; one is expected (see --help)");
+            throw Error(positional.max_total_count() == 0 ? "unexpected value that belongs to no option (see --help)"
+                                                          : "too many files given; one is expected (see --help)");
         }
         catch (const po::error &error)
         {
-            // Boost replaces its placeholders in what() for ever when an option is called like one.
+            // Boost replaces its placeholders in what() endlessly when an option has such a name.
             for (const std::string &argument : arguments)
                 if (argument.rfind('-', 0) == 0 && argument.find('%') != std::string::npos)
                     throw Error("no option is called " + inQuotes(argument) + " (see --help)");
@@ -98,7 +96,7 @@ namespace parking
     std::optional<std::string> CommandLine::name(const std::string &option) const
     {
         if (given(option) && text(option)->empty())
-            throw Error("--" + option + " is given no name; without the option the default is taken");
+            throw Error("--" + option + " has an empty name; without the option its default applies");
         return text(option);
     }
 
@@ -107,26 +105,26 @@ namespace parking
         return given(option) ? values_[option].as<std::vector<std::string>>() : std::vector<std::string>{};
     }
 
-    std::optional<double> CommandLine::positive(const std::string &option, double most) const
+    std::optional<double> CommandLine::positive(const std::string &option, double max) const
     {
-        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), most)) : std::nullopt;
+        return given(option) ? std::optional<double>(positiveNumber("--" + option, *text(option), max)) : std::nullopt;
     }
 
-    std::optional<double> CommandLine::between(const std::string &option, double least, double most,
+    std::optional<double> CommandLine::between(const std::string &option, double min, double max,
                                                const std::string &unit) const
     {
         if (!given(option))
             return std::nullopt;
         double value = 0.0;
-        if (!parseNumber(*text(option), value) || value < least || value > most)
-            throw Error("--" + option + " must be a number from " + formatNumber(least) + " to " + formatNumber(most) +
+        if (!parseNumber(*text(option), value) || value < min || value > max)
+            throw Error("--" + option + " must be a number from " + formatNumber(min) + " to " + formatNumber(max) +
                         " " + unit + ", not " + inQuotes(*text(option)));
         return value;
     }
 
-    std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t least, std::size_t most) const
+    std::optional<std::size_t> CommandLine::whole(const std::string &option, std::size_t min, std::size_t max) const
     {
-        return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), least, most))
+        return given(option) ? std::optional<std::size_t>(wholeNumber("--" + option, *text(option), min, max))
                              : std::nullopt;
     }
 
@@ -134,24 +132,24 @@ namespace parking
     {
         const std::optional<std::string> name = text(option);
         if (name && name->empty())
-            throw Error("--" + option + " must name a file to write, and the name it is given is empty");
+            throw Error("--" + option + " requires the name of a file to write, not an empty one");
         return name;
     }
 
-    double positiveNumber(const std::string &name, const std::string &text, double most)
+    double positiveNumber(const std::string &name, const std::string &text, double max)
     {
         double value = 0.0;
-        if (!parseNumber(text, value) || value <= 0.0 || value > most)
+        if (!parseNumber(text, value) || value <= 0.0 || value > max)
             throw Error(name + " must be a positive number" +
-                        (std::isfinite(most) ? " of at most " + formatNumber(most) : "") + ", not " + inQuotes(text));
+                        (std::isfinite(max) ? " of at most " + formatNumber(max) : "") + ", not " + inQuotes(text));
         return value;
     }
 
-    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most)
+    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t min, std::size_t max)
     {
         std::size_t value = 0;
-        if (!parseCount(text, value) || value < least || value > most)
-            throw Error(name + " must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+        if (!parseCount(text, value) || value < min || value > max)
+            throw Error(name + " must be a whole number from " + std::to_string(min) + " to " + std::to_string(max) +
                         ", not " + inQuotes(text));
         return value;
     }
@@ -160,7 +158,7 @@ namespace parking
     {
         const std::size_t split = text.find('=');
         if (split == std::string::npos || split == 0)
-            throw Error(name + " must be given KEY=VALUE, not " + inQuotes(text));
+            throw Error(name + " requires KEY=VALUE, not " + inQuotes(text));
         return {text.substr(0, split), text.substr(split + 1)};
     }
 
@@ -171,11 +169,11 @@ namespace parking
         if (file.empty())
             throw Error("the name of an output file is empty");
         if (fs::is_directory(file, ignored))
-            throw Error(oneLine(file) + ": is a folder, not a file that could be written");
+            throw Error(oneLine(file) + ": is a folder, not a file to write");
         if (fs::is_block_file(file, ignored))
             throw Error(oneLine(file) + ": is a disk, whose content would be lost; name a file");
         if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
-            return;  // a pipe or a device: it will say itself
+            return;  // a pipe or a device reports its own errors
         fs::path folder = fs::path(file).parent_path();
         if (folder.empty())
             folder = ".";
@@ -191,18 +189,18 @@ namespace parking
         {
             const std::string &file = outputs[i];
             if (file == "-")
-                throw Error("'-' is not standard output here; if a file of that name is meant, name it './-'");
+                throw Error("'-' is not standard output here; for a file of that name write './-'");
             requireWritable(file);
             requireNoInput({file}, inputs);
             for (std::size_t k = 0; k < i; ++k)
                 if (areSameFile(file, outputs[k]))
-                    throw Error(inQuotes(file) + " is to be written twice: name two files");
+                    throw Error(inQuotes(file) + " would be written twice: name two files");
         }
     }
 
     void requireNoInput(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs)
     {
-        // By what the system calls them, whatever their names: a comparison may have thousands of both.
+        // By the system's identifiers: a comparison may have thousands of inputs and outputs, under any names.
         std::map<std::pair<dev_t, ino_t>, std::string> known;
         struct stat status = {};
         for (const std::string &input : inputs)
@@ -216,7 +214,7 @@ namespace parking
             if (found != known.end())
                 throw Error(inQuotes(output) + " is the input" +
                             (output == found->second ? "" : " " + inQuotes(found->second)) +
-                            ", which would be lost; name another file to write");
+                            ", which would be lost; choose another file to write");
         }
     }
 

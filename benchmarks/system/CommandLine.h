@@ -15,20 +15,20 @@
 
 namespace parking
 {
-    /** \brief Seconds: the longest that a run may be given. OMPL computes the end of a run in nanoseconds since 1970,
-        which overflow when it lies more than two hundred years ahead. */
+    /** \brief Maximum time limit of a run in seconds.
+        OMPL computes the end of a run in nanoseconds since 1970, which overflow more than two hundred years ahead. */
     constexpr double LONGEST_RUN = 1e6;
 
-    /** \brief The value of an option, a text; \e name stands for it in the help. */
+    /** \brief The value of an option, a text; \e name is its placeholder in the help. */
     boost::program_options::typed_value<std::string> *oneValue(const char *name);
 
-    /** \brief The same of an option that may be given several times. */
+    /** \brief The values of a repeatable option; \e name is their placeholder in the help. */
     boost::program_options::typed_value<std::vector<std::string>> *manyValues(const char *name);
 
-    /** \brief A command line that was read: what each option was given. Options must be written out in full.
+    /** \brief The options of a command line, written in full.
 
-        Options that were not given are empty; the caller has the defaults: `line.positive("time").value_or(5.0)`. The
-        readers throw parking::Error naming option and value where a value is not what it must be. */
+        Missing options are empty; the caller has the defaults: `line.positive("time").value_or(5.0)`. The readers throw
+        parking::Error naming option and value for an invalid value. */
     class CommandLine
     {
     public:
@@ -37,63 +37,64 @@ namespace parking
                     const boost::program_options::options_description &options,
                     const boost::program_options::positional_options_description &positional);
 
-        /** \brief Was it given at all? */
+        /** \brief Whether the option was given. */
         bool given(const std::string &option) const;
 
-        /** \brief What it was given; nothing when it was not. */
+        /** \brief The value of an option; empty without the option. */
         std::optional<std::string> text(const std::string &option) const;
 
-        /** \brief The same of an option whose text names something. Throws parking::Error for an empty one. */
+        /** \brief The value of an option that is a name. Throws parking::Error for an empty name. */
         std::optional<std::string> name(const std::string &option) const;
 
-        /** \brief Of an option that may be given several times. */
+        /** \brief The values of a repeatable option. */
         std::vector<std::string> texts(const std::string &option) const;
 
-        /** \brief See positiveNumber(). */
+        /** \brief A positive number, see positiveNumber(). */
         std::optional<double> positive(const std::string &option,
-                                       double most = std::numeric_limits<double>::infinity()) const;
+                                       double max = std::numeric_limits<double>::infinity()) const;
 
-        /** \brief A number from \e least to \e most; \e unit is for the message. */
-        std::optional<double> between(const std::string &option, double least, double most,
-                                      const std::string &unit) const;
+        /** \brief A number from \e min to \e max; \e unit is for the message. */
+        std::optional<double> between(const std::string &option, double min, double max, const std::string &unit) const;
 
-        /** \brief See wholeNumber(). */
-        std::optional<std::size_t> whole(const std::string &option, std::size_t least, std::size_t most) const;
+        /** \brief A whole number, see wholeNumber(). */
+        std::optional<std::size_t> whole(const std::string &option, std::size_t min, std::size_t max) const;
 
-        /** \brief The name of a file to write. Throws parking::Error naming the option for an empty one. */
+        /** \brief The name of a file to write. Throws parking::Error naming the option for an empty name. */
         std::optional<std::string> outputFile(const std::string &option) const;
 
     private:
         boost::program_options::variables_map values_;
     };
 
-    /** \brief The number that option \e name was given. Throws parking::Error naming the option when it is no number
-        that is positive (and finite) and at most \e most. */
+    /** \brief The number given for option \e name. Throws parking::Error naming the option unless it is positive,
+        finite and at most \e max. */
     double positiveNumber(const std::string &name, const std::string &text,
-                          double most = std::numeric_limits<double>::infinity());
+                          double max = std::numeric_limits<double>::infinity());
 
-    /** \brief The same for whole numbers from \e least to \e most. */
-    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t least, std::size_t most);
+    /** \brief The whole number given for option \e name. Throws parking::Error naming the option unless it is from \e
+        min to \e max. */
+    std::size_t wholeNumber(const std::string &name, const std::string &text, std::size_t min, std::size_t max);
 
-    /** \brief Splits KEY=VALUE. Throws parking::Error naming option \e name when there is no '=' or no key. */
+    /** \brief Splits KEY=VALUE. Throws parking::Error naming option \e name without a '=' or without a key. */
     std::pair<std::string, std::string> keyAndValue(const std::string &name, const std::string &text);
 
-    /** \brief Throws parking::Error unless \e file could be written: its folder exists and may be written to, and it is
-        no folder itself. Better to know before the work than after. */
+    /** \brief Throws parking::Error unless \e file can be written: its folder exists and is writable, and it is not a
+        folder itself.
+        Call it first, so that the program does not fail after its work. */
     void requireWritable(const std::string &file);
 
-    /** \brief The same for all files that a program writes. Throws parking::Error, too, when one of them is an input,
-        which would be lost, when two are the same file, of which one would be, or when one is called -, which is no
-        file to most people. */
+    /** \brief Checks all files that a program writes.
+        Throws parking::Error if one cannot be written, is also an input, appears twice, or has the name -, which
+        usually means standard output. */
     void requireOutputs(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
 
-    /** \brief Throws parking::Error when one of \e outputs is one of \e inputs, which would be lost: for inputs that
-        are known only once others have been read, as the map of a scenario is. */
+    /** \brief Throws parking::Error when one of \e outputs is one of \e inputs, which would be lost.
+        For inputs found while reading others, such as the map of a scenario. */
     void requireNoInput(const std::vector<std::string> &outputs, const std::vector<std::string> &inputs);
 
-    /** \brief Runs a program on its arguments and returns its status. What it throws becomes one line on standard
-        error that begins with \e name, and status 2: bad input or usage. So does standard output that cannot be
-        written. */
+    /** \brief Runs a program on its arguments and returns its exit status.
+        An exception becomes one line on standard error that begins with \e name, and status 2: invalid input or usage.
+        The same applies to an error of standard output. */
     int runProgram(const char *name, int argc, char **argv,
                    const std::function<int(const std::vector<std::string> &)> &program);
 }  // namespace parking

@@ -32,16 +32,16 @@ namespace parking
         using End = IsolatedResult::End;
 
         constexpr double BYTES = 1048576.0;        // in a MB
-        constexpr int LONGEST_WAIT = 100;          // milliseconds between looks at the process and at stop
-        constexpr std::size_t KEPT = 4096;         // bytes of what the work says on its error stream
+        constexpr int LONGEST_WAIT = 100;          // milliseconds between checks of the process and of stop
+        constexpr std::size_t KEPT = 4096;         // maximum bytes kept of the error stream
         constexpr rlim_t LEAST = rlim_t(1) << 20;  // bytes
 
-        // What the process says, each with a byte before it.
+        // Messages of the process, each after a byte with its kind.
         constexpr char HALF_DONE = 'h', ANSWER = 'a', EXCEPTION = 'x', OUT_OF_MEMORY = 'm', LAST = '\n';
 
-        int answers = -1;  // where the process of the work writes; in that process only
+        int answers = -1;  // channel of the process of the work; in that process only
 
-        void say(const char *text, std::size_t size)
+        void send(const char *text, std::size_t size)
         {
             while (size > 0)
             {
@@ -53,17 +53,17 @@ namespace parking
             }
         }
 
-        void say(char kind, const std::string &text)
+        void send(char kind, const std::string &text)
         {
             const std::string line = kind + text + LAST;
-            say(line.data(), line.size());
+            send(line.data(), line.size());
         }
 
-        /** No memory is left to tell it in a nicer way. */
+        /** Reports exhausted memory without allocating any. */
         [[noreturn]] void endWithoutMemory()
         {
             const std::array<char, 2> text{OUT_OF_MEMORY, LAST};
-            say(text.data(), text.size());
+            send(text.data(), text.size());
             _exit(EXIT_FAILURE);
         }
 
@@ -71,7 +71,7 @@ namespace parking
         {
             const rlimit none{0, 0};
             setrlimit(RLIMIT_CORE, &none);
-            // Pages of data and stack are what the kernel compares with the limit.
+            // The kernel compares pages of data and stack with the limit.
             std::ifstream file("/proc/self/statm");
             double size = 0.0, resident = 0.0, shared = 0.0, text = 0.0, library = 0.0, data = 0.0;
             if (!(file >> size >> resident >> shared >> text >> library >> data) || !(memory > 0.0))
@@ -91,12 +91,12 @@ namespace parking
             try
             {
                 limitResources(memory);
-                say(ANSWER, what(
-                                []
-                                {
-                                    const char text = HALF_DONE;
-                                    say(&text, 1);
-                                }));
+                send(ANSWER, what(
+                                 []
+                                 {
+                                     const char text = HALF_DONE;
+                                     send(&text, 1);
+                                 }));
             }
             catch (const std::bad_alloc &)
             {
@@ -104,17 +104,17 @@ namespace parking
             }
             catch (const std::exception &error)
             {
-                say(EXCEPTION, oneLine(error.what()));
+                send(EXCEPTION, oneLine(error.what()));
             }
             catch (...)
             {
-                say(EXCEPTION, "an exception that is no std::exception");
+                send(EXCEPTION, "an exception that is not a std::exception");
             }
-            // Without destructors and whatever waits for the end of the program: all that belongs to the other process.
+            // Without destructors and exit handlers: they belong to the parent process.
             _exit(EXIT_SUCCESS);
         }
 
-        /** A pipe whose ends are closed. */
+        /** A pipe that closes its ends. */
         struct Pipe
         {
             Pipe()
@@ -171,7 +171,7 @@ namespace parking
                    (name != nullptr ? std::string(" (") + name + ")" : "");
         }
 
-        /** The last line that is not blank: where Python's errors say what is wrong. */
+        /** The last line that is not blank: the error message in Python's output. */
         std::string lastLine(const std::string &text)
         {
             const std::size_t last = text.find_last_not_of(" \r\n");
@@ -181,23 +181,23 @@ namespace parking
             return oneLine(text.substr(first, last + 1 - first));
         }
 
-        /** Of a process that ended without a last word. */
+        /** The result of a process that ended without an answer. */
         IsolatedResult endOf(int status, const std::string &errors)
         {
             const std::string last = lastLine(errors), more = last.empty() ? "" : ": " + last;
             if (!WIFSIGNALED(status))
                 return {End::Died, "it ended its process with status " + std::to_string(WEXITSTATUS(status)) + more,
                         WEXITSTATUS(status), last};
-            // Nobody but the system does that.
+            // Only the system does that.
             if (WTERMSIG(status) == SIGKILL)
-                return {End::OutOfMemory, "killed by the system, as it is when memory runs out"};
+                return {End::OutOfMemory, "killed by the system, as happens when memory is exhausted"};
             return {End::Died, signalText(WTERMSIG(status)) + more, -1, last};
         }
 
-        IsolatedResult readAnswer(const std::string &said, std::size_t begin)
+        IsolatedResult readAnswer(const std::string &messages, std::size_t begin)
         {
-            const std::string text = said.substr(begin + 1, said.size() - begin - 2);
-            switch (said[begin])
+            const std::string text = messages.substr(begin + 1, messages.size() - begin - 2);
+            switch (messages[begin])
             {
                 case ANSWER:
                     return {End::Answered, text};
@@ -206,11 +206,11 @@ namespace parking
                 case OUT_OF_MEMORY:
                     return {End::OutOfMemory, "out of memory"};
                 default:
-                    return {End::Died, "it wrote where only its answer belongs"};
+                    return {End::Died, "it wrote into the channel of its answer"};
             }
         }
 
-        /** The process of the work; it does not outlive this. */
+        /** The process of the work; it does not outlive its parent. */
         class Child
         {
         public:
@@ -232,7 +232,7 @@ namespace parking
                 return ended_;
             }
 
-            /** Kills it, if it is still there, and whatever it has started. \return its status */
+            /** Kills the process if it still runs, and its children. \return its status */
             int end()
             {
                 kill(-process_, SIGKILL);
@@ -253,8 +253,8 @@ namespace parking
             int status_{0};
         };
 
-        /** Waits for the last word, or for what comes instead of it. */
-        IsolatedResult await(Child &child, Pipe &said, Pipe &errors, const IsolationLimits &limits,
+        /** Waits for the answer, or for another end of the process. */
+        IsolatedResult await(Child &child, Pipe &messages, Pipe &errors, const IsolationLimits &limits,
                              const std::atomic<bool> &stop)
         {
             const auto later = [](double seconds)
@@ -266,11 +266,11 @@ namespace parking
             bool half = false, ended = false;
             for (;;)
             {
-                std::array<pollfd, 2> ends{{{said.ends[0], POLLIN, 0}, {errors.ends[0], POLLIN, 0}}};
+                std::array<pollfd, 2> ends{{{messages.ends[0], POLLIN, 0}, {errors.ends[0], POLLIN, 0}}};
                 if (!ended)
                     poll(ends.data(), ends.size(), LONGEST_WAIT);
-                if (said.ends[0] >= 0)
-                    take(said, words);
+                if (messages.ends[0] >= 0)
+                    take(messages, words);
                 if (errors.ends[0] >= 0)
                     take(errors, complaints);
                 if (complaints.size() > 2 * KEPT)
@@ -289,8 +289,8 @@ namespace parking
                     return endOf(child.end(), complaints);
                 if (Clock::now() >= deadline)
                     return {End::TimeUp,
-                            half ? "its path could not be measured in time" : "it did not come back in time"};
-                // Once more round for what it said last. Who has its pipes from it may keep them open.
+                            half ? "measuring its path exceeded the time limit" : "it exceeded the time limit"};
+                // One more iteration for the last output. Children may keep the pipes open.
                 ended = child.hasEnded();
             }
         }
@@ -299,7 +299,7 @@ namespace parking
     IsolatedResult runIsolated(const std::function<std::string(const std::function<void()> &halfDone)> &what,
                                const IsolationLimits &limits, const std::atomic<bool> &stop)
     {
-        Pipe said, errors;
+        Pipe messages, errors;
         std::cout.flush();
         std::cerr.flush();
         std::fflush(nullptr);
@@ -316,16 +316,16 @@ namespace parking
             if (getppid() != self || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0 ||
                 dup2(errors.ends[1], STDERR_FILENO) < 0)
                 _exit(EXIT_FAILURE);
-            said.closeEnd(0);
+            messages.closeEnd(0);
             errors.closeEnd(0);
-            answers = said.ends[1];
+            answers = messages.ends[1];
             work(what, limits.memory);
         }
         Child child(process);
-        said.closeEnd(1);
+        messages.closeEnd(1);
         errors.closeEnd(1);
-        fcntl(said.ends[0], F_SETFL, O_NONBLOCK);
+        fcntl(messages.ends[0], F_SETFL, O_NONBLOCK);
         fcntl(errors.ends[0], F_SETFL, O_NONBLOCK);
-        return await(child, said, errors, limits, stop);
+        return await(child, messages, errors, limits, stop);
     }
 }  // namespace parking

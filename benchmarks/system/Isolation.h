@@ -6,43 +6,42 @@
 
 namespace parking
 {
-    /** \brief What a process of its own may take. */
+    /** \brief Limits of an isolated process. */
     struct IsolationLimits
     {
-        double timeToHalf{0.0};  ///< seconds of wall clock until the work says that it is half done
-        double timeAfter{0.0};   ///< seconds from then on
-        double memory{0.0};      ///< MB of data beyond what there is at the beginning
+        double timeToHalf{0.0};  ///< seconds of wall-clock time until the work reports that it is half done
+        double timeAfter{0.0};   ///< seconds of wall-clock time for the second half
+        double memory{0.0};      ///< MB of data in addition to those at the beginning
     };
 
-    /** \brief How work in a process of its own ended. */
+    /** \brief Result of work in an isolated process. */
     struct IsolatedResult
     {
-        /** \brief How the process ended. */
+        /** \brief Cause of the end of the process. */
         enum class End
         {
-            Answered,     ///< with the work's answer
-            Exception,    ///< one left the work
-            Died,         ///< of a signal, or it ended the process itself
-            TimeUp,       ///< it took longer than it may, and was ended
-            OutOfMemory,  ///< it took more memory than it may
-            Stopped       ///< it was told to stop
+            Answered,     ///< the work returned its answer
+            Exception,    ///< the work threw an exception
+            Died,         ///< a signal ended it, or it called exit
+            TimeUp,       ///< it exceeded its time limit
+            OutOfMemory,  ///< it exceeded its memory limit
+            Stopped       ///< the caller stopped it
         };
-        End end{End::Died};    ///< how it ended
-        std::string text;      ///< the answer, or one line on what happened
-        int status{-1};        ///< exit status of a process that ended itself
-        std::string errors{};  ///< the last line that it wrote to standard error, if it died
+        End end{End::Died};    ///< cause of the end
+        std::string text;      ///< the answer, or one line on the failure
+        int status{-1};        ///< exit status of a process that called exit
+        std::string errors{};  ///< the last line on standard error of a process that died
     };
 
-    /** \brief Does work in a process of its own, a copy of this one, and waits for its answer: whatever the work does
-       to its process, this one goes on.
+    /** \brief Executes work in a copy of this process and waits for its answer. Failures of the work do not affect this
+       process.
 
-        Nothing that the work changes in memory is seen here. It reads nothing, and what it prints is thrown away but
-       for the last line of its errors, which is told when it dies. It ends with this process, and so do the processes
-       that it has started.
+       Changes in memory are not visible here. The work's input is empty. Its output is discarded, except for the last
+       line of errors, which the result contains if it dies. The process and its children end with this one.
 
-        \param work is handed what it may call when it is half done, and returns its answer: a line of text
-        \param stop once true, the work is ended
-        Throws parking::Error when there can be no other process. */
+       \param work receives a function to call when it is half done, and returns its answer: a line of text
+       \param stop set to true to end the work
+       Throws parking::Error when no process can be created. */
     IsolatedResult runIsolated(const std::function<std::string(const std::function<void()> &halfDone)> &work,
                                const IsolationLimits &limits, const std::atomic<bool> &stop);
 }  // namespace parking

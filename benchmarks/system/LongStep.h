@@ -7,7 +7,7 @@
 
 namespace parking
 {
-    /** \brief While it lives, standard error says what the program is doing, when that is a terminal. */
+    /** \brief Shows the current step of the program on standard error during its lifetime, if that is a terminal. */
     class LongStep
     {
     public:

@@ -9,9 +9,9 @@ namespace parking
     /** \brief Versions and cores by the names of their columns in the table `experiments`. */
     std::map<std::string, std::int64_t> machineVersions();
 
-    /** \brief "OMPL 1.5.2", also where OMPL's own text leaves the number out. */
+    /** \brief Name and version of OMPL, such as "OMPL 1.5.2", also if OMPL's own text lacks the number. */
     std::string omplVersion();
 
-    /** \brief The same and more in words, on two lines. */
+    /** \brief Description of versions and machine on two lines. */
     std::string machineText();
 }  // namespace parking

@@ -4,8 +4,8 @@
 
 namespace parking
 {
-    /** \brief Seconds of processor time that this process has had so far, all of its threads together. On a machine
-       that has other things to do it tells more than a clock. */
+    /** \brief Processor time in seconds of all threads of this process.
+       It depends less on other load of the machine than the wall clock. */
     inline double processorTime()
     {
         std::timespec now{};
@@ -13,7 +13,7 @@ namespace parking
         return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     }
 
-    /** \brief Seconds of processor time that the thread that asks has had so far. */
+    /** \brief Processor time in seconds of the calling thread. */
     inline double threadProcessorTime()
     {
         std::timespec now{};

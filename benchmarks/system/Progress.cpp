@@ -10,7 +10,7 @@ namespace parking
 {
     namespace
     {
-        constexpr double INTERVAL_TERMINAL = 0.2, INTERVAL_FILE = 15.0;  // seconds between words
+        constexpr double INTERVAL_TERMINAL = 0.2, INTERVAL_FILE = 15.0;  // seconds between lines
 
         /** 754 seconds as "12 min 34 s". */
         std::string duration(double seconds)
@@ -29,7 +29,7 @@ namespace parking
         timeLimit_(timeLimit),
         quiet_(quiet),
         terminal_(isatty(STDERR_FILENO) == 1),
-        said_(std::chrono::steady_clock::now())
+        printed_(std::chrono::steady_clock::now())
     {
         for (const std::string &planner : planners)
             ++counts_[planner].left;
@@ -52,9 +52,9 @@ namespace parking
 
     void Progress::begin(const std::string &experiment, const std::string &planner)
     {
-        say(std::to_string(done_) + " of " + std::to_string(total_) + " runs, " + duration(remaining()) +
-                " left; now " + planner + " on " + experiment,
-            false);
+        print(std::to_string(done_) + " of " + std::to_string(total_) + " runs, " + duration(remaining()) +
+                  " left; now " + planner + " on " + experiment,
+              false);
     }
 
     void Progress::end(const std::string &planner, double seconds)
@@ -64,7 +64,7 @@ namespace parking
         ++count.done;
         count.seconds += seconds;
         if (++done_ == total_)
-            say(std::to_string(done_) + " of " + std::to_string(total_) + " runs", true);
+            print(std::to_string(done_) + " of " + std::to_string(total_) + " runs", true);
     }
 
     void Progress::note(const std::string &text)
@@ -75,13 +75,13 @@ namespace parking
         std::cerr << text << std::endl;
     }
 
-    void Progress::say(const std::string &text, bool last)
+    void Progress::print(const std::string &text, bool last)
     {
         const auto now = std::chrono::steady_clock::now();
         const double interval = terminal_ ? INTERVAL_TERMINAL : INTERVAL_FILE;
-        if (quiet_ || (!last && std::chrono::duration<double>(now - said_).count() < interval))
+        if (quiet_ || (!last && std::chrono::duration<double>(now - printed_).count() < interval))
             return;
-        said_ = now;
+        printed_ = now;
         if (!terminal_)
         {
             std::cerr << text << std::endl;

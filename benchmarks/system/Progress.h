@@ -8,27 +8,29 @@
 
 namespace parking
 {
-    /** \brief Tells on standard error how far a comparison is, and how long the rest will take.
-
-        On a terminal one line that changes; otherwise a line now and then. */
+    /** \brief Reports the progress of a comparison and its remaining time on standard error.
+        On a terminal one line is updated; otherwise lines are printed at intervals. */
     class Progress
     {
     public:
-        /** \brief \param planners of all runs still to be done, by name
-            \param timeLimit seconds: what a planner is expected to take before it has run
-            \param quiet say nothing */
+        /** \brief \param planners names of all remaining runs' planners
+            \param timeLimit expected time in seconds of a planner before its first run
+            \param quiet whether to print nothing */
         Progress(const std::vector<std::string> &planners, double timeLimit, bool quiet);
         ~Progress();
         Progress(const Progress &) = delete;
         Progress &operator=(const Progress &) = delete;
 
-        /** \brief A run begins: names what is under way. */
+        /** \brief Reports that a run begins. */
         void begin(const std::string &experiment, const std::string &planner);
 
-        /** \brief \param seconds that the run took, with everything round it */
+        /** \brief Counts a finished run.
+
+            \param planner name of the run's planner
+            \param seconds time of the run, including preparation and processing */
         void end(const std::string &planner, double seconds);
 
-        /** \brief Says something on a line of its own. */
+        /** \brief Prints a message on a separate line. */
         void note(const std::string &text);
 
     private:
@@ -40,7 +42,7 @@ namespace parking
         };
 
         double remaining() const;
-        void say(const std::string &text, bool last);
+        void print(const std::string &text, bool last);
 
         std::map<std::string, Count> counts_;
         std::size_t total_;
@@ -49,6 +51,6 @@ namespace parking
         bool quiet_;
         bool terminal_;
         std::size_t width_{0};
-        std::chrono::steady_clock::time_point said_;
+        std::chrono::steady_clock::time_point printed_;
     };
 }  // namespace parking

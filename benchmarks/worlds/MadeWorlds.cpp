@@ -20,7 +20,7 @@ namespace parking_test
         using Polygons = std::vector<Polygon>;
 
         constexpr double MILLIMETRES = 1e3;  // in a metre
-        constexpr double SLOT_LENGTH = 5.0;  // metres, of a perpendicular slot
+        constexpr double SLOT_LENGTH = 5.0;  // width of a perpendicular slot in metres
         constexpr double WALL = 0.3;         // metres
 
         Polygon wall(double left, double low, double right, double high)
@@ -28,7 +28,7 @@ namespace parking_test
             return {{left, low}, {right, low}, {right, high}, {left, high}};
         }
 
-        /** Walls round a box, from outside. */
+        /** Walls round a box, on its outside. */
         void surround(Polygons &world, double left, double low, double right, double high)
         {
             world.push_back(wall(left - WALL, low - WALL, right + WALL, low));
@@ -37,7 +37,7 @@ namespace parking_test
             world.push_back(wall(right, low, right + WALL, high));
         }
 
-        /** Some car, parked as people do: off the middle and askew by a little. */
+        /** A parked car with usual tolerances: off the middle and at a small angle. */
         void park(Polygons &world, Random &random, const Pose &middle)
         {
             static const std::vector<std::string> names = vehicleNames();
@@ -47,7 +47,7 @@ namespace parking_test
                 rectangle(car.length(), car.width, compose(middle, {along, across, random.between(-0.03, 0.03)})));
         }
 
-        /** Cars side by side along x, their noses up or down, each slot taken with a probability. */
+        /** Cars side by side along x, facing up or down; each slot is taken with a probability. */
         void row(Polygons &world, Random &random, double left, double right, double y, double slotWidth, double taken,
                  double lean)
         {
@@ -131,7 +131,7 @@ namespace parking_test
             for (std::size_t i = 0; i < decks; ++i)
             {
                 const double y = static_cast<double>(i) * (deck + climb);
-                // The ramps up begin at alternate ends, so that every deck has to be crossed.
+                // The ramps up begin at alternate ends, so that a route crosses every deck.
                 const auto rampAt = [&](std::size_t below)
                 {
                     return below % 2 == 0 ? width - 1.0 - ramp : 1.0;
@@ -156,7 +156,7 @@ namespace parking_test
                     world.push_back(wall(0.0, y + deck, width, y + deck + WALL));
                     continue;
                 }
-                // Beside the ramp nothing can be driven on.
+                // The area beside the ramp is blocked.
                 const double from = rampAt(i);
                 world.push_back(wall(-WALL, y + deck, from, y + deck + climb));
                 world.push_back(wall(from + ramp, y + deck, width + WALL, y + deck + climb));
@@ -226,12 +226,12 @@ namespace parking_test
             const double width = random.between(50.0, 90.0), cross = random.between(6.0, 8.0);
             const double lean = random.between(PI / 4.0, PI / 3.0), slot = random.between(2.5, 2.8) / std::sin(lean);
             const double aisle = random.between(3.8, 5.0), taken = random.between(0.5, 0.9);
-            // A slot across its aisle, with the corners of the car that stands in it.
+            // A slot across its aisle, with the corners of the car in it.
             const double depth = SLOT_LENGTH * std::sin(lean) + 2.0 * std::cos(lean);
             const std::size_t aisles = 2 + random.index(3);
             double y = 0.0;
             for (std::size_t i = 0; i < aisles; ++i, y += 2.0 * depth + aisle)
-                // Both rows lean towards where the one way of the aisle leads.
+                // Both rows lean towards the direction of the one-way aisle.
                 for (const bool upper : {false, true})
                     row(world, random, cross + 0.5 * slot, width - cross - 0.5 * slot,
                         y + (upper ? 1.5 * depth + aisle : 0.5 * depth), slot, taken,
@@ -261,7 +261,7 @@ namespace parking_test
             return world;
         }
 
-        /** Lanes between walls, every place of which is joined to every other, by one way mostly. */
+        /** Lanes between walls that connect all places, mostly by a single route. */
         Polygons maze(Random &random)
         {
             const std::size_t size = 5 + random.index(4);
@@ -274,24 +274,24 @@ namespace parking_test
             {
                 return static_cast<std::size_t>(y * side + x);
             };
-            std::vector<std::pair<int, int>> way{{0, 0}};
+            std::vector<std::pair<int, int>> route{{0, 0}};
             seen[0] = true;
-            while (!way.empty())
+            while (!route.empty())
             {
-                const auto [x, y] = way.back();
+                const auto [x, y] = route.back();
                 std::vector<std::pair<int, int>> next;
                 for (const auto &[dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
                     if (x + dx >= 0 && y + dy >= 0 && x + dx < side && y + dy < side && !seen[at(x + dx, y + dy)])
                         next.emplace_back(dx, dy);
                 if (next.empty())
                 {
-                    way.pop_back();
+                    route.pop_back();
                     continue;
                 }
                 const auto [dx, dy] = next[random.index(next.size())];
                 open[at(x + std::min(dx, 0), y + std::min(dy, 0))][dx == 0 ? 1 : 0] = true;
                 seen[at(x + dx, y + dy)] = true;
-                way.emplace_back(x + dx, y + dy);
+                route.emplace_back(x + dx, y + dy);
             }
             Polygons world;
             for (int y = 0; y < side; ++y)

@@ -25,14 +25,14 @@ namespace parking_test
             return x * x + y * y;
         }
 
-        /** Farthest point of the enlarged body from the middle of the rear axle, metres. */
+        /** Maximum distance in metres of the enlarged body from the middle of the rear axle. */
         double reachOf(const Vehicle &vehicle, double margin)
         {
             return 1e-9 + std::hypot(std::max(vehicle.rearOverhang, vehicle.wheelbase + vehicle.frontOverhang) + margin,
                                      0.5 * vehicle.width + margin);
         }
 
-        /** No point of the box is nearer to the rear axle than this. */
+        /** Lower bound of the distance of the box from the rear axle. */
         double distance(const Pose &pose, const Box &box)
         {
             const Eigen::Vector2d at(pose.x, pose.y);
@@ -40,7 +40,7 @@ namespace parking_test
         }
     }  // namespace
 
-    /** The body at a pose; points given in the world are brought into its frame. */
+    /** The body at a pose; points of the world are transformed into its frame. */
     struct PolygonOracle::Body
     {
         Body(const Pose &pose, const Vehicle &vehicle, double margin)
@@ -75,7 +75,7 @@ namespace parking_test
             return {at(rear, -side), at(front, -side), at(front, side), at(rear, side)};
         }
 
-        /** Metres between the outermost corners and the sides of a box; not positive when one is not within. */
+        /** Metres between the outermost corners and the sides of a box; not positive if a corner is outside. */
         Real distanceWithin(const Box &box) const
         {
             Real least = std::numeric_limits<Real>::infinity();
@@ -85,7 +85,7 @@ namespace parking_test
             return least;
         }
 
-        /** Does the segment have a point in the closed body? The part of it between opposite sides, axis by axis. */
+        /** Whether the segment has a point in the closed body: the part of it between opposite sides, axis by axis. */
         bool touches(const Point &a, const Point &b) const
         {
             Real begin = 0.0L, end = 1.0L;
@@ -104,7 +104,7 @@ namespace parking_test
             return begin <= end;
         }
 
-        /** When no side of the polygon has a point in the body, it lies outside or round all of the body. */
+        /** If no side of the polygon has a point in the body, it lies outside or round all of the body. */
         template <class Corners>
         bool touches(const Corners &polygon) const
         {
@@ -115,7 +115,7 @@ namespace parking_test
                 const Point b = toCar(corner);
                 if (touches(a, b))
                     return true;
-                // A ray from the rear axle to the right: is it crossed? Never touched, or the body would be.
+                // Whether a ray from the rear axle to the right is crossed. It never touches, or the body would.
                 if ((a.y > 0.0L) != (b.y > 0.0L) && a.x - a.y * (b.x - a.x) / (b.y - a.y) > 0.0L)
                     inside = !inside;
                 a = b;
@@ -123,7 +123,7 @@ namespace parking_test
             return inside;
         }
 
-        /** From a segment that does not touch the body. */
+        /** Distance of a segment outside of the body. */
         Real distance(const Point &a, const Point &b) const
         {
             const auto toBody = [this](const Point &p)
@@ -175,7 +175,7 @@ namespace parking_test
         if (grid_)
             return isFreeOfCells(Body(pose, vehicle, margin));
         const double reach = reachOf(vehicle, margin);
-        std::optional<Body> body;  // made where something is near, which is seldom
+        std::optional<Body> body;  // computed only near an obstacle, which is rare
         const auto madeBody = [&]() -> const Body &
         {
             return body ? *body : body.emplace(pose, vehicle, margin);
@@ -227,10 +227,10 @@ namespace parking_test
         for (const PathPiece &piece : path.pieces)
         {
             const double steepest = std::max(std::abs(piece.curvature), std::abs(piece.endCurvature()));
-            // Both from the whole piece: how the body moves, and how far looks lie apart.
+            // Both for the whole piece: the motion of the body, and the distance of the checks.
             const double moved = piece.driven() + (steepest * piece.driven() + std::abs(piece.turn)) * reach;
             const double apart = piece.driven() + std::abs(piece.turn) * reach;
-            // Every pose is computed from where the piece begins, so that rounding does not add up.
+            // Every pose is computed from the begin of the piece, so that rounding does not accumulate.
             const std::function<bool(double, double)> isPartFree = [&](double begin, double end)
             {
                 const double half = 0.5 * (end - begin), middle = begin + half;
@@ -252,7 +252,7 @@ namespace parking_test
 
     bool PolygonOracle::isFreeOfCells(const Body &world) const
     {
-        // The body in the frame of the map, counted in metres from its corner.
+        // The body in the frame of the map, in metres from its corner.
         const Pose &origin = grid_->origin();
         const Real c = std::cos(origin.yaw), s = std::sin(origin.yaw);
         const Real dx = world.x - origin.x, dy = world.y - origin.y;
@@ -263,7 +263,7 @@ namespace parking_test
         body.sine = world.sine * c - world.cosine * s;
 
         const Real size = grid_->resolution();
-        // One cell more on each side: a body that ends at a cell's border touches the cell beyond.
+        // One more cell on each side: a body that ends at a cell's border touches the adjacent cell.
         const auto index = [size](Real value, std::size_t count)
         {
             const long cell = static_cast<long>(std::floor(value / size));

@@ -8,10 +8,10 @@
 #include <random>
 #include <string>
 
-/** \brief What tests, fuzzers and studies share: random worlds, and oracles that results are compared with. */
+/** \brief Common parts of tests, fuzzers and studies: random worlds, and references to compare results with. */
 namespace parking_test
 {
-    /** \brief A number that follows from a text, the same everywhere (Fowler, Noll and Vo's 64 bit hash). */
+    /** \brief A number derived from a text, equal on every machine (Fowler, Noll and Vo's 64 bit hash). */
     inline std::uint64_t seedOf(const std::string &text)
     {
         std::uint64_t hash = 0xcbf29ce484222325U;
@@ -20,34 +20,34 @@ namespace parking_test
         return hash;
     }
 
-    /** \brief Random numbers that are the same with every standard library: its distributions are not. */
+    /** \brief Random numbers that are equal with every standard library, unlike its distributions. */
     class Random
     {
     public:
-        /** \brief The same seed gives the same numbers. */
+        /** \brief Creates a generator; equal seeds give equal numbers. */
         explicit Random(std::uint64_t seed) : engine_(seed)
         {
         }
 
-        /** \brief Evenly distributed from \e low on, below \e high. */
+        /** \brief A number evenly distributed from \e low (included) to \e high (excluded). */
         double between(double low, double high)
         {
             return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
         }
 
-        /** \brief 0 to count - 1. */
+        /** \brief An index from 0 to count - 1. */
         std::size_t index(std::size_t count)
         {
             return static_cast<std::size_t>(engine_() % count);
         }
 
-        /** \brief 0 to count - 1, with a sign, to reckon with. */
+        /** \brief A signed number from 0 to count - 1, for arithmetic. */
         int below(int count)
         {
             return static_cast<int>(index(static_cast<std::size_t>(count)));
         }
 
-        /** \brief True in this share of all calls. */
+        /** \brief True with this probability. */
         bool chance(double probability)
         {
             return between(0.0, 1.0) < probability;
@@ -59,14 +59,14 @@ namespace parking_test
             return engine_();
         }
 
-        /** \brief Any magnitude between the two, either sign. */
+        /** \brief A number of any magnitude between the two, with either sign. */
         double magnitude(double smallest, double largest)
         {
             const double value = std::exp(between(std::log(smallest), std::log(largest)));
             return chance(0.5) ? value : -value;
         }
 
-        /** \brief x and y between the two, in metres; any heading. */
+        /** \brief A pose with x and y between the two, in metres, and any heading. */
         parking::Pose poseIn(double low, double high)
         {
             const double x = between(low, high), y = between(low, high);

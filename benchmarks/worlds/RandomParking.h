@@ -9,20 +9,20 @@ namespace parking_test
 {
     using namespace parking;
 
-    /** \brief Random cars, slots and paths; the same ones for the same seed. */
+    /** \brief Random cars, slots and paths; equal seeds give equal ones. */
     class RandomParking : public Random
     {
     public:
-        /** \brief The same seed gives the same cars, slots and paths. */
+        /** \brief Creates a generator; equal seeds give equal cars, slots and paths. */
         using Random::Random;
 
-        /** \brief Within \e extent metres of the origin along both axes; any heading. */
+        /** \brief A pose within \e extent metres of the origin along both axes, with any heading. */
         Pose pose(double extent)
         {
             return poseIn(-extent, extent);
         }
 
-        /** From a city car to a large van, steering from lazy to nimble. */
+        /** A car from a city car to a large van, with any usual steering angle and rate. */
         Vehicle vehicle()
         {
             Vehicle car;
@@ -36,7 +36,7 @@ namespace parking_test
             return car;
         }
 
-        /** A slot that holds \e car, of any kind, anywhere; side and entry are given, not Either. */
+        /** A slot that contains \e car, of any kind and place; its side and entry are definite. */
         ParkingSlot slot(const Vehicle &car)
         {
             ParkingSlot result;
@@ -55,8 +55,8 @@ namespace parking_test
             return result;
         }
 
-        /** What a lattice planner returns: stretches of pieces at full, half or no lock, 0.2 to 2.5 m each, at a
-            turning radius that many times the smallest. */
+        /** A path of the kind that lattice planners return: stretches of pieces at full, half or no lock, 0.2 to 2.5 m
+            each. The turning radius is \e radiusFactor times the minimum. */
         Path plannerPath(const Vehicle &car, double radiusFactor)
         {
             const double full = 1.0 / (radiusFactor * car.minTurningRadius());

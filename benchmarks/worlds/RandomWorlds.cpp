@@ -46,13 +46,13 @@ namespace parking_test
                     grid.set(i, j, random.chance(0.1) ? Cell::Unknown : Cell::Occupied);
         }
 
-        /** The pose of a car whose body lies round \e middle. */
+        /** The pose of a car whose body has its centre at \e middle. */
         Pose axleAt(const Pose &middle, const Vehicle &car)
         {
             return compose(middle, {car.rearOverhang - 0.5 * car.length(), 0.0, 0.0});
         }
 
-        constexpr double REACH = 15.0;  // metres, half the side of worlds to park in
+        constexpr double REACH = 15.0;  // metres, half the side of worlds with slots
 
         World parkingWorld(const std::string &kind, std::uint64_t seed, const std::vector<Polygon> &polygons)
         {

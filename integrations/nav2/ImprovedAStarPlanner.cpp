@@ -145,7 +145,7 @@ namespace parking
     OccupancyGrid ImprovedAStarPlanner::copyOfCostmap(const Nav2Settings &settings) const
     {
         nav2_costmap_2d::Costmap2D &costmap = *costmap_->getCostmap();
-        // Layers go on writing to it as soon as the lock is gone.
+        // Layers write to it again when the lock is released.
         const std::lock_guard<nav2_costmap_2d::Costmap2D::mutex_t> lock(*costmap.getMutex());
         const std::size_t width = costmap.getSizeInCellsX(), height = costmap.getSizeInCellsY();
         OccupancyGrid grid(width, height, costmap.getResolution(), {costmap.getOriginX(), costmap.getOriginY(), 0.0});
@@ -174,7 +174,7 @@ namespace parking
         request.parameters = query.settings.parameters;
         request.parameters.approximate = query.settings.allowApproximate && isLast;
         request.car = search::carInSpace(query.settings.vehicle, query.settings.margin, query.bounds);
-        // Once here, since what is found at once is found without asking.
+        // Polled once here, since a search without expansions does not poll.
         bool cancelled = query.cancelled && query.cancelled();
         request.stop = [&]
         {

@@ -13,53 +13,54 @@
 
 namespace parking
 {
-    /** \brief The improved A* as a global planner of nav2: for cars, forwards and in reverse.
+    /** \brief The improved A* as a global planner of nav2, for cars that drive forwards and in reverse.
 
-        A plan is of poses of the rear axle, and the costmap's `robot_base_frame` has to be there, too. Its obstacles
-       are the lethal cells of the costmap; inflation is not looked at, since the exact footprint is swept along all
-       motions. Where the car drives in reverse the poses still look where its front does.
+        A plan consists of poses of the rear axle; the costmap's `robot_base_frame` must be there, too. Obstacles are
+        the lethal cells of the costmap. Inflation is ignored, since the exact footprint is swept along all motions. In
+        reverse the poses keep the heading of the car.
 
-        Parameters are those of Nav2Settings, read for each plan. Failures are nav2's own exceptions. Compiled
-        against stub headers and not yet tried on a robot. */
+        Parameters are those of Nav2Settings, read for each plan. Failures are nav2's own exceptions. Compiled against
+        stub headers and not tested on a robot. */
     class ImprovedAStarPlanner : public nav2_core::GlobalPlanner
     {
     public:
-        /** \brief A pose with the frame that it is given in. */
+        /** \brief A pose with its frame. */
         using PoseStamped = geometry_msgs::msg::PoseStamped;
 
-        // No function says override: which of the three createPlan() the base class has depends on the release, and
-        // compilers that see it said of some warn of the others.
+        // No function has override: the release determines which of the three createPlan() the base class has.
+        // Compilers that see override on some functions warn about the others.
 
-        /** \brief Declares the parameters. Throws parking::Error naming one whose value is not allowed. */
+        /** \brief Declares the parameters. Throws parking::Error naming one with an invalid value. */
         void configure(const nav2_compatibility::Node::WeakPtr &parent, std::string name,
                        std::shared_ptr<tf2_ros::Buffer> tf, std::shared_ptr<nav2_costmap_2d::Costmap2DROS> costmap);
 
-        /** \brief Forgets the costmap. */
+        /** \brief Releases the costmap. */
         void cleanup();
 
-        /** \brief Nothing is to be done. */
+        /** \brief Does nothing: the planner has no state to activate. */
         void activate();
 
-        /** \brief Nothing is to be done. */
+        /** \brief Does nothing: the planner has no state to deactivate. */
         void deactivate();
 
-        /** \brief Humble: a plan from \e start to \e goal. Throws nav2's exceptions, see createPlan() of later ones. */
+        /** \brief Interface of humble: a plan from \e start to \e goal. Throws nav2's exceptions, see createPlan() of
+            later releases. */
         nav_msgs::msg::Path createPlan(const PoseStamped &start, const PoseStamped &goal);
 
-        /** \brief Jazzy: \e cancelled is asked now and then.
+        /** \brief Interface of jazzy: \e cancelled is polled during planning.
 
             Throws StartOutsideMapBounds, GoalOutsideMapBounds, StartOccupied, GoalOccupied, PlannerTFError (a pose in
             another frame than the costmap), PlannerTimedOut, PlannerCancelled and NoValidPathCouldBeFound with the
-            reason. Where nav2 has only one exception (humble), that one. */
+            reason. Humble has a single exception, which replaces them. */
         nav_msgs::msg::Path createPlan(const PoseStamped &start, const PoseStamped &goal,
                                        std::function<bool()> cancelled);
 
-        /** \brief Later: by way of \e viaPoints, each of which is reached as exactly as a goal. */
+        /** \brief Interface of later releases: a plan through \e viaPoints, each reached as exactly as a goal. */
         nav_msgs::msg::Path createPlan(const PoseStamped &start, const PoseStamped &goal,
                                        const std::vector<PoseStamped> &viaPoints, std::function<bool()> cancelled);
 
     private:
-        /** What is asked of all parts of a plan. */
+        /** Common inputs of all parts of a plan. */
         struct Query;
 
         OccupancyGrid copyOfCostmap(const Nav2Settings &settings) const;

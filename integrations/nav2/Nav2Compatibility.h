@@ -15,7 +15,7 @@
 #include <nav2_core/exceptions.hpp>
 #endif
 
-/** \brief What differs between the releases of nav2, as far as the planner meets it. */
+/** \brief Differences between the releases of nav2 that affect the planner. */
 namespace parking::nav2_compatibility
 {
 #if __has_include(<nav2_ros_common/lifecycle_node.hpp>)
@@ -35,7 +35,7 @@ namespace parking::nav2_compatibility
     using nav2_core::StartOccupied;
     using nav2_core::StartOutsideMapBounds;
 #else
-    // Humble has one exception for all; only the text differs.
+    // Humble has one exception for all failures; only the text differs.
     using nav2_core::PlannerException;
     using GoalOccupied = PlannerException;             ///< humble's only exception
     using GoalOutsideMapBounds = PlannerException;     ///< Humble's only exception

@@ -13,7 +13,7 @@ namespace parking
     {
         using nav2_compatibility::Node;
 
-        /** What a parameter of ROS can hold; whole numbers are of 64 bits there. */
+        /** A value in a type of ROS parameters; whole numbers have 64 bits there. */
         template <class Value>
         using RosValue = std::conditional_t<std::is_integral_v<Value> && !std::is_same_v<Value, bool>, std::int64_t,
                                             std::conditional_t<std::is_floating_point_v<Value>, double, Value>>;
@@ -34,15 +34,16 @@ namespace parking
             visit("path_resolution", settings.pathResolution);
             visit("allow_approximate", settings.allowApproximate);
             for (const Parameter &row : parameterTable())
-                if (row.name != "turning_radius" && row.name != "parameter_set")  // the vehicle's; a name only
+                if (row.name != "turning_radius" &&
+                    row.name != "parameter_set")  // unused: the vehicle's radius applies
                     std::visit([&](auto member) { visit(row.name, settings.parameters.*member); }, row.member);
         }
 
-        void checkRange(const char *name, double value, double least, double most)
+        void checkRange(const char *name, double value, double min, double max)
         {
-            if (!(value >= least && value <= most))
-                throw Error(std::string(name) + " must be between " + formatNumber(least) + " and " +
-                            formatNumber(most) + ", not " + formatNumber(value));
+            if (!(value >= min && value <= max))
+                throw Error(std::string(name) + " must be between " + formatNumber(min) + " and " + formatNumber(max) +
+                            ", not " + formatNumber(value));
         }
     }  // namespace
 

@@ -11,19 +11,19 @@ namespace parking
     /** \brief Parameters of the plugin: ROS parameters below its name. */
     struct Nav2Settings
     {
-        Vehicle vehicle;  ///< `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
+        Vehicle vehicle;  ///< from `wheelbase`, `front_overhang`, `rear_overhang`, `width`, `max_steering_angle`
         PlannerParameters parameters;  ///< by the names of parameterTable(); `turning_radius` is the vehicle's
         double margin{0.05};           ///< `margin`: metres by which the body is enlarged on each side
-        int lethalCost{254};           ///< `lethal_cost`: cells of this cost and above are obstacles
-        bool unknownIsOccupied{true};  ///< `unknown_is_occupied`
-        double maxPlanningTime{2.0};   ///< `max_planning_time`: seconds
+        int lethalCost{254};           ///< `lethal_cost`: minimum cost of an obstacle's cells
+        bool unknownIsOccupied{true};  ///< `unknown_is_occupied`: whether unknown cells are obstacles
+        double maxPlanningTime{2.0};   ///< `max_planning_time` in seconds
         double pathResolution{0.05};   ///< `path_resolution`: metres between two poses of the plan
-        bool allowApproximate{false};  ///< `allow_approximate`: a plan may end near the goal
+        bool allowApproximate{false};  ///< `allow_approximate`: whether a plan may end near the goal
     };
 
     /** \brief Declares all parameters of the plugin \e name, with their defaults. */
     void declareSettings(nav2_compatibility::Node &node, const std::string &name);
 
-    /** \brief The values that the parameters have now. Throws parking::Error naming one that is out of range. */
+    /** \brief The current values of the parameters. Throws parking::Error naming one that is out of range. */
     Nav2Settings readSettings(nav2_compatibility::Node &node, const std::string &name);
 }  // namespace parking

@@ -1,4 +1,4 @@
-// Small charts below the scene: curvature and room along the path, speed and steering along the drive.
+// Small charts below the scene: curvature and clearance along the path, speed and steering along the drive.
 
 const Charts = (() => {
   function chart(canvas, title, unit, xs, ys, options = {}) {
@@ -39,7 +39,7 @@ const Charts = (() => {
   function path(first, second, numbers, vehicle) {
     const states = Draw.rows(numbers, 7), s = states.map(each => each[5]), most = Math.tan(vehicle.max_steering_angle) / vehicle.wheelbase, reverse = states.map(each => each[3] < 0);
     chart(first, 'Curvature', '1/m', s, states.map(each => each[4]), { low: -1.2 * most, high: 1.2 * most, limits: [-most, most], ticks: [-most, 0, most], reverse, steps: true });
-    chart(second, 'Room to the nearest obstacle', 'm', s, states.map(each => each[6]), { low: 0, high: 1, ticks: [0, 0.5, 1], reverse, stroke: Draw.palette.goal });
+    chart(second, 'Clearance to the nearest obstacle', 'm', s, states.map(each => each[6]), { low: 0, high: 1, ticks: [0, 0.5, 1], reverse, stroke: Draw.palette.goal });
   }
   function drive(first, second, numbers, vehicle, time) {
     const points = Draw.rows(numbers, 8), t = points.map(each => each[0]), reverse = points.map(each => each[4] < -1e-3), degrees = 180 / Math.PI, lock = vehicle.max_steering_angle * degrees;

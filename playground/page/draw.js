@@ -1,4 +1,4 @@
-// How the scene looks: world, cars, search trees, paths.
+// Draws the scene: world, cars, search trees, paths.
 
 const Draw = (() => {
   const colour = name => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
@@ -55,7 +55,7 @@ const Draw = (() => {
     return points;
   }
 
-  // A car as it is seen from above. Looks: {steering, edge, fill, opacity, brake, reverse}.
+  // A car seen from above. Style: {steering, edge, fill, opacity, brake, reverse}.
   function car(painter, vehicle, pose, looks = {}) {
     const L = vehicle.wheelbase, R = vehicle.rear_overhang, F = vehicle.front_overhang, W = vehicle.width, length = R + L + F, opacity = looks.opacity === undefined ? 1 : looks.opacity;
     const edge = looks.edge || palette['car-edge'], out = W / 2 - 0.15, fit = (u, v) => [-R + u * length, v * W / 2], t = Math.tan(looks.steering || 0), half = out * t / L;
@@ -73,7 +73,7 @@ const Draw = (() => {
     painter.disc([pose[0], pose[1]], 2.5, { fill: edge, opacity });
   }
 
-  // Where a thing is turned by: ahead of it.
+  // The handle for turning, ahead of the object.
   function handleOf(scene, thing) {
     if (thing.kind === 'polygon') { const m = Scene.middle(scene.polygons[thing.index]); return [m[0], m[1] + Math.max(...scene.polygons[thing.index].map(([x, y]) => Math.hypot(x - m[0], y - m[1]))) + 0.9]; }
     const [x, y, yaw] = Scene.poseOf(thing), reach = thing.kind === 'slot' ? scene.slot.length / 2 + 1 : scene.vehicle.wheelbase + scene.vehicle.front_overhang + 1;
@@ -89,7 +89,7 @@ const Draw = (() => {
     if (thing.kind === 'polygon') for (const corner of scene.polygons[thing.index]) painter.disc(corner, 5, { fill: palette.ground, stroke: palette.accent, width: 2 });
   }
 
-  // One of the two trees, as far as it had grown; the nodes' estimates of the rest as shades, open ones as dots.
+  // One of the two trees at a time of the search; the nodes' remaining costs as shades, open nodes as dots.
   function tree(painter, numbers, count, stroke, options) {
     const nodes = rows(numbers, 9).slice(0, count), faint = [], last = [];
     let most = 1e-9;
@@ -137,7 +137,7 @@ const Draw = (() => {
     });
   }
 
-  // Where on the path the car is tight: the nearer, the redder.
+  // Clearance along the path: the smaller, the redder.
   function clearance(painter, numbers) {
     for (const state of rows(numbers, 7)) {
       const share = Math.min(1, Math.max(0, state[6] / 0.8));

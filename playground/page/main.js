@@ -1,4 +1,4 @@
-// Puts the parts together: plans when something changes, draws when something is to be seen.
+// Connects the parts: plans after changes and draws the result.
 
 (async () => {
   const { byId, notice } = Panels, canvas = byId('view');
@@ -12,7 +12,7 @@
     return Uint8Array.from(atob(content.slice(7)), each => each.charCodeAt(0));
   };
 
-  // Drawing, at most once a frame.
+  // Drawing, at most once per frame.
   function redraw() { if (!drawn) { drawn = true; requestAnimationFrame(() => { drawn = false; render(); }); } }
 
   const plan = () => answer && answer.plans && answer.plans[0];
@@ -109,7 +109,7 @@
     byId('play').innerHTML = playing ? '&#10074;&#10074; Pause' : '&#9654; Play';
   }
 
-  // Planning. While something is dragged: quick plans that give up early, the rest when it comes to rest.
+  // Planning. During a drag plans have a short limit; the full plan follows at its end.
   const QUICK = 0.1;  // seconds
   const limitOf = whole => Math.min(whole ? 30 : QUICK, Math.max(0.05, Number(byId('limit').value) || 1));
   function question(whole) {
@@ -122,13 +122,13 @@
     const mine = ++planning, scene = Scene.current;
     document.body.dataset.busy = 'yes';
     const asked = performance.now(), found = await Planner.ask(question(whole));
-    // Two workers: what is older than what is shown comes too late.
+    // Two workers: results older than the displayed one are dropped.
     if (!found || mine < shown || (whole && mine !== planning)) return;
     shown = mine;
     if (whole) delete document.body.dataset.busy; else quick = found;
     document.body.dataset.planned = String(performance.now() - asked);
     if (!found.ok) { answer = { message: found.message, goals: found.goals, bounds: found.bounds, plans: null }; Panels.wrong(found.message); redraw(); return; }
-    // A drive that is known stays until the path is another.
+    // A computed drive stays until the path changes.
     answer = found;
     if (found.goals) Panels.goals = found.goals;
     Panels.verdict(found.plans[0], limitOf(whole), whole);
@@ -158,7 +158,7 @@
     for (const corner of Scene.footprint(scene.vehicle, scene.start, 1)) include(corner);
     for (const goal of scene.goals) for (const corner of Scene.footprint(scene.vehicle, goal, 1)) include(corner);
     if (scene.slot) Scene.slotOutline(scene.slot).forEach(include);
-    // What lies round the problem, not the whole street.
+    // The surroundings of the problem, not the whole street.
     const near = [box[0] - 6, box[1] - 6, box[2] + 6, box[3] + 6];
     for (const [x, y] of scene.polygons.flat()) include([Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))]);
     if (scene.map) { const [x, y] = scene.map.origin, { columns, rows, resolution } = scene.map; for (const [u, v] of [[x, y], [x + columns * resolution, y + rows * resolution]]) include([Math.min(near[2] + 6, Math.max(near[0] - 6, u)), Math.min(near[3] + 6, Math.max(near[1] - 6, v))]); }
@@ -178,7 +178,7 @@
     } catch (error) { notice(error.message); }
   }
 
-  // Links: the scene, what is changed of the parameters, the view; deflated where the browser can.
+  // Links: the scene, the changed parameters and the view; deflated if the browser supports it.
   const toBase64 = bytes => { let text = ''; for (const each of bytes) text += String.fromCharCode(each); return btoa(text).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, ''); };
   const fromBase64 = text => Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), each => each.charCodeAt(0));
   const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
@@ -204,7 +204,7 @@
     if (found.bundled && bundled.order.includes(found.bundled)) return openBundled(found.bundled);
     // Through the reader of files, which checks everything.
     const scene = found.scene;
-    if (!scene || typeof scene !== 'object') throw new Error('it holds no scene');
+    if (!scene || typeof scene !== 'object') throw new Error('it contains no scene');
     const written = () => Formats.toYaml({ name: String(scene.name || 'scene'), vehicle: scene.vehicle, start: scene.start, goals: scene.goals, slot: scene.slot, polygons: scene.polygons, map: null });
     let text = '';
     try { text = written(); } catch (error) { damaged(); }
@@ -238,7 +238,7 @@
     play: () => {
       if (playing) { playing = false; redraw(); return; }
       if (mode === 'drive' && !drive() && optimising) { soon = true; notice('The drive is being optimised.'); return; }
-      if (mode === 'drive' && !drive()) { notice(plan() && plan().trajectoryMessage ? plan().trajectoryMessage : 'There is nothing to drive.'); return; }
+      if (mode === 'drive' && !drive()) { notice(plan() && plan().trajectoryMessage ? plan().trajectoryMessage : 'There is no path to drive.'); return; }
       if (mode === 'search' && !(plan() && plan().steps)) return;
       const end = mode === 'drive' ? duration() : 1;
       if (time === null || time >= end) time = 0;
@@ -260,7 +260,7 @@
   function frame(now) {
     if (!playing) return;
     const rate = Number(byId('rate').value), all = mode === 'drive' ? duration() : 1;
-    // A search plays in about six seconds, whatever its size.
+    // A search of any size plays in about six seconds.
     time += (now - stamp) / 1000 * rate * (mode === 'drive' ? 1 : 1 / 12);
     stamp = now;
     if (time >= all) { time = all; playing = false; }
@@ -284,7 +284,7 @@
     const swatch = (background, name, width = 16) => Panels.element('li', {}, Panels.element('i', { style: `background:${background};width:${width}px` }), name);
     const shades = (from, to) => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map(share => `hsl(${from + share * (to - from)} 82% 48%)`).join(', ')})`;
     byId('legend').replaceChildren(...entries.map(([colour, name]) => swatch(`var(--${colour})`, name)),
-      ...(show.heuristic ? [swatch(shades(200, 10), 'left to go by the heuristic: little to much', 40)] : []), ...(show.clearance ? [swatch(shades(0, 130), 'room: none to 0.8 m', 40)] : []));
+      ...(show.heuristic ? [swatch(shades(200, 10), 'remaining cost by the heuristic: low to high', 40)] : []), ...(show.clearance ? [swatch(shades(0, 130), 'clearance: 0 to 0.8 m', 40)] : []));
   }
   for (const box of document.querySelectorAll('[data-show]')) box.addEventListener('change', () => {
     show[box.dataset.show] = box.checked;
@@ -319,12 +319,12 @@
 
   // Begin.
   let theme = null;
-  try { theme = localStorage.getItem('theme'); } catch (error) { /* no storage: as the system says */ }
+  try { theme = localStorage.getItem('theme'); } catch (error) { /* no storage: the system's theme */ }
   if (theme === 'dark' || (theme === null && matchMedia('(prefers-color-scheme: dark)').matches)) document.documentElement.classList.add('dark');
   Draw.refresh();
   legend();
   const about = await Planner.about;
-  if (about.broken) { byId('status').textContent = 'This browser cannot run the planner'; Panels.say(about.broken); return; }
+  if (about.broken) { byId('status').textContent = 'This browser cannot run the planner'; Panels.report(about.broken); return; }
   Panels.begin(about, () => replan(true));
   byId('scene').append(...bundled.order.map(name => Panels.element('option', { value: name }, name.replace(/_/g, ' '))));
   Scene.listen(changed);
@@ -332,6 +332,6 @@
   try {
     if (/^#[zj]/.test(location.hash)) await openLink(location.hash.slice(1)); else await openBundled('perpendicular');
   } catch (error) { notice('The link cannot be read: ' + error.message); await openBundled('perpendicular'); }
-  // For tests and the curious.
+  // For tests and inspection.
   window.playground = { Scene, View, Planner, Formats, Panels, Tools, Draw, svg, pathTable, link, get answer() { return answer; }, get quick() { return quick; }, show, setMode, openBundled, openFiles, openLink, get time() { return time; } };
 })();

@@ -1,4 +1,4 @@
-// The panel beside the scene: figures, car, slot, parameters, comparison; messages.
+// The panel beside the scene: figures, car, slot, parameters, comparison and messages.
 
 const Panels = (() => {
   const byId = id => document.getElementById(id);
@@ -16,26 +16,26 @@ const Panels = (() => {
     clearTimeout(hiding);
     hiding = setTimeout(() => { byId('notice').hidden = true; }, 6000);
   }
-  function say(text) { byId('said').textContent = text; }
+  function report(text) { byId('summary').textContent = text; }
 
-  const OUTCOMES = ['Parked', 'Only near the goal', 'No way', 'Out of time', 'The start is blocked', 'The goal is blocked'];
+  const OUTCOMES = ['Parked', 'Only near the goal', 'No path', 'Time limit', 'The start is blocked', 'The goal is blocked'];
   const fixed = (value, digits, unit = '') => Number.isFinite(value) ? value.toFixed(digits) + unit : '\u2013';
-  const room = metres => !Number.isFinite(metres) ? '\u2013' : metres < 0.1 ? fixed(1000 * metres, 0, ' mm') : fixed(metres, 2, ' m');
-  // A plan that was made in haste and did not get ready says nothing yet.
+  const clearance = metres => !Number.isFinite(metres) ? '\u2013' : metres < 0.1 ? fixed(1000 * metres, 0, ' mm') : fixed(metres, 2, ' m');
+  // An unfinished plan under the short limit while dragging has no result yet.
   function verdict(plan, limit, whole) {
     const s = plan.summary, outcome = s[0], unready = !whole && outcome !== 0 && s[10] >= 900 * limit;
     byId('status').textContent = unready ? 'Looking' : OUTCOMES[outcome];
     byId('verdict').className = outcome === 0 ? '' : outcome === 1 || unready ? 'near' : 'wrong';
-    say(unready ? 'for a way \u2026' : outcome === 0 ? `${fixed(s[1], 2)} m, ${s[2]} change${s[2] === 1 ? '' : 's'} of direction, ${room(s[3])} of room \u00b7 ${fixed(s[10], 1)} ms` : outcome === 3 ? `nothing found within ${limit} s` : plan.message);
+    report(unready ? 'for a path \u2026' : outcome === 0 ? `${fixed(s[1], 2)} m, ${s[2]} change${s[2] === 1 ? '' : 's'} of direction, clearance ${clearance(s[3])} \u00b7 ${fixed(s[10], 1)} ms` : outcome === 3 ? `no path within ${limit} s` : plan.message);
   }
   function wrong(message) {
     byId('status').textContent = 'Not a scene';
     byId('verdict').className = 'wrong';
-    say(message);
+    report(message);
     byId('figures').tBodies[0].replaceChildren();
   }
   function figures(plan, other, duration) {
-    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['least clearance', room(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions tried', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
+    const rows = (p, seconds) => [['length', fixed(p[1], 2, ' m')], ['changes of direction', fixed(p[2], 0)], ['minimum clearance', clearance(p[3])], ['driven in', fixed(seconds, 1, ' s')], ['planned in', fixed(p[10], 1, ' ms')], ['expansions', fixed(p[6], 0)], ['motions attempted', fixed(p[7], 0)], ['poses checked', fixed(p[9], 0)], ['cost over lower bound', fixed(p[5], 2)], ['turning radius', fixed(p[15], 2, ' m')]];
     const mine = rows(plan.summary, duration), theirs = other ? rows(other.summary, NaN) : null;
     const head = theirs ? [element('tr', {}, element('th', {}), element('th', {}, 'left'), element('th', {}, 'right'))] : [];
     byId('figures').tBodies[0].replaceChildren(...head, ...mine.map(([name, value], i) => element('tr', {}, element('td', {}, name), element('td', {}, value), ...(theirs ? [element('td', {}, theirs[i][1])] : []))));
@@ -67,7 +67,7 @@ const Panels = (() => {
         scene.slot = { kind: 'perpendicular', pose: [x + middle * Math.cos(yaw), y + middle * Math.sin(yaw), yaw], length: 5.2, width: 2.6, entry: 'reverse', angle: Math.PI / 4, side: 'either', depth: null, lateral_offset: 0 };
         scene.goals = [];
         Tools.select({ kind: 'slot' }); Scene.changed(); showSlot();
-      } }, 'Put a slot round the goal'));
+      } }, 'Add a slot round the goal'));
       return;
     }
     const choice = (name, values) => { const select = element('select', { 'aria-label': name }, ...values.map(each => element('option', {}, each))); select.value = slot[name]; select.addEventListener('change', () => { Scene.remember(); slot[name] = select.value; Scene.changed(); showSlot(); }); return element('label', { class: 'row' }, name, select); };
@@ -92,7 +92,7 @@ const Panels = (() => {
     row.meaning.split('`').forEach((part, i) => meaning.append(i % 2 ? element('code', {}, part) : part));
     const line = element('label', { class: 'row' }, element('code', {}, row.name + (row.unit ? `, ${row.unit}` : '')), control);
     box.append(line);
-    // Short ranges get a slider, too.
+    // Short ranges also have a slider.
     if (row.type === 'number' && row.most <= 100 && row.most > row.least) {
       const slider = element('input', { type: 'range', min: row.zero ? 0 : row.least, max: Math.min(row.most, 10 * Math.max(1, row.value)), step: row.step || 'any', value: now, 'aria-label': row.name + ', slider' });
       slider.addEventListener('input', () => { control.value = slider.value; set(Number(slider.value)); });
@@ -124,7 +124,7 @@ const Panels = (() => {
     byId('compare').append(...sets.map(each => element('option', { value: each }, each === 'improved_astar' ? 'improved_astar (the paper)' : each)));
     showParameters();
   }
-  return { begin, notice, say, verdict, wrong, figures, showVehicle, showSlot, showParameters, ablation, byId, element,
+  return { begin, notice, report, verdict, wrong, figures, showVehicle, showSlot, showParameters, ablation, byId, element,
     get parameters() { return chosen; }, set parameters(values) { chosen = values; showParameters(); }, get vehicles() { return vehicles; },
     get sets() { return table.find(row => row.name === 'parameter_set').names; }, set goals(numbers) { goals = numbers; }, knows: name => table.some(row => row.name === name) };
 })();

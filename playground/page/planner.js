@@ -1,4 +1,4 @@
-// The page's side of the workers: of each, the newest question is asked when the one before is answered.
+// The page's side of the workers: each receives the newest request after it has answered the previous one.
 
 const Planner = (() => {
   const source = document.getElementById('worker').textContent;
@@ -6,7 +6,7 @@ const Planner = (() => {
   let count = 0;
 
   function employ() {
-    let worker = null, busy = null, waiting = null, ready = null, onReady = null, patience = 0;
+    let worker = null, busy = null, waiting = null, ready = null, onReady = null, timer = 0;
     const about = new Promise(resolve => { onReady = resolve; });
 
     function begin() {
@@ -15,7 +15,7 @@ const Planner = (() => {
         const answer = event.data;
         if (answer.kind === 'ready') { ready = answer; onReady(answer); send(); return; }
         if (answer.kind === 'broken') { onReady({ broken: answer.message }); return; }
-        clearTimeout(patience);
+        clearTimeout(timer);
         const asked = busy;
         busy = null;
         if (answer.broken) { worker.terminate(); ready = null; begin(); }
@@ -30,8 +30,8 @@ const Planner = (() => {
       busy = waiting;
       waiting = null;
       worker.postMessage(busy.question);
-      // Should it not come back long after its limit (a huge map, say), it is begun anew.
-      patience = setTimeout(() => {
+      // Restarts a worker that exceeds its limit by far, for example on a huge map.
+      timer = setTimeout(() => {
         const asked = busy;
         worker.terminate();
         busy = null; ready = null;
@@ -41,7 +41,7 @@ const Planner = (() => {
     }
     const asked = question => (question.seconds * 2 + (question.trajectory || 0)) * question.parameters.length;
 
-    // Resolves with the answer; with undefined when a newer question took its place.
+    // Resolves with the answer, or with undefined when a newer request replaced it.
     function ask(question) {
       return new Promise(resolve => {
         if (!worker) begin();
@@ -73,7 +73,7 @@ const Planner = (() => {
     return Float64Array.from(all);
   }
 
-  // What follows the pointer must not wait for a drive that is being optimised.
+  // Plans during a drag must not wait for the optimisation of a drive.
   const hasty = employ(), patient = employ();
   hasty.begin();
   return { about: hasty.about, ask: question => (question.hasty ? hasty : patient).ask(question), numbersOf };

@@ -1,4 +1,4 @@
-// The scene that is edited: car, goal or slot, obstacles. With undo.
+// The edited scene: car, goal or slot, obstacles. With undo.
 
 const Scene = (() => {
   let scene = null, past = [], future = [], mapCount = 0;
@@ -14,7 +14,7 @@ const Scene = (() => {
     tell(what);
   }
 
-  // What is about to be changed can be brought back.
+  // Records the scene before a change, for undo.
   function remember() {
     if (!scene) return;
     past.push(copy(scene));
@@ -25,13 +25,13 @@ const Scene = (() => {
   function redo() { if (future.length) { past.push(copy(scene)); replace(future.pop(), 'undone'); } }
   const changed = () => tell('changed');
 
-  // What the car is made of: a rectangle round the rear axle, corners counter-clockwise.
+  // The outline of the car: a rectangle round the rear axle, corners counter-clockwise.
   function footprint(car, [x, y, yaw], margin = 0) {
     const c = Math.cos(yaw), s = Math.sin(yaw), back = -car.rear_overhang - margin, front = car.wheelbase + car.front_overhang + margin, half = car.width / 2 + margin;
     return [[back, -half], [front, -half], [front, half], [back, half]].map(([a, b]) => [x + c * a - s * b, y + s * a + c * b]);
   }
 
-  // Where a car stands in a slot, as the core says it for its first entry: here only to place what is dragged.
+  // Pose of a car in a slot, like the first entry of the planner: only for placing dragged objects.
   function slotOutline(slot) {
     const [x, y, yaw] = slot.pose, c = Math.cos(yaw), s = Math.sin(yaw), a = slot.length / 2, b = slot.width / 2;
     return [[-a, -b], [a, -b], [a, b], [-a, b]].map(([u, v]) => [x + c * u - s * v, y + s * u + c * v]);
@@ -58,7 +58,7 @@ const Scene = (() => {
     return false;
   }
 
-  // Things that can be picked: {kind: 'start' | 'goal' | 'slot' | 'polygon', index}.
+  // Objects that can be selected: {kind: 'start' | 'goal' | 'slot' | 'polygon', index}.
   function poseOf(thing) {
     if (thing.kind === 'start') return scene.start;
     if (thing.kind === 'goal') return scene.goals[thing.index];

@@ -1,11 +1,11 @@
-// What fingers, mouse and keys do with the scene.
+// Effects of fingers, mouse and keys on the scene.
 
 const Tools = (() => {
   const canvas = document.getElementById('view'), pointers = new Map();
   let tool = 'select', selected = { kind: 'start' }, drag = null, outline = null, pinch = null, onChange = () => {}, onView = () => {}, hover = null;
 
   const size = () => [canvas.clientWidth, canvas.clientHeight];
-  // Side by side each half shows the same part of the world.
+  // In a comparison both halves show the same part of the world.
   let halves = 1;
   const pane = () => { const [w, h] = size(); return [w / halves, h]; };
   function position(event) {
@@ -108,7 +108,7 @@ const Tools = (() => {
     } else if (drag.kind === 'corner') scene.polygons[selected.index][drag.corner] = point;
     else if (drag.kind === 'slot') {
       const [x, y] = drag.from, length = Math.max(0.5, Math.abs(point[1] - y)), width = Math.max(0.5, Math.abs(point[0] - x)), upright = length > width;
-      // Its mouth is where the car comes from.
+      // The car enters through its open side.
       const toCar = upright ? Math.sign(scene.start[1] - (y + point[1]) / 2) || 1 : 0;
       scene.slot = { kind: upright ? 'perpendicular' : 'parallel', pose: [(x + point[0]) / 2, (y + point[1]) / 2, upright ? toCar * Math.PI / 2 : 0], length: upright ? length : width, width: upright ? width : length, entry: 'reverse', angle: Math.PI / 4, side: 'either', depth: null, lateral_offset: 0 };
       scene.goals = [];
@@ -148,7 +148,7 @@ const Tools = (() => {
     const scene = Scene.current, point = world(position(event));
     if (outline) { outline.corners.pop(); closeOutline(); return; }
     if (!selected || selected.kind !== 'polygon') return;
-    // A new corner on the side that is nearest.
+    // A new corner on the nearest side.
     const polygon = scene.polygons[selected.index];
     let best = -1, least = 12 / View.view.scale;
     polygon.forEach(([x, y], i) => {
@@ -170,10 +170,10 @@ const Tools = (() => {
     const fine = event.shiftKey, key = event.key.toLowerCase();
     if (event.key === 'Tab') {
       const all = Scene.things(), now = selected ? all.findIndex(each => each.kind === selected.kind && each.index === selected.index) : -1, next = now + (event.shiftKey ? -1 : 1);
-      if (next < 0 || next >= all.length) return;  // out of the canvas, to what comes next
+      if (next < 0 || next >= all.length) return;  // out of the canvas, to the next element
       event.preventDefault();
       select(all[next]);
-      Panels.say(`${Scene.nameOf(all[next])} is selected`);
+      Panels.report(`${Scene.nameOf(all[next])} is selected`);
     } else if (steps && selected) { event.preventDefault(); Scene.remember(); Scene.move(selected, steps[0] * (fine ? 0.01 : 0.1), steps[1] * (fine ? 0.01 : 0.1)); Scene.changed(); onChange('settled'); }
     else if ((key === 'q' || key === 'e') && selected) { Scene.remember(); Scene.turn(selected, (key === 'q' ? 1 : -1) * Math.PI / 180 * (fine ? 1 : 5)); Scene.changed(); onChange('settled'); }
     else if (event.key === 'Delete' || event.key === 'Backspace') { event.preventDefault(); remove(); }

@@ -1,13 +1,13 @@
-// What part of the world is seen, and a painter that draws it on a canvas or writes it as SVG.
+// The visible part of the world, and a painter that draws it on a canvas or writes it as SVG.
 
 const View = (() => {
   const view = { x: 0, y: 0, scale: 30 };  // the point in the middle, pixels per metre
 
-  function fit(box, width, height, room = 40) {
+  function fit(box, width, height, margin = 40) {
     const w = Math.max(1, box[2] - box[0]), h = Math.max(1, box[3] - box[1]);
     view.x = (box[0] + box[2]) / 2;
     view.y = (box[1] + box[3]) / 2;
-    view.scale = Math.max(1, Math.min((width - 2 * room) / w, (height - 2 * room) / h, 120));
+    view.scale = Math.max(1, Math.min((width - 2 * margin) / w, (height - 2 * margin) / h, 120));
   }
   const toScreen = ([x, y], width, height) => [width / 2 + (x - view.x) * view.scale, height / 2 - (y - view.y) * view.scale];
   const toWorld = ([x, y], width, height) => [view.x + (x - width / 2) / view.scale, view.y - (y - height / 2) / view.scale];
@@ -45,7 +45,7 @@ class CanvasPainter {
     if (!points.length) return;
     this.paint(style, c => { points.forEach((point, i) => { const [x, y] = this.at(point); if (i) c.lineTo(x, y); else c.moveTo(x, y); }); if (closed) c.closePath(); });
   }
-  // Many separate lines in one go: pairs of points.
+  // Many separate lines in one call: pairs of points.
   segments(pairs, style) {
     this.paint(style, c => { for (const [a, b] of pairs) { const p = this.at(a), q = this.at(b); c.moveTo(p[0], p[1]); c.lineTo(q[0], q[1]); } });
   }

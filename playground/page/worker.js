@@ -1,4 +1,4 @@
-// Runs in a worker behind the core: one question at a time, so that the page never waits.
+// Runs the planner in a worker: one request at a time, so that the page stays responsive.
 'use strict';
 const core = createCore({ print: () => {}, printErr: () => {} });
 
@@ -41,7 +41,7 @@ function answer(module, question) {
   answer.plans = [];
   for (const parameters of question.parameters) {
     module._playground_reset_parameters();
-    // A set first: it changes the others.
+    // The set first: it changes the others.
     const names = Object.keys(parameters).sort((a, b) => (b === 'parameter_set') - (a === 'parameter_set'));
     for (const name of names) if (!setParameter(module, name, parameters[name])) return failed();
     const plan = {};

@@ -51,7 +51,7 @@ namespace
         return session().outputs[which];
     }
 
-    /** Runs what may throw. */
+    /** Executes a function that may throw. */
     template <class Work>
     bool tried(const Work &work)
     {
@@ -72,7 +72,7 @@ namespace
         return false;
     }
 
-    /** The numbers of a scene, one after another. */
+    /** Reads the numbers of a scene in order. */
     class Numbers
     {
     public:
@@ -106,7 +106,7 @@ namespace
         {
             if (next_ != count_)
                 throw Error("the scene has " + std::to_string(count_) + " numbers, but " + std::to_string(next_) +
-                            " are what it says");
+                            " are required");
         }
 
     private:
@@ -188,7 +188,7 @@ namespace
     const ScenarioPlanner &planner()
     {
         if (!session().planner)
-            throw Error("there is no scene yet");
+            throw Error("there is no scene");
         return *session().planner;
     }
 
@@ -376,7 +376,7 @@ extern "C"
             {
                 output(PLAYGROUND_TRAJECTORY).clear();
                 if (!session().plan)
-                    throw Error("there is no plan yet");
+                    throw Error("there is no plan");
                 const auto begin = std::chrono::steady_clock::now();
                 const QuickestTrajectory found = planner().trajectory(
                     *session().plan, {},

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Sourced by the scripts: the Debian packages that the project needs, and how the missing ones get here.
-# This list is the only one; add to it whatever a bare machine turns out to lack.
+# This list is the only one; add any package that a bare machine lacks.
 
 # shellcheck source=common.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/common.sh"

@@ -14,7 +14,7 @@ PAPER, PANEL, GRID, FRAME, ZERO = '#ffffff', '#fbfcfd', '#e9edf2', '#cbd5e1', '#
 INK, FAINT, STRONG = '#334155', '#64748b', '#0f172a'
 FORWARD, REVERSE, GOAL, DRIVEN = '#2563eb', '#ea580c', '#059669', '#be185d'
 OBSTACLE, OBSTACLE_EDGE, OUTSIDE, UNKNOWN = '#b4bdca', '#66717f', '#e1e6ed', '#e3cf9b'
-CURVES = (FORWARD, REVERSE, GOAL, DRIVEN, '#7c3aed', '#854d0e', '#0891b2', '#475569')  # told apart by the colour-blind, too
+CURVES = (FORWARD, REVERSE, GOAL, DRIVEN, '#7c3aed', '#854d0e', '#0891b2', '#475569')  # distinguishable with colour blindness
 
 DARK = {PAPER: '#14181d', PANEL: '#191e24', GRID: '#272e36', FRAME: '#3b4550', ZERO: '#566270',
         INK: '#cbd5e1', FAINT: '#94a3b8', STRONG: '#f1f5f9',
@@ -36,7 +36,7 @@ def themed(svg):
 
 
 def picture(width, height, body, name):
-    """A whole SVG; name says what is to be seen to those who cannot see it."""
+    """A complete SVG; name is its description for screen readers."""
     return themed(f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}" height="{height:g}" '
                   f'viewBox="0 0 {width:g} {height:g}" font-family="{FONT}" role="img">\n<title>{escape(name)}</title>\n'
                   f'<rect width="100%" height="100%" fill="{PAPER}"/>\n{body}</svg>\n')
@@ -86,7 +86,7 @@ class Axes:
         return self.left + (x - x0) / (x1 - x0) * self.width, self.top + (y1 - y) / (y1 - y0) * self.height
 
     def frame(self, title='', x_label='', y_label='', x_ticks=(), y_ticks=()):
-        """What lies behind the curves. Ticks are values, or pairs of a value and its label."""
+        """Axes and grid. Ticks are values, or pairs of a value and its label."""
         bottom, body = self.top + self.height, ''
         for tick in x_ticks:
             value, label = tick if isinstance(tick, tuple) else (tick, f'{tick:g}')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what a CTest run came to: counts, failed tests, skipped tests with their reasons, the slowest tests.
+"""Prints a summary of a CTest run: counts, failed tests, skipped tests with their reasons, the slowest tests.
 
 usage: summarize_tests.py test-results.xml    (written by ctest --output-junit)
 """
@@ -12,7 +12,7 @@ SLOWEST = 5
 
 
 def skip_reason(case):
-    """What the test said when it skipped: GoogleTest prints it after 'file:line: Skipped', scripts after 'SKIPPED:'."""
+    """Reason of a skipped test: GoogleTest prints it after 'file:line: Skipped', scripts after 'SKIPPED:'."""
     output = case.findtext('system-out') or ''
     found = re.search(r'(?:\d+: Skipped\n|SKIPPED: *)([^\n]+)', output)
     return found.group(1).strip() if found else 'no reason given'

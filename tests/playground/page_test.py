@@ -278,23 +278,23 @@ class PageTest(unittest.TestCase):
                  'only angled slots'),
                 ('a.yaml', 'start: [0, 0, 0]\nstart: [0, 0, 0]\n', 'duplicated mapping key'),
                 ('a.yaml', 'start: [0, 0, 0\n', 'within a flow collection'),
-                ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 0, 0]\nmap: other.yaml\n', 'is not here'),
+                ('a.yaml', 'start: [0, 0, 0]\ngoal: [1, 0, 0]\nmap: other.yaml\n', 'is missing'),
                 ('a.csv', '1,2,3,4,5,6,1,4,0,0\n', 'the vertex counts require 8 coordinates'),
                 ('a.csv', '1,2,x,4,5,6,0\n', "number 3 is 'x'"),
-                ('a.bin', 'nothing of the kind', 'is no scenario')):
+                ('a.bin', 'nothing of the kind', 'is not a scenario')):
             self.ask(f'playground.openFiles([new File([{json.dumps(content)}], {json.dumps(name)})])')
             said = self.ask('document.getElementById("notice").textContent')
             self.assertIn(words, said)
             self.assertNotIn('\n', said)
-            self.assertNotIn(words, self.ask('document.getElementById("said").textContent'), 'the plan is still there')
-        for link, words in (('#zgarbage', 'damaged'), ('#j!', 'damaged'), ('#j' + 'e30', 'holds no scene'),
+            self.assertNotIn(words, self.ask('document.getElementById("summary").textContent'), 'the plan is still there')
+        for link, words in (('#zgarbage', 'damaged'), ('#j!', 'damaged'), ('#j' + 'e30', 'contains no scene'),
                             ('#jeyJzY2VuZSI6eyJzdGFydCI6WzFdfX0', 'damaged')):
             said = self.ask(f'playground.openLink({json.dumps(link[1:])}).then(() => "", error => error.message)')
             self.assertIn(words, said)
         # What only the core can tell, and the page goes on.
         crossed = 'start: [-8, 3, 0]\ngoal: [8, 3, 0]\npolygons:\n  - [[0, 0], [1, 1], [1, 0], [0, 1]]\n'
         self.ask(f'playground.openFiles([new File([{json.dumps(crossed)}], "b.yaml")])')
-        self.page.until('document.getElementById("said").textContent.includes("crosses itself")')
+        self.page.until('document.getElementById("summary").textContent.includes("crosses itself")')
         self.settle('playground.openBundled("parallel")')
         self.assertEqual(self.summary()[0], 0)
 

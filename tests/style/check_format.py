@@ -80,7 +80,7 @@ def main(root):
         unformatted = [fault for faults, _ in judged for fault in faults]
         print(f'clang-format {version}, not {VERSION}: {sum(known for _, known in judged)} places of the kinds in which '
               'the versions differ are not judged')
-    report(unformatted, f'Not formatted; clang-format-{VERSION} -i FILE... mends it.')
+    report(unformatted, f'Not formatted; clang-format-{VERSION} -i FILE... fixes it.')
 
 
 if __name__ == '__main__':

@@ -168,9 +168,9 @@ rrt=
                {"set.cfg:4: volume.max.y must be greater than volume.min.y, 3"});
         refuse("volume.max.x = 3\n", "rrt.problem.volume.min.x=4\n", {"set.cfg:6: volume.max.x must be", "4, not 3"});
         refuse("footprint = circle\n", "", {"set.cfg:3: footprint circle", "space se2"});
-        refuse("", "rrt.problem.footprint=circle\n", {"set.cfg:5: footprint circle", "not with reeds_shepp"});
+        refuse("", "rrt.problem.footprint=circle\n", {"set.cfg:5: footprint circle", "not reeds_shepp"});
         refuse("space = se2\nfootprint = circle\n", "rrt.problem.space=dubins\n", {"set.cfg:7: footprint", "dubins"});
-        const std::vector<std::string> ignored{"circle_radius is the circle's", "rectangle", "footprint = circle"};
+        const std::vector<std::string> ignored{"circle_radius requires footprint = circle", "rectangle"};
         for (const std::string &each : ignored)
         {
             refuse("circle_radius = 1\n", "", {"set.cfg:3: ", each});

@@ -102,7 +102,7 @@ namespace
         catch (const SettingError &error)
         {
             EXPECT_EQ(set.lineOf(set.planners.front(), error.settings()), folder_.path("set.cfg") + ":7: ");
-            EXPECT_NE(std::string(error.what()).find("in which y is between "), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("whose y ranges between "), std::string::npos) << error.what();
         }
     }
 

@@ -236,7 +236,7 @@ namespace
         EXPECT_TRUE(store.has("garage", "b", 1));
         EXPECT_FALSE(store.has("garage", "b", 0));
         // Of a run that took 0.25 s: at regular times, which the improvements happen to be.
-        EXPECT_EQ(std::get<std::int64_t>(store.database().ask("SELECT COUNT(*) FROM progress WHERE runid = 1")), 5);
+        EXPECT_EQ(std::get<std::int64_t>(store.database().valueOf("SELECT COUNT(*) FROM progress WHERE runid = 1")), 5);
     }
 
     TEST_F(RunStoreTest, NamesOfPlannersFiguresAreOnlyNames)
@@ -268,7 +268,7 @@ namespace
             EXPECT_TRUE(store.has("garage", "a", 0));
             EXPECT_FALSE(store.has("garage", "b", 0));
             store.add(recordOf("b", 0, "3"));
-            EXPECT_EQ(std::get<std::int64_t>(store.database().ask("SELECT COUNT(*) FROM plannerConfigs")), 2);
+            EXPECT_EQ(std::get<std::int64_t>(store.database().valueOf("SELECT COUNT(*) FROM plannerConfigs")), 2);
         }
         EXPECT_EQ(recordsFor({"1", "3"}).size(), 3U);
         EXPECT_EQ(texts(recordsFor({"1", "2"})), all);
@@ -276,7 +276,7 @@ namespace
         EXPECT_TRUE(RunStore::readFile(file_).experiments.empty());
         RunStore(file_).forget();
         EXPECT_TRUE(recordsFor({"1", "2", "3"}).empty());
-        EXPECT_EQ(std::get<std::int64_t>(RunStore(file_).database().ask("SELECT COUNT(*) FROM all_runs")), 4);
+        EXPECT_EQ(std::get<std::int64_t>(RunStore(file_).database().valueOf("SELECT COUNT(*) FROM all_runs")), 4);
     }
 
     TEST_F(RunStoreTest, ShowsTheRunsOfOneProgramAtATime)
@@ -301,7 +301,7 @@ namespace
             Row row = experimentOf("2027-01-01", "there");
             row["timelimit"] = 3.0;
             store.describe({row});
-            return std::get<std::string>(store.database().ask("SELECT hostname || timelimit FROM all_experiments"));
+            return std::get<std::string>(store.database().valueOf("SELECT hostname || timelimit FROM all_experiments"));
         };
         EXPECT_EQ(hostAndLimit(), "here3.0");
         store.select({"4"}, 10);  // of which there is nothing yet
@@ -338,7 +338,7 @@ namespace
         refuse(std::string(1000, 'x'), "not a database");
         refuse(whole.substr(0, 5 * 4096), "malformed");
         Database(folder_.path("other.db"), Database::Access::Write).run("CREATE TABLE runs (id INTEGER)");
-        refuse(contentOf(folder_.path("other.db")), "no database of runs");
+        refuse(contentOf(folder_.path("other.db")), "not a database of runs");
         for (const char *damage : {"UPDATE details SET path = '{\"start\": 3}'", "UPDATE all_runs SET cusps = 'many'",
                                    "UPDATE all_runs SET outcome = 11", "UPDATE all_runs SET cusps = 1.5"})
         {
@@ -363,16 +363,16 @@ namespace
         ASSERT_EQ(store.read("garage").size(), 2U);
         EXPECT_EQ(store.read("garage")[1].run(), 1U);
         const Database &database = store.database();
-        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 2);
-        EXPECT_EQ(std::get<std::string>(database.ask("SELECT hostname FROM experiments")), "here+there");
-        EXPECT_EQ(std::get<std::string>(database.ask("SELECT date FROM experiments")), "2026-01-02");
-        EXPECT_EQ(std::get<double>(database.ask("SELECT totaltime FROM experiments")), 0.5);
+        EXPECT_EQ(std::get<std::int64_t>(database.valueOf("SELECT COUNT(*) FROM all_runs")), 2);
+        EXPECT_EQ(std::get<std::string>(database.valueOf("SELECT hostname FROM experiments")), "here+there");
+        EXPECT_EQ(std::get<std::string>(database.valueOf("SELECT date FROM experiments")), "2026-01-02");
+        EXPECT_EQ(std::get<double>(database.valueOf("SELECT totaltime FROM experiments")), 0.5);
         // The same run measured again takes the place of the first, which is kept.
         RunRecord again = recordOf("a", 0, "1+x");
         again.set("time", 0.5);
         store.merge({{}, {again}});
         ASSERT_EQ(store.read("garage").size(), 2U);
         EXPECT_EQ(store.read("garage")[0].number("time"), 0.5);
-        EXPECT_EQ(std::get<std::int64_t>(database.ask("SELECT COUNT(*) FROM all_runs")), 3);
+        EXPECT_EQ(std::get<std::int64_t>(database.valueOf("SELECT COUNT(*) FROM all_runs")), 3);
     }
 }  // namespace

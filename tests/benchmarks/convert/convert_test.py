@@ -126,7 +126,7 @@ class ProblemsTest(ConvertTest):
     def test_scenes_that_are_none(self):
         for text, part in ((SCENE.replace('h -2', 'c -2,1 0,0 1,1'), "'c'"), (SCENE.replace('112', 'x'), "no number at 'x'"),
                            (SCENE.replace('translate(', 'rotate('), 'rotate'), ('<svg></svg>', 'no path'),
-                           (SCENE.replace('H 112 V 61 h -2', 'H 112'), 'obstacle 2 has no area'), ('<svg\n d="m 1', 'no whole SVG'),
+                           (SCENE.replace('H 112 V 61 h -2', 'H 112'), 'obstacle 2 has no area'), ('<svg\n d="m 1', 'not a complete SVG'),
                            (SCENE.replace('M 110,60', '110,60'), 'm or M'), (SCENE.replace('h -2', 'h'), "no number at 'z'"),
                            (SCENE.replace('<svg', '<svg data-goal="1 2"'), 'data-goal must be x, y and yaw')):
             self.write('scene.svg', text)
@@ -152,7 +152,7 @@ class ProblemsTest(ConvertTest):
             for change, part in ((lambda case: case.pop('task'), 'caseData has no field task'),
                                  (lambda case: case['task'].pop('yf'), 'caseData.task has no field yf'),
                                  (lambda case: case['task'].update(x0='one'), 'caseData.task.x0 must be a vector of numbers'),
-                                 (lambda case: case['task'].update(x0=np.nan), 'caseData.task.x0 holds nan'),
+                                 (lambda case: case['task'].update(x0=np.nan), 'caseData.task.x0 contains nan'),
                                  (lambda case: case['task'].update(x0=[1.0, 2.0]), 'task.x0 must be one number, not 2'),
                                  (lambda case: case['obstacle'].update(num_obs=3), 'cell array of num_obs = 3 obstacles'),
                                  (lambda case: case['obstacle']['obs'][1].update(x=[1.0, 2.0]), 'obs{2} has 2 x and 4 y')):
@@ -223,8 +223,8 @@ class ProblemsTest(ConvertTest):
                                 (['case.csv', 'no/such/x.yaml'], 'no/such'), (['--hope', 'hard', 'x'], 'extreme'),
                                 (['case.csv', 'x.yaml', '--vehicle', ''], '--vehicle'),
                                 (['case.csv', 'x.yaml', '--vehicle', 'golf'], 'golf'),
-                                (['case.csv', 'x.yaml', '--count', '3'], '--hope only'),
-                                (['case.csv', 'x.yaml', '--seed', '3'], '--seed goes'),
+                                (['case.csv', 'x.yaml', '--count', '3'], 'requires --hope'),
+                                (['case.csv', 'x.yaml', '--seed', '3'], '--seed requires'),
                                 (['case.csv', '--check', '--to', 'yaml'], '--to is'),
                                 (['--hope', 'normal', 'x', '--start', '0,0,0'], '--start changes'),
                                 (['--hope', 'normal', 'x', '--vehicle', 'tpcap'], '--vehicle changes'),
@@ -238,7 +238,7 @@ class ProblemsTest(ConvertTest):
         text = self.convert('--help')
         for each in program.PROBLEM_FORMATS + program.RESULT_FORMATS:
             self.assertIn(f'\n  {each.name} ', text)
-        for word in ('extreme', 'Examples:', '.mat', '.svg', '.csv', '.yaml'):
+        for word in ('extreme', '\nExamples', '.mat', '.svg', '.csv', '.yaml'):
             self.assertIn(word, text)
 
 
@@ -376,7 +376,7 @@ class ResultsTest(ConvertTest):
         self.refused('plain.json', 'out.mat', parts=['no path'])
         for text in ('{"planner": 3}', '{', '{"a": ' * 100000):
             self.write('plain.json', text)
-            self.refused('plain.json', 'out.mat', parts=['plain.json: no result of parking_plan --json: '])
+            self.refused('plain.json', 'out.mat', parts=['plain.json: not a result of parking_plan --json: '])
 
     def test_fields_that_are_wrong_are_named(self):
         result = self.result()
@@ -418,7 +418,7 @@ class ResultsTest(ConvertTest):
                 (['vehicle', 'max_steering_angle'], 2, 'max_steering_angle is 2'),
                 (['path'], {'x': 1}, 'path is an object', 'a list'),
                 (['path', 3], 5, 'path[3] is 5'), (['path', 3, 'direction'], 0, 'path[3].direction is 0', '1 or -1'),
-                (['path', 3, 'x'], float('nan'), 'no result', 'NaN'), (['path', 3, 'y'], 1e300, 'path[3] does not follow'),
+                (['path', 3, 'x'], float('nan'), 'not a result', 'NaN'), (['path', 3, 'y'], 1e300, 'path[3] does not follow'),
                 (['path', 3, 'y'], result['path'][3]['y'] + 0.1, 'path[3] does not follow', 'm and'),
                 (['path', 3, 'yaw'], result['path'][3]['yaw'] + 0.1, 'path[3] does not follow'),
                 (['path', 3, 'direction'], -result['path'][3]['direction'], 'path[3] does not follow'),

@@ -115,11 +115,11 @@ class MatlabTest(unittest.TestCase):
                 (file(matrix(2, 1, 1, (5, bytes(4)), (1, b'x'))), 'damaged'),
                 (file(struct.pack('<I', 5 << 16 | 14) + b'abcd'), '5 bytes should follow, but 4 do'),
                 (file(struct.pack('<II', 14, 0xffffffff)), '4294967295 bytes should follow, but 0 do'),
-                (file(compressed(b'abcd')), 'damaged'), (file(compressed(good[8:] + b'1234')), 'compressed is damaged'),
+                (file(compressed(b'abcd')), 'damaged'), (file(compressed(good[8:] + b'1234')), 'compressed data is damaged'),
                 (file(compressed(good[8:-1] + bytes([good[-1] ^ 1]))), 'damaged'), (file(element(3, b'x')), 'type 3'),
                 (file(compressed(zlib.compress(matrix(6, 1, 1, NINE) + bytes(4)))), 'damaged'), (file(deep), 'deeper'),
-                (file(matrix(6, 1, 1, NINE)).replace(b'IM', b'MI'), 'no MATLAB 5 file'),
-                (file().replace(b'\0\1IM', b'\0\2IM'), "MATLAB 7.3 (HDF5); save it with save(..., '-v7')"), (b'MATLAB ', 'no MATLAB 5')):
+                (file(matrix(6, 1, 1, NINE)).replace(b'IM', b'MI'), 'not a MATLAB 5 file'),
+                (file().replace(b'\0\1IM', b'\0\2IM'), "MATLAB 7.3 (HDF5); save it with save(..., '-v7')"), (b'MATLAB ', 'not a MATLAB 5')):
             with self.subTest(part=part, content=content[128:200]):
                 self.assertIn(part, refusal(content))
 

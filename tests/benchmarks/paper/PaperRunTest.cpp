@@ -94,7 +94,7 @@ TEST(DiscWorld, standsAheadOfTheAxle)
     }
 }
 
-TEST(DiscWorld, refusesNonsense)
+TEST(DiscWorld, refusesInvalidDiscs)
 {
     Random random(5);
     const ObstacleSet cells = randomCells(random);

@@ -41,7 +41,7 @@ class ReproducePaperTest(unittest.TestCase):
             self.assertIn('perpendicular, improved', stream.read())
 
     def test_says_what_is_wrong(self):
-        for arguments, programs, part in ((['--maps', '0'], PROGRAMS, 'at least 1'), ([], '/nowhere', 'is no program')):
+        for arguments, programs, part in ((['--maps', '0'], PROGRAMS, 'at least 1'), ([], '/nowhere', 'is not a program')):
             done = self.run_script(*arguments, programs=programs)
             self.assertEqual(done.returncode, 2)
             self.assertIn(part, done.stderr)

@@ -109,7 +109,7 @@ namespace
         EXPECT_GE(near.first().path->states().size(), 201u);
     }
 
-    TEST(RefereedRun, WhatIsNoPathIsNonsense)
+    TEST(RefereedRun, AMissingPathIsAnInvalidAnswer)
     {
         const Problem problem(parking_test::openGround(20.0), {});
         const Pose start = problem.scenario().start, goal = problem.scenario().goals.front();
@@ -117,11 +117,11 @@ namespace
         for (const auto &[poses, reason] :
              std::vector<std::pair<std::vector<Pose>, std::string>>{{{}, "no states"},
                                                                     {{start, {5.0, nan, 0.0}, goal}, "state 1"},
-                                                                    {{start, {2e6, 0.0, 0.0}, goal}, "nowhere"}})
+                                                                    {{start, {2e6, 0.0, 0.0}, goal}, "out of range"}})
         {
             const PlanReport result = planned(problem, poses);
             EXPECT_FALSE(result.first().path.has_value());
-            EXPECT_EQ(toString(result.first().status), "nonsense");
+            EXPECT_EQ(toString(result.first().status), "invalid_answer");
             EXPECT_NE(result.first().reason.find(reason), std::string::npos) << result.first().reason;
             EXPECT_EQ(exitStatus(result.first()), 4);
         }

@@ -33,7 +33,7 @@ class Configuration(InputTest):
         self.refused(problem='[plannerr]', parts=['set.cfg:3:', "did you mean '[planner]'", '[benchmark]'])
         self.refused(problem='scenerio = x', parts=['set.cfg:3:', "did you mean 'scenario'"])
         self.refused(benchmark='time_limt = 3', parts=['set.cfg:7:', "did you mean 'time_limit'"])
-        self.refused(benchmark='nonsense', parts=['set.cfg:7:', 'key = value'])
+        self.refused(benchmark='no key', parts=['set.cfg:7:', 'key = value'])
 
     def test_planners_and_parameters(self):
         self.refused(planner='rrtstr=', parts=['set.cfg:10:', "did you mean 'RRTstar'", 'reeds_shepp'])
@@ -49,7 +49,7 @@ class Configuration(InputTest):
         self.refused(planner='RRTstar=\nRRTstar.range=far', parts=['set.cfg:11:', 'range', 'far'])
         self.refused(planner='PRM=3', parts=['set.cfg:10:', 'PRM='])
         self.refused(planner='RRTstar.range=1', parts=['set.cfg:10:', 'RRTstar='])
-        self.refused(planner='PRM=\nPRM.=3', parts=['set.cfg:11:', 'names no parameter'])
+        self.refused(planner='PRM=\nPRM.=3', parts=['set.cfg:11:', 'has no parameter name'])
         self.refused(planner='PRM=\nPRM.name=improved_astar', parts=['set.cfg:11:', 'already'])
         self.refused(planner='PRM=\nPRM.name=../x', parts=['set.cfg:11:', '../x'])
         self.refused(planner='PRM=\nPRM.only=angled', parts=['set.cfg:11:', "did you mean 'angled45'"])
@@ -72,7 +72,7 @@ class Configuration(InputTest):
         self.refused(problem='space = se3', parts=["did you mean 'se2'"])
         self.refused(problem='circle_radius = -1', parts=['circle_radius'])
         self.refused(problem='start.x = nan', parts=['start.x'])
-        self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'in which x is between'])
+        self.refused(problem='volume.min.x = 1e9', parts=['set.cfg:3:', 'angled45.yaml: the volume', 'whose x ranges between'])
         self.refused(problem='objective = clearance', parts=['length'])
         self.refused(problem='sampler = best', parts=['gaussian'])
 
@@ -98,7 +98,7 @@ class Configuration(InputTest):
         for arguments in (['--scenarios', 'pipe'], ['--scenarios', '/dev/zero'], ['--plugin', 'pipe']):
             self.refused_benchmark('set.cfg', '--output', 'out', *arguments, parts=[arguments[1]])
         self.write('piped.cfg', CONFIG % ('scenario = pipe', '', ''))
-        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'pipe: is a pipe', 'more than once'])
+        self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'pipe: is a pipe', 'read only once'])
         self.write('piped.cfg', CONFIG % ('vehicle = car.yaml', '', ''))
         self.refused_benchmark('piped.cfg', parts=['piped.cfg:3: ', 'car.yaml: is a pipe'])
         self.refused_benchmark('/dev/zero', parts=['/dev/zero', 'device'])
@@ -137,7 +137,7 @@ class Unsolvable(InputTest):
                 (self.pose('start', 0.5, 2), 'the car is outside of the map, in whole or in part, at the start 0.5, 2, 0'),
                 (self.pose('goal', 5, 3), 'the car is in collision at the goal 5, 3, 0 (the goal is given in set.cfg)'),
                 (self.pose('goal', 60, 2), 'the car is outside of the map, in whole or in part, at the goal 60, 2, 0'),
-                ('volume.min.x = 2.5', 'the car is outside of the volume that is planned in at the start 2, 2, 0'),
+                ('volume.min.x = 2.5', 'the car is outside of the planning volume at the start 2, 2, 0'),
                 ('space = se2\nfootprint = circle\n' + self.pose('start', 6.2, 2), 'the circle is in collision at the start')):
             with self.subTest(problem):
                 told = self.told(problem)
@@ -176,7 +176,7 @@ class OtherScenarios(InputTest):
         self.write('set.cfg', CONFIG % ('', '', 'PRM=\nPRM.only=angled45\nRRT=\nRRT.only=angled45, tight*\n'))
         arguments = ['set.cfg', '--runs', 1, '--time', 5, '--quiet', '--output', 'out', '--scenarios', bundled('perpendicular')]
         done = self.benchmark(*arguments, '--planner', 'improved_astar', '--planner', 'PRM')
-        self.assertIn("set.cfg: not run, as 'only' names none of the scenarios of --scenarios: PRM\n", done.stderr)
+        self.assertIn("set.cfg: not run: 'only' names none of the scenarios of --scenarios: PRM\n", done.stderr)
         with self.subTest('a name that neither has'):
             self.refused_benchmark(*arguments, '--planner', 'RRT', parts=['set.cfg:13: planner RRT', 'tight*', 'perpendicular'])
         with self.subTest('nobody is left'):
@@ -187,7 +187,7 @@ class Output(InputTest):
     def test_no_folder_is_made_for_runs_that_are_not_there(self):
         os.mkdir(self.path('empty'))
         self.write('set.cfg', CONFIG % ('', '', ''))
-        for source, part in (('nosuch', 'nosuch'), ('empty', 'empty: holds no runs')):
+        for source, part in (('nosuch', 'nosuch'), ('empty', 'empty: contains no runs')):
             self.refused_benchmark('set.cfg', '--merge', '--from', source, '--output', 'new', parts=[part])
             self.assertFalse(os.path.exists(self.path('new')))
 

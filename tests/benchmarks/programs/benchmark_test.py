@@ -221,12 +221,12 @@ class GoingOn(BenchmarkTest):
         number = 8
         status, errors = self.start_and_interrupt(5, number)
         self.assertEqual(status, 130, errors)
-        self.assertIn('goes on from there', errors)
+        self.assertIn('rerun the command to resume', errors)
         kept = self.records('out/benchmark.db')
         self.assertGreaterEqual(len(kept), 5)
         self.assertLess(len(kept), 8 * number)
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', number)
-        self.assertIn('Going on: %d of %d' % (len(kept), 8 * number), done.stderr)
+        self.assertIn('Resuming: %d of %d' % (len(kept), 8 * number), done.stderr)
         self.benchmark('set.cfg', '--output', 'whole', '--runs', number, '--quiet')
         self.assertEqual(self.records('out/benchmark.db'), self.records('whole/benchmark.db'))
 
@@ -234,7 +234,7 @@ class GoingOn(BenchmarkTest):
         self.benchmark('set.cfg', '--output', 'out', '--runs', 1, '--quiet')
         before = self.records('out/benchmark.db', clock=True)
         done = self.benchmark('set.cfg', '--output', 'out', '--runs', 2)
-        self.assertIn('Going on: %d of %d' % (RUNS // 2, RUNS), done.stderr)
+        self.assertIn('Resuming: %d of %d' % (RUNS // 2, RUNS), done.stderr)
         after = self.records('out/benchmark.db', clock=True)
         self.assertEqual([run for run in after if run['figures']['run'] == 0], before)
         # With fewer they are of no use for a while.
@@ -304,7 +304,7 @@ class Shards(BenchmarkTest):
         time.sleep(1.0)
         job.send_signal(signal.SIGTERM)
         _, errors = job.communicate(timeout=60)
-        self.assertEqual((job.returncode, 'goes on from there' in errors), (130, True), errors)
+        self.assertEqual((job.returncode, 'rerun the command to resume' in errors), (130, True), errors)
         done = self.run_program(script, 'set.cfg')
         self.assertEqual((done.returncode, done.stderr.count('usage: sbatch')), (2, 1))
 

@@ -1,4 +1,4 @@
-"""The example that wraps a program as a planner: paths, nonsense, programs that fail or hang, and nothing else is lost."""
+"""The example that wraps a program as a planner: paths, invalid answers, and programs that fail or hang without loss of other runs."""
 
 import os
 import time
@@ -51,7 +51,7 @@ class External(ProgramTest):
     def test_in_a_comparison_each_is_an_outcome_of_its_runs(self):
         self.write('open.yaml', OPEN)
         commands = {'good': 'python3 ' + STRAIGHT, 'talks': f'echo ready >&2 && python3 {STRAIGHT}',
-                    'nonsense': 'echo the way is long', 'numbers': 'echo 1 2',
+                    'words': 'echo the way is long', 'numbers': 'echo 1 2',
                     'fails': 'exit 3', 'missing': './no_such_program', 'hangs': 'sleep 1000',
                     'elsewhere': 'echo 1e300 0 0; echo 0 0 0', 'half': 'head -c 10 >/dev/null; python3 -c "print(0,0,0)"'}
         text = '[problem]\nscenario = open.yaml\n[benchmark]\ntime_limit = 2\nrun_count = 1\n[planner]\nreeds_shepp=\n'
@@ -65,7 +65,7 @@ class External(ProgramTest):
         self.assertEqual(len(found), 1 + len(commands))
         self.assertTrue(found['reeds_shepp'][1] and found['good'][1] and found['talks'][1], found)
         self.assertFalse(any(found[name][1] for name in commands if name not in ('good', 'talks')))
-        for name, words in (('nonsense', 'line 1 of the program is not a pose'), ('numbers', 'not a pose'),
+        for name, words in (('words', 'line 1 of the program is not a pose'), ('numbers', 'not a pose'),
                             ('fails', 'status 3'), ('missing', 'status 127')):
             self.assertEqual(found[name][0], 6)  # an exception
             self.assertIn(words, found[name][2])

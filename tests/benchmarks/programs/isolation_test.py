@@ -20,15 +20,15 @@ improved_astar=
 reeds_shepp=
 {{planners}}
 '''.format(angled=bundled('angled45'))
-EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw something',
+EXCEPTIONS = {'throws': 'solve() threw: bad in?solve ?', 'throws_3': 'solve() threw an exception that is not',
               'throws_in_constructor': 'bad in constructor', 'throws_in_setup': 'bad in setup',
               'throws_in_clear': 'clear() threw: bad in clear', 'throws_in_data': 'getPlannerData() threw: bad in data'}
-NONSENSE = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is nowhere: nan',
+INVALID_ANSWERS = {'exact_without_path': 'there is no path', 'nan': 'state 1 of its path is out of range: nan',
             'empty': 'its path has no states', 'null': 'no path'}
 # Path lengths of coordinates of 1e300 are an assertion in OMPL.
 DEADLY = {'far': ('crash', 'Assertion'),
           'segfaults': ('crash', 'killed by signal 11'), 'aborts': ('crash', "signal 6 (Aborted): Assertion `room' failed"),
-          'exits': ('crash', 'ended its process with status 0'), 'hangs': ('hang', 'did not come back in time'),
+          'exits': ('crash', 'ended its process with status 0'), 'hangs': ('hang', 'exceeded the time limit'),
           'eats': ('memory', 'the limit is 300 MB')}
 if SANITIZER:
     # Its own allocator ends the process instead of asking for less, and it has a word of its own on signals.
@@ -72,7 +72,7 @@ class IsolationTest(ProgramTest):
 class Outcomes(IsolationTest):
     def test_whatever_a_planner_does_the_others_finish(self):
         expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
-        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        expected.update({name: ('invalid_answer', text) for name, text in INVALID_ANSWERS.items()})
         expected.update({name: each for name, each in DEADLY.items() if name != 'hangs'})
         done = self.compare(list(expected) + ['fine'])
         self.assert_reasons(done, expected)
@@ -88,9 +88,9 @@ class Outcomes(IsolationTest):
         self.assertGreater(time.monotonic() - begin, 2 * (2 + 3 * 0.3))
         self.assertLess(time.monotonic() - begin, 60)
 
-    def test_without_isolation_exceptions_and_nonsense_do_no_harm(self):
+    def test_without_isolation_exceptions_and_invalid_answers_do_no_harm(self):
         expected = {name: ('exception', text) for name, text in EXCEPTIONS.items()}
-        expected.update({name: ('nonsense', text) for name, text in NONSENSE.items()})
+        expected.update({name: ('invalid_answer', text) for name, text in INVALID_ANSWERS.items()})
         self.assert_reasons(self.compare(list(expected), '--no-isolate'), expected)
 
     def test_settings_are_refused_as_ever(self):
@@ -113,7 +113,7 @@ class Stopping(IsolationTest):
                     process.send_signal(number)
                     _, errors = process.communicate(timeout=20)
                     self.assertEqual(process.returncode, 130, errors)
-                    self.assertIn('goes on from there', errors)
+                    self.assertIn('rerun the command to resume', errors)
 
 
 if __name__ == '__main__':

@@ -224,13 +224,13 @@ class Changes(JournalTest):
         with closing(sqlite3.connect(self.write('out/other.db', ''))) as database:
             database.execute('CREATE TABLE runs (id INTEGER)')
             database.commit()
-        for content, part in ((b'junk' * 1000, 'not a database'), (self.content('out/other.db'), 'no database of runs'),
+        for content, part in ((b'junk' * 1000, 'not a database'), (self.content('out/other.db'), 'not a database of runs'),
                               (good[:4096] + b'\xff' * (len(good) - 4096), 'malformed')):
             self.write('out/benchmark.db', content)
             for arguments in ([], ['--merge'], ['--fresh']):
                 with self.subTest(part, arguments=arguments):
                     self.refused_benchmark('set.cfg', '--output', 'out', *arguments,
-                                           parts=['out/benchmark.db: ', part, 'move it away, or name another'])
+                                           parts=['out/benchmark.db: ', part, 'move it, or choose another'])
                     self.assertEqual(self.content(), content)
 
 

@@ -74,7 +74,7 @@ class PaperRunTest(ProgramTest):
                 ([TASK, '--lookup', 'no'], 'lookup'), ([TASK, '--spline', 'nurbs'], 'spline'),
                 ([TASK, '--set', 'heuristic=manhatan'], 'manhattan'), ([TASK, '--set', 'motion_model=car'], 'car'),
                 ([TASK, '--sampling', '0'], 'sampling'), ([TASK, '--json', '/nowhere/x.json'], '/nowhere'),
-                ([TASK, '--nonsense'], 'nonsense')):
+                ([TASK, '--colour'], 'colour')):
             done = self.run_program(PAPER_RUN, *arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)

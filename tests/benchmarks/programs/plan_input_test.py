@@ -84,9 +84,9 @@ class Files(ProgramTest):
         for name in ('/dev/zero', '/dev/null', '/'):
             for arguments in ([name], [bundled('parallel'), '--vehicle', name]):
                 self.refused_plan(*arguments, parts=[name, 'a file is needed'])
-            self.refused_plan(bundled('parallel'), '--plugin', name, parts=[name, 'is no file'])
+            self.refused_plan(bundled('parallel'), '--plugin', name, parts=[name, 'is not a file'])
         os.mkfifo(self.path('pipe'))
-        self.refused_plan(bundled('parallel'), '--plugin', 'pipe', parts=['pipe', 'is no file'])  # without waiting
+        self.refused_plan(bundled('parallel'), '--plugin', 'pipe', parts=['pipe', 'is not a file'])  # without waiting
 
     def test_start_or_goal_far_from_the_map(self):
         self.write('map.yaml', MAP)
@@ -163,7 +163,7 @@ class Output(ProgramTest):
             for name in ('nowhere/out', 'file/out', '/', ''):
                 with self.subTest(option=option, name=name):
                     self.refused_plan(bundled('angled45'), option, name)
-            self.refused_plan(bundled('angled45'), option, '', parts=[f'{option} must name a file'])
+            self.refused_plan(bundled('angled45'), option, '', parts=[f'{option} requires the name of a file'])
             self.refused_plan(bundled('angled45'), option, '/dev/full', parts=['No space left'])
         self.assertEqual(os.listdir(self.folder), ['file'])
 

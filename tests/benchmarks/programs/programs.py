@@ -14,7 +14,7 @@ PLAN = os.environ['PARKING_PLAN']
 BENCHMARK = os.environ['PARKING_BENCHMARK']
 SHARED_DATA = os.environ['PARKING_SHARED_DATA']
 SANITIZER = os.environ.get('PARKING_SANITIZER', '')
-PATIENCE = int(os.environ.get('PARKING_PATIENCE', '1'))  # times the seconds that a program may take
+TIMEOUT_FACTOR = int(os.environ.get('PARKING_TIMEOUT_FACTOR', '1'))  # times the seconds that a program may take
 SCENARIOS = os.path.join(SOURCE, 'benchmarks', 'scenarios')
 VERIFY = os.path.join(os.path.dirname(SHARED_DATA.rstrip('/')), 'tools', 'verify_path.py')
 
@@ -93,7 +93,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *command, timeout=120, **options):
         return subprocess.run([str(part) for part in command], cwd=self.folder, capture_output=True, text=True,
-                              timeout=timeout * PATIENCE, check=False, **options)
+                              timeout=timeout * TIMEOUT_FACTOR, check=False, **options)
 
     def plan(self, *arguments, status=0, **options):
         """Runs parking_plan; its exit status must be this one."""

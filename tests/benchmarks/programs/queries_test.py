@@ -79,7 +79,7 @@ class QueriesTest(ProgramTest):
         self.write('q/maps/a.pgm', b'P5\n400 400\n255\n' + b'\xfe' * 160000)
         before = self.read('q/maps/a.yaml')
         done = self.run_program(QUERIES, '--from', 'q/maps', '--output', 'q', '--queries', '1')
-        self.assert_refused(done, 'maps/a.pgm', 'there already')
+        self.assert_refused(done, 'maps/a.pgm', 'exists already')
         self.assertEqual((self.read('q/maps/a.yaml'), os.listdir(self.path('q'))), (before, ['maps']))
 
     def test_a_world_may_come_through_a_pipe(self):

@@ -225,7 +225,7 @@ class PageTest(Folder):
         text, _ = self.page()
         overall = text[text.index('<h2>Overall'):text.index('<h2>Problems and planners')]
         self.assertEqual(re.findall('class="best[^"]*" data-sort="([^"]*)"', overall), ['0.5'])
-        self.assertTrue('compare only those that share them' in overall)
+        self.assertTrue('compare only planners with common problems' in overall)
 
     def test_nothing_solved(self):
         made_results.write(self.folder, [record('a', 'p', 0, 'none')])
@@ -284,14 +284,14 @@ class BadInputTest(Folder):
         self.assertIn('RESULTS', self.refused())
         self.assertIn('--colour', self.refused(self.folder, '--colour', 'red'))
         made_results.write(self.folder, [record('a', 'p', 0, 'none')])
-        self.assertIn('takes --output', self.refused(self.folder, self.folder))
+        self.assertIn('requires --output', self.refused(self.folder, self.folder))
 
     def test_what_is_no_database(self):
-        self.assertIn('is no file', self.refused(self.path('missing')))
-        self.assertIn('holds no results', self.refused(self.folder))
-        self.assertIn('is no file', self.refused('/dev/zero'))
+        self.assertIn('is not a file', self.refused(self.path('missing')))
+        self.assertIn('contains no results', self.refused(self.folder))
+        self.assertIn('is not a file', self.refused('/dev/zero'))
         os.mkfifo(self.path('pipe.db'))
-        self.assertIn('is no file', self.refused(self.path('pipe.db')))
+        self.assertIn('is not a file', self.refused(self.path('pipe.db')))
         for content in (b'', b'no database', b'SQLite format 3\0' + b'x' * 5000):
             with open(self.path('benchmark.db'), 'wb') as stream:
                 stream.write(content)
@@ -302,7 +302,7 @@ class BadInputTest(Folder):
         connection.close()
         self.assertIn('is not a benchmark database', self.refused(self.folder))
         made_results.write(self.folder, [])
-        self.assertIn('holds no runs', self.refused(self.folder))
+        self.assertIn('contains no runs', self.refused(self.folder))
 
     def test_values_that_mean_nothing(self):
         for columns, row, part in (

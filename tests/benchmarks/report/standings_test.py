@@ -262,7 +262,7 @@ class FilesTest(made_results.FolderTest):
         made_results.write(self.folder, solved('x', 'a', [0.1]) + solved('x', 'b', [0.2]))
         found, _, page = self.made()
         self.assertEqual(found['pairs'], [])
-        self.assertIn('need two problems', page)
+        self.assertIn('require two problems', page)
 
     def test_no_time_limit_is_known(self):
         made_results.write(self.folder, HAND, None)
@@ -281,7 +281,7 @@ class FilesTest(made_results.FolderTest):
         made_results.write(self.folder, HAND)
         for content, what in ((b'', 'columns problem and class'), (b'a,b\n1,2\n', 'columns problem and class'),
                               (b'problem,class\nx,\n', ':2: lacks'), (b'problem,class\nx\n', ':2: lacks'),
-                              (b'problem,class\nx,a\nx,b\n', ':3: x is of class a already'),
+                              (b'problem,class\nx,a\nx,b\n', ':3: x already belongs to class a'),
                               (b'\xff\xfe', 'is not a CSV file'), (b'problem,class\nnone,a\n', 'no such problem')):
             self.write('mine.csv', content)
             done = self.make('--classes', self.path('mine.csv'))
