@@ -1,10 +1,10 @@
-// Files that are opened and saved: scenarios, TPCAP cases, maps. Wrong ones end in an Error of one line.
+// Files to open and save: scenarios, TPCAP cases, maps. Invalid ones throw an Error of one line.
 
 const Formats = (() => {
   const short = text => { const line = String(text).replace(/\s+/g, ' ').trim(); return line.length > 60 ? line.slice(0, 60) + '...' : line; };
   const fail = (file, line, what) => { throw new Error(`${file}${line ? ':' + line : ''}: ${what}`); };
 
-  // A mapping in YAML. js-yaml reads it, and says in which line the text is none.
+  // A mapping in YAML. js-yaml reads it and reports the line of a syntax error.
   function readYaml(file, text) {
     let found;
     try { found = jsyaml.load(text, { schema: jsyaml.CORE_SCHEMA }); } catch (error) { fail(file, error.mark && error.mark.line + 1, error.reason || error.message); }
@@ -69,7 +69,7 @@ const Formats = (() => {
 
   const nameOf = file => file.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
 
-  // A scene from a scenario's text. `other(name)` gives another file's text or bytes, or undefined.
+  // A scene from a scenario's text. `other(name)` returns another file's text or bytes, or undefined.
   async function readScenario(file, text, known, other) {
     const yaml = readYaml(file, text);
     if (yaml.image !== undefined) return mapScene(await readMap(file, text, other), nameOf(file), known);
@@ -85,7 +85,7 @@ const Formats = (() => {
     else if (yaml.map && typeof yaml.map === 'object') scene.polygons = polygons(file, yaml.map.polygons === undefined ? null : yaml.map.polygons);
     else {
       const mapText = await other(String(yaml.map));
-      if (typeof mapText !== 'string') fail(file, 0, `its map '${short(yaml.map)}' is not here: drop it together with this file`);
+      if (typeof mapText !== 'string') fail(file, 0, `its map '${short(yaml.map)}' is missing: drop it together with this file`);
       scene.map = await readMap(String(yaml.map), mapText, other);
       scene.map.unknownIsOccupied = !['false', 'no', 'off', 'n'].includes(String(yaml.unknown_is_occupied).toLowerCase());
     }
@@ -112,7 +112,7 @@ const Formats = (() => {
       polygons: corners.map(n => Array.from({ length: n }, () => [values[at++], values[at++]])), map: null };
   }
 
-  // Pixels: { width, height, white, at(index) } with the brightness, or -1 where a pixel is not opaque.
+  // Pixels: { width, height, white, at(index) } with the brightness, or -1 for a pixel that is not opaque.
   function readPgm(file, bytes) {
     let at = 2;
     const plain = String.fromCharCode(bytes[0], bytes[1]) === 'P2';
@@ -124,7 +124,7 @@ const Formats = (() => {
       }
       let value = 0, any = false;
       while (at < bytes.length && bytes[at] >= 48 && bytes[at] <= 57) { value = 10 * value + bytes[at++] - 48; any = true; }
-      if (!any) fail(file, 0, 'the PGM image ends too early, or holds what is no number');
+      if (!any) fail(file, 0, 'the PGM image ends too early, or contains a word that is not a number');
       return value;
     };
     const width = number(), height = number(), white = number();
@@ -143,7 +143,7 @@ const Formats = (() => {
 
   async function readPng(file, bytes) {
     let bitmap;
-    try { bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }), { colorSpaceConversion: 'none' }); } catch (error) { fail(file, 0, 'is no PNG image'); }
+    try { bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }), { colorSpaceConversion: 'none' }); } catch (error) { fail(file, 0, 'is not a PNG image'); }
     const canvas = document.createElement('canvas');
     canvas.width = bitmap.width; canvas.height = bitmap.height;
     const context = canvas.getContext('2d', { willReadFrequently: true });
@@ -161,7 +161,7 @@ const Formats = (() => {
     if (!isNumber(yaml.resolution) || yaml.resolution <= 0) fail(file, 0, 'resolution must be a positive number of metres per cell');
     const origin = numbers(file, 'origin', yaml.origin, 3);
     const bytes = await other(image);
-    if (!bytes || typeof bytes === 'string') fail(file, 0, `its image '${short(image)}' is not here: drop it together with this file`);
+    if (!bytes || typeof bytes === 'string') fail(file, 0, `its image '${short(image)}' is missing: drop it together with this file`);
     if (!isPgm(bytes) && !isPng(bytes)) fail(image, 0, 'is neither a PGM (P2, P5) nor a PNG image');
     const picture = isPgm(bytes) ? readPgm(image, bytes) : await readPng(image, bytes);
     const occupied = isNumber(yaml.occupied_thresh) ? yaml.occupied_thresh : 0.65, free = isNumber(yaml.free_thresh) ? yaml.free_thresh : 0.196;
@@ -185,15 +185,15 @@ const Formats = (() => {
     return { columns: width, rows: height, cells };
   }
 
-  // A map without a problem: the car starts where there is room.
+  // A map without a problem: the car starts at a free place.
   function mapScene(map, name, known) {
     const car = vehicle(name, 'vw_golf8', known), need = Math.ceil(3 / map.resolution), free = [];
     const step = Math.max(1, Math.round(1 / map.resolution));
     for (let row = need; row < map.rows - need; row += step)
       for (let column = need; column < map.columns - need; column += step) {
-        let room = true;
-        for (let r = row - need; r <= row + need && room; r += 1) for (let c = column - need; c <= column + need; ++c) if (map.cells[r * map.columns + c] !== 0) { room = false; break; }
-        if (room) free.push([column, row]);
+        let hasSpace = true;
+        for (let r = row - need; r <= row + need && hasSpace; r += 1) for (let c = column - need; c <= column + need; ++c) if (map.cells[r * map.columns + c] !== 0) { hasSpace = false; break; }
+        if (hasSpace) free.push([column, row]);
       }
     if (!free.length) fail(name, 0, 'the map has no free place for a car');
     const [ox, oy, yaw] = map.origin, place = ([column, row]) => {
@@ -203,7 +203,7 @@ const Formats = (() => {
     return { name, vehicle: car, start: place(free[0]), goals: [place(free[free.length - 1])], slot: null, polygons: [], map };
   }
 
-  // Files that were dropped or chosen: the scene that they make.
+  // The scene from dropped or chosen files.
   async function open(files, known) {
     const contents = new Map();
     for (const file of files) {
@@ -227,7 +227,7 @@ const Formats = (() => {
       const [name, bytes] = images[0], picture = isPgm(bytes) ? readPgm(name, bytes) : await readPng(name, bytes);
       return mapScene({ ...cellsOf(picture, { negate: false, occupied: 0.65, free: 0.196 }), resolution: 0.1, origin: [0, 0, 0], unknownIsOccupied: true, name: nameOf(name) }, nameOf(name), known);
     }
-    fail(files[0] ? files[0].name : 'nothing', 0, 'is no scenario (YAML), TPCAP case (CSV) or map (YAML with PGM or PNG)');
+    fail(files[0] ? files[0].name : 'nothing', 0, 'is not a scenario (YAML), TPCAP case (CSV) or map (YAML with PGM or PNG)');
   }
 
   const number = value => String(Math.round(value * 1e9) / 1e9);
@@ -255,7 +255,7 @@ const Formats = (() => {
     return lines.join('\n') + '\n';
   }
 
-  // The two files that a scene with a map needs beside it.
+  // The two files of the map of a scene.
   function mapFiles(map) {
     const header = new TextEncoder().encode(`P5\n${map.columns} ${map.rows}\n255\n`), bytes = new Uint8Array(header.length + map.cells.length);
     bytes.set(header);
