@@ -222,11 +222,11 @@ namespace parking
     std::unique_ptr<EdgeIndex::Cell> EdgeIndex::cut(std::size_t column, std::size_t row) const
     {
         // The cells at the border also contain the area beyond the world.
-        const Eigen::Vector2d low =
+        const Eigen::Vector2d corner =
             origin_ + cellSize_ * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
         // Slightly larger than the cell, so that rounding loses no edge along the border.
         const Eigen::Vector2d hair(1e-9, 1e-9);
-        Box box{low - hair, low + Eigen::Vector2d(cellSize_, cellSize_) + hair};
+        Box box{corner - hair, corner + Eigen::Vector2d(cellSize_, cellSize_) + hair};
         if (column == 0)
             box.min.x() = -HUGE_VAL;
         if (row == 0)
@@ -247,7 +247,7 @@ namespace parking
             Edge piece = edges[k];
             if (!clip(piece, box))
                 continue;
-            const Eigen::Vector2d middle = (0.5 * (piece.from + piece.to) - low) / cellSize_;
+            const Eigen::Vector2d middle = (0.5 * (piece.from + piece.to) - corner) / cellSize_;
             order.push_back(static_cast<std::uint64_t>(zOrder(middle.x(), middle.y())) << 32 | k);
         }
         std::sort(order.begin(), order.end());
